@@ -1,0 +1,214 @@
+#pragma once
+// What a run file holds, as plain values: the only input of the analysis. Pure data.
+
+#include "analysis/quantity/quantity.hpp"
+#include "analysis/quantity/result.hpp"
+#include "analysis/quantity/temperature.hpp"
+#include "analysis/quantity/time.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+enum class AxisKind : std::uint8_t { linear, rotary };
+/// Side from which a target is approached: positive (up arrow) or negative (down arrow).
+enum class Direction : std::int8_t { negative = -1, positive = 1 };
+enum class CycleKind : std::uint8_t { standard, step };
+/// Who asked for the capture.
+enum class TriggerOrigin : std::uint8_t { cnc, dwell, manual };
+enum class ChannelKind : std::uint8_t {
+    displacement,
+    temperature,
+    pressure,
+    humidity,
+    carbon_dioxide,
+    strength
+};
+enum class Medium : std::uint8_t { none, air, material };
+enum class AirFormula : std::uint8_t { ciddor, edlen };
+enum class ExpansionForm : std::uint8_t { first_order, exact };
+
+std::string_view name_of(AxisKind kind);
+std::string_view name_of(Direction direction); ///< "positive" | "negative"
+std::string_view name_of(CycleKind kind);
+std::string_view name_of(TriggerOrigin origin);
+std::string_view name_of(ChannelKind kind);
+std::string_view name_of(Medium medium);
+std::string_view name_of(AirFormula formula);
+std::string_view name_of(ExpansionForm form);
+/// The unit in which a channel's value is stored: "m", "degC", "Pa", "%", "ppm".
+std::string_view stored_unit_of(ChannelKind kind);
+
+/// One position to be reached, in the order of the cycle.
+struct PlannedPoint {
+    int step = 0;         ///< 0-based place in the cycle
+    int target_index = 0; ///< 0-based
+    Direction direction = Direction::positive;
+    int approach = 0; ///< 0-based repetition, < RunPlan::approaches
+    auto operator<=>(const PlannedPoint&) const = default;
+};
+
+/// Targets and order of one pass. Lengths are axis coordinates; a rotary axis stores degrees as
+/// millimetres (1 mm stands for 1 degree), named by `axis_kind`.
+struct RunPlan {
+    AxisKind axis_kind = AxisKind::linear;
+    CycleKind cycle = CycleKind::standard;
+    std::string pass = "whole"; ///< "whole" | "stretch" (2000 mm stretch of a long axis)
+    std::string remark;         ///< e.g. why the stretch was declined; printed
+    std::vector<Length> targets;
+    int approaches = 5; ///< n per direction
+    bool bidirectional = true;
+    Length interval;                   ///< p
+    std::optional<std::uint64_t> seed; ///< of the random parts r; absent when the list was given
+    Length overrun;                    ///< least travel by which a target is reached from its side
+    Length near_tolerance;             ///< |reading - target| at most this at capture
+    Length datum;                      ///< coordinate at which the reading is tied
+    std::vector<PlannedPoint> points;
+};
+
+/// Traceability of one instrument as stated in the station file; empty fields print "not stated".
+struct InstrumentRecord {
+    std::string name, driver, maker, model, serial, firmware;
+    std::string certificate_number, calibrated_on, due_on;
+};
+
+/// One recorded channel.
+struct ChannelRecord {
+    int id = 0;
+    std::string name, instrument, place;
+    ChannelKind kind = ChannelKind::temperature;
+    Medium medium = Medium::none;
+    double correction =
+        0; ///< added to every raw value before it was recorded, in stored_unit_of(kind)
+};
+
+struct LaserSetup {
+    std::string instrument;
+    Length vacuum_wavelength;
+    double optical_fold = 2; ///< passes of the beam: 2 corner cube, 4 plane mirror
+    int sign = 1;            ///< +1 when the count rises with the axis coordinate
+    Length dead_path;        ///< interferometer to reflector at the datum, >= 0
+    Length beam_walk; ///< offset e of the return spot over `beam_walk_travel` L (gamma = e/(2L))
+    Length beam_walk_travel; ///< 0: no cosine correction
+};
+
+struct MaterialSetup {
+    Expansion coefficient; ///< alpha_M of feedback element or screw
+    std::optional<Expansion> standard_uncertainty;
+    std::string feedback = "not stated"; ///< "linear scale" | "screw" ...
+    ExpansionForm form = ExpansionForm::first_order;
+};
+
+struct AirSetup {
+    AirFormula formula = AirFormula::ciddor;
+    double co2_ppm = 450;
+    Duration oldest = std::chrono::seconds{60}; ///< an older reading is no reading
+};
+
+/// What a person states; every field may be empty ("not stated").
+struct Statements {
+    std::string certificate_number, customer, place, machine, machine_maker, machine_serial, axis;
+    std::string operator_name, approver, procedure, state; ///< state: as found | raw | as left
+    std::string control_compensation, feed, dwell, warm_up, offsets, idle_axes, sensor_note,
+        laboratory;
+    std::string next_due; ///< ISO date; empty: one year after the run
+};
+
+struct DatumRecord {
+    std::string id; ///< "<laser serial>/<epoch>/<n>"
+    MonotonicTime at;
+    Length coordinate;       ///< machine coordinate there
+    Length reading;          ///< mean displacement in vacuum wavelengths, sign as counted
+    std::uint32_t epoch = 0; ///< of the laser's counter
+    Length spread;
+    double slope_um_per_s = 0;
+    int n = 0;
+    std::uint16_t sequence =
+        0; ///< sequence number of a CNC's prepare command; 0 when tied by `arm`
+};
+
+struct WindowSample {
+    MonotonicTime at;
+    double reading_m = 0; ///< displacement in vacuum wavelengths
+    std::uint64_t device_count = 0;
+};
+
+/// One accepted point.
+struct PointRecord {
+    int step = 0;
+    std::uint16_t sequence = 0;
+    PlannedPoint planned;
+    TriggerOrigin origin = TriggerOrigin::cnc;
+    MonotonicTime triggered_at, window_begin, window_end;
+    Length reading; ///< mean over the window, vacuum wavelengths, sign as counted
+    Length spread;  ///< max - min over the window
+    double slope_um_per_s = 0;
+    int n = 0;
+    Length approach_travel; ///< seen in the samples, from the claimed side
+    std::string datum_id;
+    Length live_deviation; ///< as shown at the machine; never used by the analysis
+    std::vector<WindowSample> samples;
+};
+
+struct EnvironmentReading {
+    int channel = 0;
+    MonotonicTime at;
+    double value = 0; ///< corrected, in stored_unit_of(kind)
+};
+
+enum class EventKind : std::uint8_t {
+    opened,
+    armed,
+    datum,
+    refused,
+    skipped,
+    interrupted,
+    resumed,
+    aborted,
+    closed,
+    note,
+    instrument
+};
+std::string_view name_of(EventKind kind);
+
+struct EventRecord {
+    EventKind kind = EventKind::note;
+    MonotonicTime at;
+    std::int64_t utc_ns = 0;
+    std::string text; ///< one sentence
+    Fault fault = Fault::none;
+    std::uint16_t sequence = 0;
+};
+
+struct RunRecord {
+    std::string run_id;
+    std::string software_version;
+    std::string station, station_config; ///< name; the station file's text, whole
+    std::string config_hash;             ///< SHA-256 of station_config
+    std::string boot_id;
+    ClockTie opened, closed;
+    bool complete = false; ///< closed with every planned point
+    std::string closing_reason;
+    RunPlan plan;
+    LaserSetup laser;
+    MaterialSetup material;
+    AirSetup air;
+    Statements statements;
+    std::vector<InstrumentRecord> instruments;
+    std::vector<ChannelRecord> channels;
+    std::vector<DatumRecord> datums;
+    std::vector<PointRecord> points;             ///< by step, ascending
+    std::vector<EnvironmentReading> environment; ///< by time, ascending
+    std::vector<EventRecord> events;
+};
+
+/// Every planned cell filled exactly once, each point under one datum, steps in order.
+/// @errors Fault::incomplete_run naming the first missing step; Fault::datum_lost when datums
+/// differ.
+Result<void> check_complete(const RunRecord& run);
+
+} // namespace axiscal

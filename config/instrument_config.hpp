@@ -1,0 +1,30 @@
+#pragma once
+// One [[instrument]] of the station file, without the keys that only its driver understands.
+
+#include "analysis/run_record.hpp"
+
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+class Settings;
+
+/// How one channel of the instrument is used here.
+struct ChannelConfig {
+    std::string channel;          ///< the driver's channel name
+    std::string name;             ///< name on certificate and screens
+    std::optional<Medium> medium; ///< air | material, as stated; checked against the use
+    std::string place;            ///< "spindle nose", "table left"
+    double correction = 0;        ///< added, in stored_unit_of(kind)
+};
+
+struct InstrumentConfig {
+    std::string name;   ///< role here: "laser", "air", "material"
+    std::string driver; ///< registry name
+    std::string serial, certificate_number, calibrated_on, due_on;
+    std::vector<ChannelConfig> channels;
+    int line = 0; ///< in the station file, for messages
+};
+
+} // namespace axiscal

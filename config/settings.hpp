@@ -1,0 +1,119 @@
+#pragma once
+// Typed, unit-aware reading of a TOML document. Every refusal is collected with file:line; every
+// key that nobody read is refused at the end with its nearest known neighbour. Pure after loading.
+
+#include "analysis/quantity/quantity.hpp"
+#include "analysis/quantity/result.hpp"
+#include "analysis/quantity/temperature.hpp"
+#include "analysis/quantity/time.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+struct Refusal {
+    std::string file;
+    int line = 0;
+    std::string key;                            ///< "instrument[1].wavelength"
+    std::string reason;                         ///< what is wrong and what would be right
+    [[nodiscard]] std::string describe() const; ///< "file:line: key: reason"
+};
+
+class SettingsDocument;
+
+/// One table of the document. Copyable view; the document must outlive it.
+/// Each reader takes an optional fallback: without it a missing key is refused.
+/// Units stand in the value ("0.5 mm"); a bare number where a unit is needed is refused with the
+/// list.
+class Settings {
+public:
+    std::string text(std::string_view key, std::optional<std::string> fallback = {});
+    /// One of `allowed`; a near match is offered.
+    std::string choice(std::string_view key,
+                       const std::vector<std::string>& allowed,
+                       std::optional<std::string> fallback = {});
+    std::int64_t integer(std::string_view key,
+                         std::int64_t low,
+                         std::int64_t high,
+                         std::optional<std::int64_t> fallback = {});
+    double
+    number(std::string_view key, double low, double high, std::optional<double> fallback = {});
+    bool flag(std::string_view key, std::optional<bool> fallback = {});
+    Length
+    length(std::string_view key, Length low, Length high, std::optional<Length> fallback = {});
+    Speed speed(std::string_view key, Speed low, Speed high, std::optional<Speed> fallback = {});
+    Duration duration(std::string_view key,
+                      Duration low,
+                      Duration high,
+                      std::optional<Duration> fallback = {});
+    Temperature temperature(std::string_view key,
+                            Temperature low,
+                            Temperature high,
+                            std::optional<Temperature> fallback = {});
+    TemperatureDifference
+    temperature_difference(std::string_view key,
+                           TemperatureDifference low,
+                           TemperatureDifference high,
+                           std::optional<TemperatureDifference> fallback = {});
+    Pressure pressure(std::string_view key,
+                      Pressure low,
+                      Pressure high,
+                      std::optional<Pressure> fallback = {});
+    Ratio ratio(std::string_view key, Ratio low, Ratio high, std::optional<Ratio> fallback = {});
+    Expansion expansion(std::string_view key,
+                        Expansion low,
+                        Expansion high,
+                        std::optional<Expansion> fallback = {});
+    /// ISO date "2026-11-21"; a TOML local date is accepted too.
+    std::string date(std::string_view key, std::optional<std::string> fallback = {});
+    std::vector<std::string> texts(std::string_view key,
+                                   std::optional<std::vector<std::string>> fallback = {});
+    std::vector<Length> lengths(std::string_view key,
+                                Length low,
+                                Length high,
+                                std::optional<std::vector<Length>> fallback = {});
+
+    [[nodiscard]] bool has(std::string_view key) const;
+    /// Sub-table; a missing one reads as empty (its required keys are then refused).
+    Settings table(std::string_view key);
+    /// Array of tables ([[instrument]]); empty when missing.
+    std::vector<Settings> tables(std::string_view key);
+    /// A refusal of one's own, placed at `key` (or at the table when empty).
+    void refuse(std::string_view key, std::string reason);
+    [[nodiscard]] int line() const;
+    [[nodiscard]] int line_of(std::string_view key) const;
+    [[nodiscard]] const std::string& path() const; ///< "instrument[1]"
+
+private:
+    friend class SettingsDocument;
+    struct Impl;
+    explicit Settings(std::shared_ptr<Impl> impl);
+    std::shared_ptr<Impl> impl_;
+};
+
+/// A parsed file and the refusals gathered while it is read.
+class SettingsDocument {
+public:
+    /// @errors Fault::bad_configuration with file:line for unreadable or syntactically wrong files.
+    static Result<SettingsDocument> load(const std::string& path);
+    static Result<SettingsDocument> parse(std::string text, std::string name);
+
+    [[nodiscard]] Settings root() const;
+    [[nodiscard]] const std::string& source_text() const;
+    [[nodiscard]] const std::string& name() const;
+    /// Adds a refusal for every key nobody read, then hands over all of them, by line.
+    std::vector<Refusal> finish();
+
+private:
+    struct State;
+    friend class Settings;
+    std::shared_ptr<State> state_;
+};
+
+} // namespace axiscal

@@ -1,0 +1,126 @@
+#pragma once
+// The station file as checked structs. Reading opens no device.
+
+#include "analysis/run_record.hpp"
+#include "config/instrument_config.hpp"
+#include "config/settings.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace axiscal {
+
+enum class TriggerShape : std::uint8_t { sequence_block, single_register, coil_and_index, dwell };
+enum class TriggerTransport : std::uint8_t {
+    none,
+    tcp_server,
+    rtu_server,
+    tcp_client
+}; ///< client: the CNC is the server (mirrored)
+
+struct TriggerConfig {
+    TriggerShape shape = TriggerShape::sequence_block;
+    TriggerTransport transport = TriggerTransport::tcp_server;
+    std::string host = "127.0.0.1"; ///< listen address, or the CNC's address when mirrored
+    int port = 1502;
+    std::string serial_path; ///< RTU
+    int baud = 115200;
+    char parity = 'N';
+    int stop_bits = 1;
+    int unit_id = 1;
+    int base_address = 0;        ///< mirrored: base of the block in the CNC's map
+    bool low_word_first = false; ///< 32-bit word order
+    int client_limit = 8;
+    Duration poll_interval = std::chrono::milliseconds{75};
+    bool watch_heartbeat = false; ///< CNC_HEARTBEAT frozen > 2 s is a fault
+    // dwell
+    Length hysteresis;
+    Duration minimum_halt = std::chrono::seconds{1};
+};
+
+/// When a standing axis counts as still, and how long one waits for it.
+struct CaptureConfig {
+    Duration window = std::chrono::milliseconds{500}; ///< stability period
+    Length spread_limit;                              ///< stability range over the window
+    double slope_limit_um_per_s = 1;
+    Duration timeout = std::chrono::seconds{10};
+    Duration history = std::chrono::minutes{5};
+    int minimum_samples = 20;
+    Speed fastest; ///< the axis can not move faster: beyond it a reading is an implausible jump
+};
+
+struct CycleConfig {
+    CycleKind cycle = CycleKind::standard;
+    AxisKind axis_kind = AxisKind::linear;
+    Length travel_low, travel_high;
+    std::optional<std::vector<Length>> targets; ///< a given list, or:
+    std::optional<Length> interval;             ///< p
+    std::optional<Length>
+        first_target;                ///< P_1 before its random part; default: low + overrun + 0.3 p
+    std::optional<int> target_count; ///< m; default: as many as fit
+    std::optional<std::uint64_t> seed; ///< default: drawn once per run and recorded
+    int approaches = 5;
+    bool bidirectional = true;
+    Length overrun;
+    std::optional<Length> near_tolerance; ///< default min(0.5 mm, p/10)
+    std::optional<Length> datum;          ///< default: P_1 - 2 overrun, not below the travel
+    std::optional<Length> feedback_pitch; ///< screw or scale period whose phases must spread
+    Speed feed;
+    Duration dwell = std::chrono::seconds{3};
+    std::optional<std::string>
+        stretch_declined; ///< long axis: reason for not doing the 2000 mm stretch
+    std::optional<Length> stretch_begin;
+};
+
+struct RoleConfig {                  ///< which instrument channel plays which part
+    std::string instrument, channel; ///< "air", "air temperature"
+};
+
+struct AxisConfig {
+    std::string name = "X";
+    RoleConfig laser;
+    int sign = 1;
+    Length dead_path, beam_walk, beam_walk_travel;
+    MaterialSetup material;
+    AirSetup air;
+    RoleConfig air_temperature, air_pressure, air_humidity;
+    std::vector<RoleConfig> material_temperature;
+    std::string program_axis = "X"; ///< axis letter in part programs
+};
+
+struct ConsoleConfig {
+    std::string socket_path = "/run/axiscal/axiscald.sock";
+    std::string group = "axiscal"; ///< empty: leave the process group
+    std::string host = "127.0.0.1";
+    int port = 8470;                        ///< 0: no TCP
+    std::vector<std::string> allowed_hosts; ///< Host headers known besides host:port and localhost
+};
+
+struct PublishConfig {
+    std::string destination; ///< directory (mounted share); empty: results stay in the outbox
+    Duration retry = std::chrono::seconds{5};
+};
+
+struct StationConfig {
+    std::string file, text; ///< path and whole text
+    std::string station = "station";
+    std::string state_directory = "/var/lib/axiscal"; ///< runs/, outbox/, token
+    AxisConfig axis;
+    CycleConfig cycle;
+    CaptureConfig capture;
+    TriggerConfig trigger;
+    ConsoleConfig console;
+    PublishConfig publish;
+    Statements statements;
+    std::vector<InstrumentConfig> instruments;
+    /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.
+    std::vector<Settings> instrument_options;
+};
+
+/// Reads every key of the station but the drivers' own. Refusals stay in `document`; the returned
+/// struct is usable only when document.finish() is empty afterwards.
+StationConfig read_station(SettingsDocument& document);
+
+} // namespace axiscal

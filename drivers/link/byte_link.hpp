@@ -1,0 +1,49 @@
+#pragma once
+// Bytes in and out with their arrival time; a deadline on every call. Loop-bound.
+
+#include "drivers/scheduler.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+struct TimedBytes {
+    std::vector<std::byte> bytes;
+    MonotonicTime read_at; ///< taken right after the read returned, before any parsing
+};
+
+class ByteLink {
+public:
+    virtual ~ByteLink() = default;
+    /// Whatever has arrived, at least one byte.
+    /// @errors Fault::link_timeout at the deadline, Fault::link_closed at end of file or unplug.
+    virtual Task<Result<TimedBytes>> read_some(MonotonicTime deadline) = 0;
+    virtual Task<Result<void>> write_all(std::vector<std::byte> bytes, MonotonicTime deadline) = 0;
+};
+
+/// Where a link leads, as the station file says it.
+struct LinkSettings {
+    enum class Kind : std::uint8_t { serial, tcp } kind = Kind::serial;
+    std::string path; ///< serial: /dev/serial/by-id/...
+    int baud = 115200;
+    char parity = 'N';
+    int data_bits = 8, stop_bits = 1;
+    std::string host;
+    int port = 0;
+    [[nodiscard]] std::string
+    describe() const; ///< "serial /dev/ttyACM0 115200 8N1" | "tcp host:port"
+};
+
+/// Opens links; a tape player or recorder stands in without the driver noticing.
+class LinkOpener {
+public:
+    virtual ~LinkOpener() = default;
+    virtual Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                         MonotonicTime deadline) = 0;
+};
+
+} // namespace axiscal

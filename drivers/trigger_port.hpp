@@ -1,0 +1,83 @@
+#pragma once
+// The CNC's side of the handshake: requests come in, `done` goes out against a receipt. Loop-bound.
+
+#include "analysis/run_record.hpp"
+#include "drivers/journal_receipt.hpp"
+#include "drivers/scheduler.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace axiscal {
+
+enum class TriggerCommand : std::uint8_t { prepare, capture, skip, abort, end };
+
+/// One edge of the CNC's request. A repeated sequence number is delivered again: the station
+/// decides what it means.
+struct TriggerEvent {
+    TriggerCommand command = TriggerCommand::capture;
+    std::uint16_t sequence = 0;
+    MonotonicTime at;
+    TriggerOrigin origin = TriggerOrigin::cnc;
+    std::optional<int> target_index; ///< 0-based, where the shape carries it
+    std::optional<Direction> direction;
+    std::optional<std::int32_t> nominal_counts; ///< 0.1 um, or 1e-5 degree on a rotary axis
+    std::optional<int> run_index;
+    /// The request stood there when the port was opened (daemon restart), no edge was seen.
+    bool standing = false;
+};
+
+class TriggerSink {
+public:
+    virtual ~TriggerSink() = default;
+    virtual void on_trigger(const TriggerEvent& event) = 0;
+    virtual void on_cnc_silent(bool silent) = 0; ///< heartbeat frozen > 2 s, or heard again
+    virtual void on_port_note(Fault fault, std::string sentence) = 0;
+};
+
+/// STATE word of the sequence-block.
+enum class PortState : std::uint16_t {
+    offline = 0,
+    idle = 1,
+    armed = 2,
+    settling = 3,
+    captured = 4,
+    error = 5,
+    hold = 6
+};
+
+/// Everything the CNC may read besides `done`; absent values are published as 0 with the
+/// environment words at -32768.
+struct PortStatus {
+    PortState state = PortState::idle;
+    std::optional<double> measured_mm, deviation_um, next_nominal_mm;
+    std::optional<int> next_target;
+    std::optional<double> air_degC, pressure_Pa, humidity_percent, material_degC;
+    bool may_move = true, feed_hold = false, run_complete = false;
+    AxisKind axis_kind = AxisKind::linear;
+};
+
+struct TriggerContext {
+    Scheduler* scheduler = nullptr;
+    TriggerSink* sink = nullptr;
+};
+
+class TriggerPort {
+public:
+    virtual ~TriggerPort() = default;
+    /// Serves until cancelled; returns only with the error that ended it.
+    virtual Task<Result<void>> run(TriggerContext context) = 0;
+    /// A new run: done = 0, RESULT = 0, FAULT_SEQ = 0; the next request counts from here.
+    virtual void publish_armed() = 0;
+    /// done = the receipt's sequence.
+    virtual void acknowledge(const JournalReceipt& receipt) = 0;
+    /// done stays; sequence-block shows RESULT and FAULT_SEQ, other shapes hold until their
+    /// time-out.
+    virtual void refuse(std::uint16_t sequence, Fault fault) = 0;
+    virtual void publish(const PortStatus& status) = 0;
+    [[nodiscard]] virtual std::string
+    describe() const = 0; ///< "sequence-block, Modbus TCP 127.0.0.1:1502"
+};
+
+} // namespace axiscal
