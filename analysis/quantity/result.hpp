@@ -96,3 +96,9 @@ std::string describe(const Error& error);
     auto name = (expression);                                                                      \
     if (!name) co_return tl::unexpected<::axiscal::Error>(std::move(name).error());                \
     declaration = *std::move(name)
+/// AXISCAL_CHECK(expression): returns the error of a Result<void> to the caller.
+#define AXISCAL_CHECK(expression)                                                                  \
+    do {                                                                                           \
+        if (auto checked = (expression); !checked)                                                 \
+            return tl::unexpected<::axiscal::Error>(std::move(checked).error());                   \
+    } while (false)

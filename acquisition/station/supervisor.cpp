@@ -1,0 +1,179 @@
+#include "acquisition/station/supervisor.hpp"
+
+#include "drivers/spawn.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration first_pause = std::chrono::milliseconds{250};
+constexpr Duration longest_pause = std::chrono::seconds{4}; // an unplugged cable is back within 5 s
+constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports every few seconds
+
+/// The medium a channel has here: what the driver knows, or what the station file states.
+Result<Medium>
+medium_of(const Channel& channel, const ChannelConfig* stated, const InstrumentConfig& config) {
+    if (!stated || !stated->medium) return channel.medium;
+    if (channel.medium == Medium::air && *stated->medium == Medium::material)
+        return fail(Fault::wrong_medium,
+                    "instrument '" + config.name + "' (station file line " +
+                        std::to_string(config.line) + "): channel '" + channel.name +
+                        "' measures air; state medium = \"air\" or use a contact sensor");
+    return *stated->medium;
+}
+
+const ChannelConfig* find_stated(const InstrumentConfig& config, const std::string& channel) {
+    const auto found = std::ranges::find(config.channels, channel, &ChannelConfig::channel);
+    return found == config.channels.end() ? nullptr : &*found;
+}
+
+Result<void> check_named_channels(const InstrumentConfig& config,
+                                  const std::vector<Channel>& channels) {
+    for (const ChannelConfig& stated : config.channels) {
+        if (std::ranges::find(channels, stated.channel, &Channel::name) != channels.end()) continue;
+        std::string known;
+        for (const Channel& channel : channels)
+            known += (known.empty() ? "'" : ", '") + channel.name + "'";
+        return fail(Fault::bad_configuration,
+                    "instrument '" + config.name + "' (station file line " +
+                        std::to_string(config.line) + ") has no channel '" + stated.channel +
+                        "'; it has " + known);
+    }
+    return {};
+}
+
+} // namespace
+
+std::string_view name_of(InstrumentState state) {
+    switch (state) {
+    case InstrumentState::unavailable: return "unavailable";
+    case InstrumentState::available: return "available";
+    case InstrumentState::faulty: return "faulty";
+    }
+    return "?";
+}
+
+/// One instrument, its view and the sink through which it speaks.
+struct Supervisor::Seat final : SampleSink {
+    Seat(Supervisor& owner, std::unique_ptr<Instrument> of)
+        : supervisor{owner}
+        , instrument{std::move(of)} {}
+
+    void take(const Sample& sample) override {
+        const MonotonicTime now = supervisor.scheduler_.now();
+        const auto value = sample.value();
+        if (value) last_good = now;
+        last_sample = now;
+        const StationChannel& channel =
+            supervisor.channels_[static_cast<std::size_t>(first_channel + sample.channel)];
+        Sample forwarded = value ? Sample{channel.id, sample.at, *value + channel.correction,
+                                          sample.device_count, sample.epoch}
+                                 : Sample::bad(channel.id, sample.at, sample.quality(),
+                                               sample.device_count, sample.epoch);
+        if (value) supervisor.set_state(*this, InstrumentState::available);
+        supervisor.listener_.on_sample(forwarded);
+    }
+    void identify(const Identity& identity) override { view.identity = identity; }
+    void note(Fault fault, std::string sentence) override {
+        const bool again = fault == view.last_fault && sentence == view.last_note;
+        view.repeats = again ? view.repeats + 1 : 0;
+        view.last_fault = fault;
+        view.last_note = std::move(sentence);
+        if (!again) supervisor.listener_.on_instrument_change(view);
+    }
+
+    Supervisor& supervisor;
+    std::unique_ptr<Instrument> instrument;
+    int first_channel = 0;
+    InstrumentView view;
+    std::optional<MonotonicTime> last_sample, last_good;
+};
+
+Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListener& listener)
+    : scheduler_{scheduler}
+    , links_{links}
+    , listener_{listener} {}
+
+Supervisor::~Supervisor() = default;
+
+Result<void> Supervisor::add(const InstrumentConfig& config,
+                             std::unique_ptr<Instrument> instrument) {
+    AXISCAL_CHECK(check_named_channels(config, instrument->channels()));
+    auto seat = std::make_unique<Seat>(*this, std::move(instrument));
+    seat->first_channel = static_cast<int>(channels_.size());
+    seat->view.name = config.name;
+    seat->view.driver = config.driver;
+    seat->view.since = scheduler_.now();
+    for (const Channel& channel : seat->instrument->channels()) {
+        const ChannelConfig* stated = find_stated(config, channel.name);
+        AXISCAL_TRY(const Medium medium, medium_of(channel, stated, config));
+        StationChannel entry{.id = static_cast<int>(channels_.size()),
+                             .instrument = static_cast<int>(seats_.size()),
+                             .name = channel.name,
+                             .instrument_name = config.name,
+                             .place = {},
+                             .kind = channel.kind,
+                             .medium = medium,
+                             .correction = 0};
+        if (stated) entry.place = stated->place, entry.correction = stated->correction;
+        channels_.push_back(std::move(entry));
+    }
+    seats_.push_back(std::move(seat));
+    return {};
+}
+
+void Supervisor::start() {
+    for (auto& seat : seats_)
+        spawn(scheduler_, keep_running(*seat));
+}
+
+Task<void> Supervisor::keep_running(Seat& seat) {
+    Duration pause = first_pause;
+    for (;;) {
+        const MonotonicTime begun = scheduler_.now();
+        const InstrumentContext context{&scheduler_, &links_, &seat};
+        const Result<void> ended = co_await seat.instrument->run(context);
+        ++seat.view.restarts;
+        set_state(seat, InstrumentState::unavailable);
+        if (!ended) seat.note(ended.error().fault, describe(ended.error()));
+        pause = scheduler_.now() - begun > longest_pause ? first_pause
+                                                         : std::min(2 * pause, longest_pause);
+        co_await scheduler_.sleep_for(pause);
+    }
+}
+
+void Supervisor::set_state(Seat& seat, InstrumentState state) {
+    if (seat.view.state == state) return;
+    seat.view.state = state;
+    seat.view.since = scheduler_.now();
+    listener_.on_instrument_change(seat.view);
+}
+
+void Supervisor::judge() {
+    const MonotonicTime now = scheduler_.now();
+    for (auto& seat : seats_) {
+        const bool heard = seat->last_sample && now - *seat->last_sample < silence;
+        const bool good = seat->last_good && now - *seat->last_good < silence;
+        if (seat->view.state == InstrumentState::available && !good)
+            set_state(*seat, heard ? InstrumentState::faulty : InstrumentState::unavailable);
+    }
+}
+
+std::vector<InstrumentView> Supervisor::view() const {
+    std::vector<InstrumentView> views;
+    for (const auto& seat : seats_) {
+        views.push_back(seat->view);
+        views.back().counters = seat->instrument->counters();
+    }
+    return views;
+}
+
+const Instrument& Supervisor::instrument(int index) const {
+    return *seats_[static_cast<std::size_t>(index)]->instrument;
+}
+const Identity& Supervisor::identity(int index) const {
+    return seats_[static_cast<std::size_t>(index)]->view.identity;
+}
+
+} // namespace axiscal

@@ -1,0 +1,83 @@
+#pragma once
+// Opens instruments, restarts them with back-off and judges them by what they send. Loop-bound.
+
+#include "config/instrument_config.hpp"
+#include "drivers/instrument.hpp"
+#include "drivers/scheduler.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// unavailable: no connection, or nothing arrives. faulty: connected, but no good value.
+enum class InstrumentState : std::uint8_t { unavailable, available, faulty };
+std::string_view name_of(InstrumentState state);
+
+/// One channel of the whole station, numbered from 0 over all instruments.
+struct StationChannel {
+    int id = 0;
+    int instrument = 0; ///< index
+    std::string name, instrument_name, place;
+    ChannelKind kind = ChannelKind::temperature;
+    Medium medium = Medium::none;
+    double correction = 0;
+};
+
+struct InstrumentView {
+    std::string name, driver;
+    InstrumentState state = InstrumentState::unavailable;
+    MonotonicTime since;
+    Identity identity;
+    InstrumentCounters counters;
+    std::uint64_t restarts = 0;
+    Fault last_fault = Fault::none;
+    std::string last_note;
+    std::uint64_t repeats = 0; ///< how often the last note came again
+};
+
+class SupervisorListener {
+public:
+    virtual ~SupervisorListener() = default;
+    /// `sample.channel` is the station's channel id; the channel's correction is already added.
+    virtual void on_sample(const Sample& sample) = 0;
+    /// One call a change of state or of the note, never one a sample.
+    virtual void on_instrument_change(const InstrumentView& view) = 0;
+};
+
+class Supervisor {
+public:
+    Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListener& listener);
+    ~Supervisor();
+    Supervisor(const Supervisor&) = delete;
+    Supervisor& operator=(const Supervisor&) = delete;
+
+    /// @errors Fault::bad_configuration when the configuration names a channel the driver lacks;
+    /// Fault::wrong_medium when it declares an air channel to be material.
+    Result<void> add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument);
+    /// Spawns one task an instrument; each runs until the loop stops.
+    void start();
+    /// Marks instruments unavailable whose last sample is older than `silence`; call it every
+    /// second.
+    void judge();
+
+    [[nodiscard]] const std::vector<StationChannel>& channels() const { return channels_; }
+    [[nodiscard]] std::vector<InstrumentView> view() const;
+    [[nodiscard]] const Instrument& instrument(int index) const;
+    [[nodiscard]] const Identity& identity(int index) const;
+
+private:
+    struct Seat;
+    Task<void> keep_running(Seat& seat);
+    void set_state(Seat& seat, InstrumentState state);
+
+    Scheduler& scheduler_;
+    LinkOpener& links_;
+    SupervisorListener& listener_;
+    std::vector<StationChannel> channels_;
+    std::vector<std::unique_ptr<Seat>> seats_;
+};
+
+} // namespace axiscal
