@@ -35,7 +35,13 @@ struct TriggerConfig {
     int client_limit = 8;
     Duration poll_interval = std::chrono::milliseconds{75};
     bool watch_heartbeat = false; ///< CNC_HEARTBEAT frozen > 2 s is a fault
-    // dwell
+    /// coil-and-index: how long a rising coil with the previous index waits for the index to be
+    /// rewritten; longer than one pass of the client.
+    Duration index_grace = std::chrono::milliseconds{50};
+    // dwell: window and hysteresis about the target, then still for the period and halted
+    Length window = mm(0.5);
+    Length stability_range = um(1.0);
+    Duration stability_period = std::chrono::milliseconds{500};
     Length hysteresis;
     Duration minimum_halt = std::chrono::seconds{1};
 };

@@ -76,8 +76,12 @@ public:
     /// time-out.
     virtual void refuse(std::uint16_t sequence, Fault fault) = 0;
     virtual void publish(const PortStatus& status) = 0;
+    /// The axis position as it is read, fed by the station; only the dwell port listens.
+    virtual void position(MonotonicTime at, double position_mm);
     [[nodiscard]] virtual std::string
     describe() const = 0; ///< "sequence-block, Modbus TCP 127.0.0.1:1502"
 };
+
+inline void TriggerPort::position(MonotonicTime /*at*/, double /*position_mm*/) {}
 
 } // namespace axiscal
