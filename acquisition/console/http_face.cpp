@@ -1,0 +1,289 @@
+// Beast is heavy: this is the only file that includes it on the daemon's side.
+#include "acquisition/console/http_face.hpp"
+
+#include "acquisition/console/access.hpp"
+#include "acquisition/console/api_json.hpp"
+#include "drivers/spawn.hpp"
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <grp.h>
+#include <random>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Request = http::request<http::string_body>;
+using Response = http::response<http::string_body>;
+
+constexpr auto quiet = asio::as_tuple(asio::use_awaitable);
+constexpr auto idle_limit =
+    std::chrono::seconds{30}; // a client that neither asks nor reads is let go
+constexpr std::uint64_t body_limit = 64 * 1024;
+constexpr std::size_t client_limit = 64;
+
+http::status status_of(Fault fault) {
+    switch (fault) {
+    case Fault::bad_request:
+    case Fault::bad_configuration: return http::status::bad_request;
+    case Fault::not_found: return http::status::not_found;
+    case Fault::refused: return http::status::forbidden;
+    case Fault::internal:
+    case Fault::io:
+    case Fault::not_durable: return http::status::internal_server_error;
+    default: return http::status::conflict;
+    }
+}
+
+Response answer(const Request& request, http::status status, const nlohmann::ordered_json& body) {
+    Response response{status, request.version()};
+    response.set(http::field::content_type, "application/json; charset=utf-8");
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.keep_alive(request.keep_alive());
+    response.body() = body.dump() + "\n";
+    response.prepare_payload();
+    return response;
+}
+
+Response answer(const Request& request, const Error& error) {
+    return answer(request, status_of(error.fault), to_json(error));
+}
+
+nlohmann::ordered_json sentence(unsigned status, const std::string& text) {
+    return {{"error",
+             {{"fault", status == 404 || status == 405 ? "not_found" : "refused"},
+              {"sentence", text}}}};
+}
+
+std::string field(const Request& request, http::field name) {
+    const auto found = request.find(name);
+    return found == request.end() ? std::string{} : std::string{found->value()};
+}
+
+} // namespace
+
+struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
+    Impl(Scheduler& on, StationFace& of, ConsoleConfig with, std::string secret)
+        : scheduler{on}
+        , station{of}
+        , config{std::move(with)}
+        , tcp{on.executor()}
+        , local{on.executor()} {
+        rules.token = std::move(secret);
+    }
+
+    Result<void> listen_local();
+    Result<void> listen_tcp();
+    template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
+    template <class Socket> Task<void> serve(Socket socket, Door door);
+    Task<Response> respond(Request request, Door door);
+    Task<Response> change(Request request);
+
+    Scheduler& scheduler;
+    StationFace& station;
+    ConsoleConfig config;
+    AccessRules rules;
+    asio::ip::tcp::acceptor tcp;
+    asio::local::stream_protocol::acceptor local;
+    std::size_t clients = 0;
+};
+
+Result<void> HttpFace::Impl::listen_local() {
+    if (config.socket_path.empty()) return {};
+    boost::system::error_code error;
+    ::unlink(config.socket_path
+                 .c_str()); // left by a killed daemon; a running one is refused by its lock
+    local.open({}, error);
+    const mode_t before = ::umask(0117); // 0660 from the first moment
+    if (!error) local.bind(config.socket_path, error);
+    ::umask(before);
+    if (!error) local.listen(16, error);
+    if (error)
+        return fail(Fault::io,
+                    "cannot listen on " + config.socket_path +
+                        "; does its folder exist and may this user write there?",
+                    error);
+    if (config.group.empty()) return {};
+    const group* wanted = ::getgrnam(config.group.c_str());
+    if (wanted == nullptr)
+        return fail(Fault::io,
+                    "group '" + config.group +
+                        "' does not exist; create it (systemd-sysusers) or set console.group");
+    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), wanted->gr_gid) != 0)
+        return fail(Fault::io, "cannot give " + config.socket_path + " to group " + config.group,
+                    {errno, std::generic_category()});
+    return {};
+}
+
+Result<void> HttpFace::Impl::listen_tcp() {
+    if (config.port == 0) return {};
+    boost::system::error_code error;
+    const auto address = asio::ip::make_address(config.host, error);
+    if (error)
+        return fail(Fault::bad_configuration,
+                    "console.host '" + config.host + "' is not an address");
+    const asio::ip::tcp::endpoint end{
+        address, static_cast<std::uint16_t>(config.port < 0 ? 0 : config.port)};
+    tcp.open(end.protocol(), error);
+    if (!error) tcp.set_option(asio::socket_base::reuse_address{true}, error);
+    if (!error) tcp.bind(end, error);
+    if (!error) tcp.listen(16, error);
+    if (error)
+        return fail(Fault::io,
+                    "cannot listen on " + config.host + ":" + std::to_string(config.port) +
+                        "; another program may hold the port (ss -ltnp)",
+                    error);
+    config.port = tcp.local_endpoint().port();
+    return {};
+}
+
+template <class Acceptor> Task<void> HttpFace::Impl::accept(Acceptor& acceptor, Door door) {
+    const auto self = shared_from_this();
+    for (;;) {
+        auto [error, socket] = co_await acceptor.async_accept(quiet);
+        if (error == asio::error::operation_aborted || error == asio::error::bad_descriptor)
+            co_return;
+        if (error) { // out of descriptors: wait instead of spinning
+            co_await scheduler.sleep_for(std::chrono::milliseconds{200});
+            continue;
+        }
+        if (clients < client_limit) spawn(scheduler, serve(std::move(socket), door));
+    }
+}
+
+template <class Socket> Task<void> HttpFace::Impl::serve(Socket socket, Door door) {
+    const auto self = shared_from_this();
+    ++clients;
+    beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
+    beast::flat_buffer buffer;
+    for (bool alive = true; alive;) {
+        http::request_parser<http::string_body> parser;
+        parser.body_limit(body_limit);
+        stream.expires_after(idle_limit);
+        const auto [read_error, got] = co_await http::async_read(stream, buffer, parser, quiet);
+        if (read_error) break;
+        Response response = co_await respond(parser.release(), door);
+        alive = response.keep_alive();
+        stream.expires_after(idle_limit);
+        const auto [write_error, sent] = co_await http::async_write(stream, response, quiet);
+        if (write_error) break;
+    }
+    --clients;
+}
+
+Task<Response> HttpFace::Impl::respond(Request request, Door door) {
+    RequestHead head;
+    head.door = door;
+    head.changes_state =
+        request.method() != http::verb::get && request.method() != http::verb::head;
+    head.host = field(request, http::field::host);
+    head.origin = field(request, http::field::origin);
+    head.authorization = field(request, http::field::authorization);
+    const AccessVerdict verdict = judge_access(head, rules);
+    if (verdict.status != 200)
+        co_return answer(request, static_cast<http::status>(verdict.status),
+                         sentence(verdict.status, verdict.sentence));
+    if (request.method() == http::verb::post) co_return co_await change(std::move(request));
+    if (request.method() != http::verb::get)
+        co_return answer(request, http::status::method_not_allowed,
+                         sentence(405, "GET reads, POST changes"));
+    const StationStatus status = station.status();
+    if (request.target() == "/v1/status")
+        co_return answer(request, http::status::ok, to_json(status));
+    if (request.target() == "/v1/instruments")
+        co_return answer(request, http::status::ok, to_json(status)["instruments"]);
+    co_return answer(request, http::status::not_found,
+                     sentence(404, "known are GET /v1/status, GET /v1/instruments, POST /v1/run, "
+                                   "POST /v1/run/trigger, POST /v1/run/abort"));
+}
+
+Task<Response> HttpFace::Impl::change(Request request) {
+    const std::string target{request.target()};
+    if (target == "/v1/run") {
+        auto wanted = arm_request_from_json(request.body());
+        if (!wanted) co_return answer(request, wanted.error());
+        ArmRequest order = *std::move(wanted);
+        const auto run = co_await station.arm(std::move(order));
+        if (!run) co_return answer(request, run.error());
+        co_return answer(request, http::status::created, {{"run", *run}});
+    }
+    if (target == "/v1/run/trigger") {
+        const auto done = station.trigger();
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::accepted, {{"trigger", "accepted"}});
+    }
+    if (target == "/v1/run/abort") {
+        const auto reason = abort_reason_from_json(request.body());
+        if (!reason) co_return answer(request, reason.error());
+        const auto done = station.abort(*reason);
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::ok, {{"run", "aborted"}});
+    }
+    co_return answer(request, http::status::not_found,
+                     sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/abort"));
+}
+
+HttpFace::HttpFace(Scheduler& scheduler,
+                   StationFace& station,
+                   ConsoleConfig config,
+                   std::string token)
+    : impl_{std::make_shared<Impl>(scheduler, station, std::move(config), std::move(token))} {}
+
+HttpFace::~HttpFace() {
+    boost::system::error_code ignored;
+    impl_->tcp.close(ignored);
+    impl_->local.close(ignored);
+    if (!impl_->config.socket_path.empty()) ::unlink(impl_->config.socket_path.c_str());
+}
+
+Result<void> HttpFace::start() {
+    AXISCAL_CHECK(impl_->listen_local());
+    AXISCAL_CHECK(impl_->listen_tcp());
+    impl_->rules.known_hosts =
+        known_hosts_of(impl_->config.host, impl_->config.port, impl_->config.allowed_hosts);
+    if (impl_->local.is_open())
+        spawn(impl_->scheduler, impl_->accept(impl_->local, Door::unix_socket));
+    if (impl_->tcp.is_open()) spawn(impl_->scheduler, impl_->accept(impl_->tcp, Door::tcp));
+    return {};
+}
+
+int HttpFace::port() const {
+    return impl_->config.port;
+}
+
+Result<std::string> load_or_make_token(const std::string& path) {
+    std::string token;
+    if (std::ifstream file{path}; std::getline(file, token) && token.size() >= 32) return token;
+    std::random_device random;
+    token.clear();
+    for (int i = 0; i < 8; ++i) {
+        std::array<char, 9> word{};
+        std::snprintf(word.data(), word.size(), "%08x", static_cast<unsigned>(random()));
+        token += word.data();
+    }
+    const mode_t before = ::umask(0137); // 0640
+    std::ofstream file{path, std::ios::trunc};
+    ::umask(before);
+    if (!(file << token << '\n' << std::flush))
+        return fail(Fault::io, "cannot write the token file " + path);
+    return token;
+}
+
+} // namespace axiscal

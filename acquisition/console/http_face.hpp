@@ -1,0 +1,34 @@
+#pragma once
+// HTTP/JSON for people and the command line (docs/api.md). Reading is free on every door; what
+// changes state needs the Unix socket or the bearer token. Loop-bound.
+
+#include "acquisition/station/station_face.hpp"
+#include "config/station_config.hpp"
+
+#include <memory>
+#include <string>
+
+namespace axiscal {
+
+class HttpFace {
+public:
+    HttpFace(Scheduler& scheduler, StationFace& station, ConsoleConfig config, std::string token);
+    ~HttpFace();
+    HttpFace(const HttpFace&) = delete;
+    HttpFace& operator=(const HttpFace&) = delete;
+
+    /// Binds both doors and starts serving. The socket gets mode 0660 and the configured group.
+    /// @errors Fault::io naming the path or port and who may hold it.
+    Result<void> start();
+    /// The bound TCP port; 0: none. A configured -1 (tests) lets the kernel choose.
+    [[nodiscard]] int port() const;
+
+private:
+    struct Impl;
+    std::shared_ptr<Impl> impl_;
+};
+
+/// Reads the token file, or makes it (32 random bytes in hex, mode 0640).
+Result<std::string> load_or_make_token(const std::string& path);
+
+} // namespace axiscal

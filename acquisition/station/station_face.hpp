@@ -1,0 +1,86 @@
+#pragma once
+// What the station shows and takes: the only thing the console knows of it.
+
+#include "acquisition/station/supervisor.hpp"
+#include "analysis/run_record.hpp"
+#include "drivers/sample.hpp"
+#include "drivers/scheduler.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// One channel as it stands now; `value` is empty unless good and fresh.
+struct ChannelView {
+    std::string instrument, channel, place, unit;
+    ChannelKind kind = ChannelKind::temperature;
+    Medium medium = Medium::none;
+    std::optional<double> value;
+    std::optional<double> age_s;  ///< of the last sample, good or not
+    std::string quality = "none"; ///< good | stale | signal_error | beam_lost | absent | none
+};
+
+/// The axis as the laser sees it now.
+struct AxisView {
+    std::string name;
+    std::optional<double> position_mm, deviation_um; ///< needs a datum
+    std::optional<double> displacement_mm;           ///< raw, vacuum wavelengths
+    std::optional<double> strength_percent;
+    std::optional<double> spread_um, slope_um_per_s; ///< over the last window
+    bool still = false;
+};
+
+struct RunView {
+    std::string run_id, pass,
+        state; ///< state: tying datum | armed | settling | stopped | complete | incomplete
+    std::string file;
+    int step = 0, steps = 0;        ///< points durable, points planned
+    int done = 0;                   ///< last sequence with a durable point
+    std::optional<int> next_target; ///< 0-based
+    std::optional<double> next_nominal_mm;
+    std::optional<Direction> next_direction;
+    std::optional<int> next_approach; ///< 0-based
+    std::optional<double> seconds_left;
+    std::optional<double> last_deviation_um;
+    std::string last_fault, last_sentence; ///< empty when all is well
+    std::string certificate; ///< folder of the finished certificate, when there is one
+};
+
+struct StationStatus {
+    std::string station, version, utc;
+    AxisView axis;
+    std::vector<ChannelView> channels;
+    std::vector<InstrumentView> instruments;
+    std::string trigger, trigger_note;
+    bool cnc_silent = false;
+    std::optional<RunView> run; ///< the open run, or the last one since start
+    bool run_open = false;
+    int outbox_entries = 0;
+    std::vector<std::string> notes; ///< latest last, at most 20
+};
+
+/// What a person gives when arming; empty fields keep the station file's statements.
+struct ArmRequest {
+    std::optional<double> datum_mm; ///< coordinate where the axis stands now
+    std::string pass = "whole";
+    std::optional<std::uint64_t> seed;
+    bool datum_by_cnc = false;                     ///< wait for the CNC's prepare command instead
+    std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...
+};
+
+/// Answers of the state-changing calls. Loop-bound.
+class StationFace {
+public:
+    virtual ~StationFace() = default;
+    [[nodiscard]] virtual StationStatus status() const = 0;
+    /// Opens a run and ties the datum; returns its id when the datum is durable.
+    virtual Task<Result<std::string>> arm(ArmRequest request) = 0;
+    /// The technician's own capture of the next point, marked manual.
+    virtual Result<void> trigger() = 0;
+    virtual Result<void> abort(std::string reason) = 0;
+};
+
+} // namespace axiscal

@@ -1,0 +1,89 @@
+#include "acquisition/console/access.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+AccessRules rules() {
+    return {known_hosts_of("127.0.0.1", 8470, {"station7.shop.example"}), std::string(64, 'a')};
+}
+
+RequestHead over_tcp(bool changes_state) {
+    RequestHead head;
+    head.door = Door::tcp;
+    head.changes_state = changes_state;
+    head.host = "127.0.0.1:8470";
+    return head;
+}
+
+TEST(Access, EverybodyReadsOverTcp) {
+    EXPECT_EQ(judge_access(over_tcp(false), rules()).status, 200U);
+}
+
+TEST(Access, NobodyChangesStateOverTcpWithoutTheToken) {
+    EXPECT_EQ(judge_access(over_tcp(true), rules()).status, 401U);
+}
+
+TEST(Access, TheTokenChangesStateOverTcp) {
+    RequestHead head = over_tcp(true);
+    head.authorization = "Bearer " + std::string(64, 'a');
+    EXPECT_EQ(judge_access(head, rules()).status, 200U);
+}
+
+TEST(Access, ANearlyRightTokenIsRefused) {
+    for (const std::string& wrong :
+         {std::string(63, 'a'), std::string(65, 'a'), std::string(63, 'a') + "b", std::string{}}) {
+        RequestHead head = over_tcp(true);
+        head.authorization = "Bearer " + wrong;
+        EXPECT_EQ(judge_access(head, rules()).status, 401U) << wrong;
+    }
+}
+
+TEST(Access, AnEmptyTokenFileOpensNothing) {
+    AccessRules open = rules();
+    open.token.clear();
+    RequestHead head = over_tcp(true);
+    head.authorization = "Bearer ";
+    EXPECT_EQ(judge_access(head, open).status, 401U);
+}
+
+TEST(Access, TheUnixSocketChangesState) {
+    RequestHead head;
+    head.door = Door::unix_socket;
+    head.changes_state = true;
+    EXPECT_EQ(judge_access(head, rules()).status, 200U);
+}
+
+TEST(Access, AnUnknownHostIsRefusedEvenForReading) {
+    RequestHead head = over_tcp(false);
+    for (const char* host : {"evil.example", "", "127.0.0.1:80", "127.0.0.1:84700"}) {
+        head.host = host;
+        EXPECT_EQ(judge_access(head, rules()).status, 421U) << host;
+    }
+}
+
+TEST(Access, ConfiguredHostsAreKnownWithAndWithoutPort) {
+    RequestHead head = over_tcp(false);
+    for (const char* host :
+         {"station7.shop.example", "station7.shop.example:8470", "localhost:8470", "[::1]:8470"}) {
+        head.host = host;
+        EXPECT_EQ(judge_access(head, rules()).status, 200U) << host;
+    }
+}
+
+TEST(Access, AForeignOriginIsRefusedOnBothDoors) {
+    for (const Door door : {Door::tcp, Door::unix_socket}) {
+        RequestHead head = over_tcp(false);
+        head.door = door;
+        head.origin = "http://evil.example";
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.origin = "null";
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.origin = "http://127.0.0.1:8470";
+        EXPECT_EQ(judge_access(head, rules()).status, 200U);
+    }
+}
+
+} // namespace
+} // namespace axiscal

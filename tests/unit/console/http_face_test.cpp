@@ -1,0 +1,225 @@
+#include "acquisition/console/http_face.hpp"
+
+#include "drivers/asio_scheduler.hpp"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sys/stat.h>
+#include <thread>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+
+/// A station that remembers what was asked of it. Used on the loop only.
+class RecordingStation final : public StationFace {
+public:
+    [[nodiscard]] StationStatus status() const override {
+        StationStatus status;
+        status.station = "bench";
+        status.axis.name = "X";
+        status.channels.push_back({.instrument = "air",
+                                   .channel = "pressure",
+                                   .place = {},
+                                   .unit = "Pa",
+                                   .kind = ChannelKind::pressure,
+                                   .medium = Medium::air,
+                                   .value = {},
+                                   .age_s = 14.0,
+                                   .quality = "stale"});
+        return status;
+    }
+    Task<Result<std::string>> arm(ArmRequest request) override {
+        armed = request;
+        if (request.pass == "busy") co_return fail(Fault::busy, "run 7 is open");
+        co_return "bench-1";
+    }
+    Result<void> trigger() override { return fail(Fault::no_run_armed, ""); }
+    Result<void> abort(std::string reason) override {
+        return reason_given = std::move(reason), Result<void>{};
+    }
+
+    ArmRequest armed;
+    std::string reason_given;
+};
+
+class HttpDoor : public ::testing::Test {
+protected:
+    void SetUp() override {
+        char name[] = "/tmp/axiscal-http-XXXXXX";
+        folder = ::mkdtemp(name);
+        ConsoleConfig config;
+        config.socket_path = folder / "door.sock";
+        config.group.clear();
+        config.port = -1;
+        face = std::make_unique<HttpFace>(scheduler, station, config, std::string(64, 't'));
+        const auto started = face->start();
+        ASSERT_TRUE(started) << describe(started.error());
+        runner = std::jthread{[this] { loop.run(); }};
+    }
+    void TearDown() override {
+        work.reset();
+        loop.stop();
+        runner.join();
+        face.reset();
+        std::filesystem::remove_all(folder);
+    }
+
+    /// Sends raw bytes, returns everything the station answers until it closes.
+    template <class Socket> static std::string talk(Socket& socket, const std::string& request) {
+        timeval limit{10, 0};
+        ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+        asio::write(socket, asio::buffer(request));
+        std::string reply;
+        boost::system::error_code end;
+        asio::read(socket, asio::dynamic_buffer(reply), end);
+        return reply;
+    }
+    std::string over_tcp(const std::string& method,
+                         const std::string& target,
+                         const std::string& more = {},
+                         const std::string& body = {}) {
+        asio::io_context own;
+        asio::ip::tcp::socket socket{own};
+        socket.connect(
+            {asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(face->port())});
+        return talk(socket, method + " " + target +
+                                " HTTP/1.1\r\nHost: localhost:" + std::to_string(face->port()) +
+                                "\r\nConnection: close\r\nContent-Length: " +
+                                std::to_string(body.size()) + "\r\n" + more + "\r\n" + body);
+    }
+    std::string over_socket(const std::string& method,
+                            const std::string& target,
+                            const std::string& body = {}) {
+        asio::io_context own;
+        asio::local::stream_protocol::socket socket{own};
+        socket.connect({(folder / "door.sock").string()});
+        return talk(socket, method + " " + target +
+                                " HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: " +
+                                std::to_string(body.size()) + "\r\n\r\n" + body);
+    }
+
+    std::filesystem::path folder;
+    asio::io_context loop{1};
+    asio::executor_work_guard<asio::io_context::executor_type> work{loop.get_executor()};
+    AsioScheduler scheduler{loop};
+    RecordingStation station;
+    std::unique_ptr<HttpFace> face;
+    std::jthread runner;
+};
+
+std::string body_of(const std::string& reply) {
+    return reply.substr(reply.find("\r\n\r\n") + 4);
+}
+
+TEST_F(HttpDoor, StatusIsReadOverTcp) {
+    const std::string reply = over_tcp("GET", "/v1/status");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 200")) << reply;
+    EXPECT_EQ(nlohmann::json::parse(body_of(reply)).at("station"), "bench");
+}
+
+TEST_F(HttpDoor, AStaleValueIsNullNotANumber) {
+    const auto status = nlohmann::json::parse(body_of(over_tcp("GET", "/v1/status")));
+    EXPECT_TRUE(status.at("channels").at(0).at("value").is_null());
+    EXPECT_EQ(status.at("channels").at(0).at("quality"), "stale");
+}
+
+TEST_F(HttpDoor, TcpWithoutTokenMayNotArm) {
+    EXPECT_TRUE(over_tcp("POST", "/v1/run", "", "{}").starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(HttpDoor, TcpWithTokenMayArm) {
+    const std::string reply =
+        over_tcp("POST", "/v1/run", "Authorization: Bearer " + std::string(64, 't') + "\r\n",
+                 R"({"pass":"whole"})");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 201")) << reply;
+}
+
+TEST_F(HttpDoor, AForeignOriginIsRefused) {
+    EXPECT_TRUE(over_tcp("GET", "/v1/status", "Origin: http://evil.example\r\n")
+                    .starts_with("HTTP/1.1 403"));
+}
+
+TEST_F(HttpDoor, AnUnknownHostIsRefused) {
+    asio::io_context own;
+    asio::ip::tcp::socket socket{own};
+    socket.connect({asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(face->port())});
+    EXPECT_TRUE(
+        talk(socket,
+             "GET /v1/status HTTP/1.1\r\nHost: rebound.example\r\nConnection: close\r\n\r\n")
+            .starts_with("HTTP/1.1 421"));
+}
+
+TEST_F(HttpDoor, TheSocketBelongsToTheGroupAlone) {
+    struct stat info {};
+    ASSERT_EQ(::stat((folder / "door.sock").c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777U, 0660U);
+}
+
+TEST_F(HttpDoor, ArmingPassesStatementsOn) {
+    const std::string reply = over_socket(
+        "POST", "/v1/run", R"({"datum_mm":-4.5,"seed":7,"statements":{"state":"as left"}})");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 201")) << reply;
+    EXPECT_EQ(nlohmann::json::parse(body_of(reply)).at("run"), "bench-1");
+    EXPECT_EQ(station.armed.datum_mm, -4.5);
+    EXPECT_EQ(station.armed.seed, 7U);
+    EXPECT_EQ(station.armed.statements.at("state"), "as left");
+}
+
+TEST_F(HttpDoor, AnUnknownFieldIsRefusedByName) {
+    const std::string reply = over_socket("POST", "/v1/run", R"({"datum":-4.5})");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 400")) << reply;
+    EXPECT_EQ(nlohmann::json::parse(body_of(reply)).at("error").at("field"), "datum");
+}
+
+TEST_F(HttpDoor, ABusyStationAnswersConflict) {
+    EXPECT_TRUE(over_socket("POST", "/v1/run", R"({"pass":"busy"})").starts_with("HTTP/1.1 409"));
+}
+
+TEST_F(HttpDoor, ARefusedTriggerTellsTheSentence) {
+    const std::string reply = over_socket("POST", "/v1/run/trigger");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 409")) << reply;
+    EXPECT_NE(reply.find("axiscal arm"), std::string::npos);
+}
+
+TEST_F(HttpDoor, AbortHandsTheReasonOver) {
+    EXPECT_TRUE(over_socket("POST", "/v1/run/abort", R"({"reason":"coolant"})")
+                    .starts_with("HTTP/1.1 200"));
+    EXPECT_EQ(station.reason_given, "coolant");
+}
+
+TEST_F(HttpDoor, GarbageAndOversizedBodiesHurtNobody) {
+    EXPECT_TRUE(over_socket("POST", "/v1/run", "[1,2").starts_with("HTTP/1.1 400"));
+    over_socket("POST", "/v1/run", std::string(200'000, 'x'));
+    EXPECT_TRUE(
+        over_tcp("DELETE", "/v1/run", "Authorization: Bearer " + std::string(64, 't') + "\r\n")
+            .starts_with("HTTP/1.1 405"));
+    EXPECT_TRUE(over_tcp("GET", "/nothing").starts_with("HTTP/1.1 404"));
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+TEST(Token, IsMadeOnceAndKept) {
+    char name[] = "/tmp/axiscal-token-XXXXXX";
+    const std::filesystem::path folder = ::mkdtemp(name);
+    const auto first = load_or_make_token(folder / "token"),
+               again = load_or_make_token(folder / "token");
+    ASSERT_TRUE(first && again);
+    EXPECT_EQ(*first, *again);
+    EXPECT_EQ(first->size(), 64U);
+    struct stat info {};
+    ASSERT_EQ(::stat((folder / "token").c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 0777U, 0640U);
+    std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace axiscal
