@@ -27,6 +27,12 @@ struct Refusal {
 
 class SettingsDocument;
 
+/// "-0.05 K" as stored: amount in `stored_unit` (degC, Pa, %, ppm); unit empty when not stated.
+struct ChannelCorrection {
+    double amount = 0;
+    std::string stored_unit;
+};
+
 /// One table of the document. Copyable view; the document must outlive it.
 /// Each reader takes an optional fallback: without it a missing key is refused.
 /// Units stand in the value ("0.5 mm"); a bare number where a unit is needed is refused with the
@@ -47,6 +53,17 @@ public:
     bool flag(std::string_view key, std::optional<bool> fallback = {});
     Length
     length(std::string_view key, Length low, Length high, std::optional<Length> fallback = {});
+    /// Of a rotary axis, where 1 mm stands for 1 degree: deg, arcmin, arcsec; deg/min, deg/s.
+    Length rotary_length(std::string_view key,
+                         Length low,
+                         Length high,
+                         std::optional<Length> fallback = {});
+    std::vector<Length> rotary_lengths(std::string_view key,
+                                       Length low,
+                                       Length high,
+                                       std::optional<std::vector<Length>> fallback = {});
+    Speed
+    rotary_speed(std::string_view key, Speed low, Speed high, std::optional<Speed> fallback = {});
     Speed speed(std::string_view key, Speed low, Speed high, std::optional<Speed> fallback = {});
     Duration duration(std::string_view key,
                       Duration low,
@@ -70,6 +87,8 @@ public:
                         Expansion low,
                         Expansion high,
                         std::optional<Expansion> fallback = {});
+    /// Additive correction of a channel, at most `limit` in stored units; none when missing.
+    ChannelCorrection correction(std::string_view key, double limit);
     /// ISO date "2026-11-21"; a TOML local date is accepted too.
     std::string date(std::string_view key, std::optional<std::string> fallback = {});
     std::vector<std::string> texts(std::string_view key,
@@ -86,9 +105,13 @@ public:
     std::vector<Settings> tables(std::string_view key);
     /// A refusal of one's own, placed at `key` (or at the table when empty).
     void refuse(std::string_view key, std::string reason);
+    /// A refusal stands at this key: its value means nothing and needs no further check.
+    [[nodiscard]] bool refused(std::string_view key) const;
+    /// Keys that nobody read are no refusal in this table (its reader does not exist).
+    void accept_rest();
     [[nodiscard]] int line() const;
     [[nodiscard]] int line_of(std::string_view key) const;
-    [[nodiscard]] const std::string& path() const; ///< "instrument[1]"
+    [[nodiscard]] const std::string& path() const; ///< "instrument[1]", counted from 0
 
 private:
     friend class SettingsDocument;
@@ -109,10 +132,13 @@ public:
     [[nodiscard]] const std::string& name() const;
     /// Adds a refusal for every key nobody read, then hands over all of them, by line.
     std::vector<Refusal> finish();
+    /// Every key asked for so far, "cycle.overrun" (list indices left out), sorted, once each.
+    [[nodiscard]] std::vector<std::string> asked_keys() const;
 
 private:
     struct State;
     friend class Settings;
+    explicit SettingsDocument(std::shared_ptr<State> state);
     std::shared_ptr<State> state_;
 };
 
