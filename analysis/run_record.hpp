@@ -129,6 +129,7 @@ struct DatumRecord {
     int n = 0;
     std::uint16_t sequence =
         0; ///< sequence number of a CNC's prepare command; 0 when tied by `arm`
+    std::uint64_t device_count = 0; ///< the laser's own number of the window's last sample
 };
 
 struct WindowSample {

@@ -57,6 +57,9 @@ constexpr std::array rows{
              "The instrument reports a signal error."},
     FaultRow{Fault::implausible_jump, no_own_code, "implausible_jump",
              "The reading jumped further than the axis can move: counts were lost."},
+    FaultRow{Fault::samples_lost, no_own_code, "samples_lost",
+             "Readings of the laser are missing where they are needed as evidence: approach the "
+             "target again."},
     FaultRow{Fault::unknown_instrument, no_own_code, "unknown_instrument",
              "The station file names an instrument that does not exist here."},
     FaultRow{Fault::wrong_medium, no_own_code, "wrong_medium",

@@ -33,6 +33,7 @@ enum class Fault : std::uint8_t {
     checksum,
     signal_error,
     implausible_jump,
+    samples_lost,
     unknown_instrument,
     wrong_medium,
     stale,

@@ -1,0 +1,58 @@
+#pragma once
+// The last minutes of one channel, ordered by time; gaps and lost zeros are known.
+
+#include "drivers/sample.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace axiscal {
+
+/// Loop-bound. push() is O(1) amortised. Memory is bounded by twice `capacity` samples; the oldest
+/// go first, by age (`depth`) or by number. Spans are valid until the next push().
+class SampleHistory {
+public:
+    struct Limits {
+        Duration depth = std::chrono::minutes{5};
+        std::size_t capacity = 600'000; ///< 5 minutes at 2 kHz
+    };
+    SampleHistory() = default;
+    explicit SampleHistory(Limits limits)
+        : limits_{limits} {}
+
+    /// A sample older than its predecessor is dropped and counted: order is what a search relies
+    /// on. Bad samples are kept: they are evidence.
+    void push(const Sample& sample);
+
+    [[nodiscard]] std::span<const Sample> all() const;
+    /// Samples with begin <= at <= end.
+    [[nodiscard]] std::span<const Sample> between(MonotonicTime begin, MonotonicTime end) const;
+    [[nodiscard]] std::optional<Sample> newest() const;
+    /// Nothing that was pushed at or after `instant` has been dropped for its age or number.
+    [[nodiscard]] bool reaches_back_to(MonotonicTime instant) const;
+
+    [[nodiscard]] std::uint64_t disordered() const { return disordered_; }
+    /// Places where the instrument's own numbering left out samples.
+    [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
+    /// The first sample of the newest epoch, if the epoch ever changed.
+    [[nodiscard]] std::optional<MonotonicTime> epoch_changed_at() const {
+        return epoch_changed_at_;
+    }
+
+private:
+    void forget_old();
+
+    Limits limits_{};
+    std::vector<Sample> samples_; ///< samples_[first_...] are alive
+    std::size_t first_ = 0;
+    std::uint64_t disordered_ = 0, gaps_ = 0;
+    std::optional<MonotonicTime> epoch_changed_at_, newest_forgotten_, began_at_;
+};
+
+/// Longest time without a sample inside [begin, end], its ends included. Empty: the whole span.
+Duration longest_silence(std::span<const Sample> samples, MonotonicTime begin, MonotonicTime end);
+
+} // namespace axiscal

@@ -1,0 +1,31 @@
+#include "acquisition/capture/wording.hpp"
+
+#include <cstdio>
+
+namespace axiscal {
+
+std::string plain_number(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    std::string number{text};
+    if (number.find('.') != std::string::npos) {
+        number.erase(number.find_last_not_of('0') + 1);
+        if (number.back() == '.') number.pop_back();
+    }
+    return number == "-0" ? "0" : number;
+}
+
+std::string in_mm(Length length) {
+    return plain_number(length.in(mm), 4) + " mm";
+}
+std::string in_um(Length length) {
+    return plain_number(length.in(um), 2) + " um";
+}
+std::string in_seconds(Duration span) {
+    return plain_number(seconds_of(span), 3) + " s";
+}
+std::string counted(long count, const std::string& thing) {
+    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+} // namespace axiscal
