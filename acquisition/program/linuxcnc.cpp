@@ -1,0 +1,114 @@
+// LinuxCNC dialect. Source: LinuxCNC 2.9 G-code reference (M62..M68, M66, o-words, (ABORT,...)).
+// Wiring in HAL (docs/trigger.md): analog-out-00 = sequence; digital-in-00 = answered (the echo
+// equals the sequence, or the acknowledge bit); coil-and-index also digital-out-00 = trigger coil
+// and digital-in-01 = "register equals sequence". sequence-block reads analog-out-01..05 as well.
+#include "acquisition/program/part_program.hpp"
+
+#include <cstdio>
+
+namespace axiscal {
+namespace {
+
+constexpr double arming_limit_s = 600; // a technician needs a while to reach the PC
+// The echo comparison runs in the servo thread; the sequence must reach it before it is asked.
+constexpr double comparison_s = 0.05;
+
+class Writer {
+public:
+    explicit Writer(const ProgramOrder& order)
+        : order_{order} {}
+
+    std::string write() {
+        head();
+        std::uint16_t sequence = 0;
+        for (const ProgramMove& move : moves_of(order_.plan)) {
+            if (move.point) announce(++sequence == 0 ? ++sequence : sequence, move);
+            line("G1 " + coordinate_word(order_.axis, move.coordinate_mm));
+            if (move.point)
+                capture(sequence);
+            else if (sequence == 0)
+                begin();
+        }
+        line("(end of cycle)");
+        line("M2");
+        return std::move(text_);
+    }
+
+private:
+    void line(const std::string& words) { text_ += words + "\n"; }
+    void dwell(double seconds) { line(format("G4 P%.3f", seconds)); }
+    static std::string format(const char* pattern, double value) {
+        char text[64];
+        std::snprintf(text, sizeof text, pattern, value);
+        return text;
+    }
+    [[nodiscard]] bool handshake() const { return order_.shape != TriggerShape::dwell; }
+    [[nodiscard]] bool coil() const { return order_.shape == TriggerShape::coil_and_index; }
+
+    void head() {
+        line("(axiscal " + program_id(order_.plan) + ")");
+        line("(first the axis goes to its datum and waits there: run 'axiscal arm' then)");
+        line("G21 G90 G94 G17 G61 G40 G49 G80");
+        line(format("F%.1f", order_.feed.in(mm_per_minute)));
+        if (coil()) line("M65 P0");
+    }
+    /// Writes 0 and waits until the station shows done = 0: it is armed then.
+    void begin() {
+        if (!handshake()) return dwell(seconds_of(order_.dwell));
+        line("M68 E0 Q0");
+        dwell(comparison_s);
+        wait(coil() ? "P1 L3" : "P0 L3", arming_limit_s, "the station was not armed");
+    }
+    /// Words that the station may check against its plan; all before the sequence number.
+    void announce(std::uint16_t sequence, const ProgramMove& move) {
+        line("(P" + std::to_string(move.point->target_index + 1) +
+             (move.point->direction == Direction::positive ? " up " : " down ") +
+             std::to_string(move.point->approach + 1) + ")");
+        if (order_.shape == TriggerShape::coil_and_index)
+            line("M68 E0 Q" + std::to_string(sequence));
+        if (order_.shape != TriggerShape::sequence_block) return;
+        line("M68 E1 Q" + std::to_string(move.point->target_index));
+        line(std::string{"M68 E2 Q"} + (move.point->direction == Direction::positive ? "1" : "2"));
+        line(format("M68 E3 Q%.4f", move.coordinate_mm));
+        line("M68 E4 Q" + std::to_string(move.point->approach));
+        line(format("M68 E5 Q%.1f", order_.feed.in(mm_per_minute)));
+    }
+    void capture(std::uint16_t sequence) {
+        dwell(seconds_of(order_.dwell));
+        if (!handshake()) return;
+        if (coil())
+            line("M64 P0");
+        else
+            line("M68 E0 Q" + std::to_string(sequence));
+        if (!coil()) dwell(comparison_s);
+        wait("P0 L3", seconds_of(order_.answer_limit),
+             "no answer for request " + std::to_string(sequence));
+        if (!coil()) return;
+        line("M65 P0");
+        wait("P0 L4", seconds_of(order_.answer_limit), "the acknowledge stays high");
+    }
+    void wait(const std::string& input, double limit_s, const std::string& complaint) {
+        const std::string label = "o" + std::to_string(++labels_);
+        line("M66 " + input + format(" Q%.1f", limit_s));
+        line(label + " if [#5399 EQ -1]");
+        line("  (ABORT,axiscal: " + complaint + ")");
+        line(label + " endif");
+    }
+
+    const ProgramOrder& order_;
+    std::string text_;
+    int labels_ = 0;
+};
+
+} // namespace
+
+Result<std::string> write_linuxcnc(const ProgramOrder& order) {
+    if (order.shape == TriggerShape::dwell && order.dwell < order.least_halt)
+        return fail(Fault::bad_request,
+                    "a dwell of " + std::to_string(seconds_of(order.dwell)) +
+                        " s is shorter than the station needs to see the halt (" +
+                        std::to_string(seconds_of(order.least_halt)) + " s): lengthen cycle.dwell");
+    return Writer{order}.write();
+}
+
+} // namespace axiscal

@@ -1,0 +1,80 @@
+#include "acquisition/program/part_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace axiscal {
+namespace {
+
+constexpr std::array dialects{
+    ProgramDialect{"linuxcnc", ".ngc",
+                   "LinuxCNC: waits on digital input 0 for the station's answer", write_linuxcnc},
+    ProgramDialect{"marlin", ".gcode",
+                   "Marlin and other printer firmware: dwell trigger, G4 P in milliseconds",
+                   write_marlin},
+};
+
+/// CRC-16/XMODEM (poly 0x1021, init 0), bytes high first.
+std::uint16_t crc16(std::uint16_t crc, std::uint32_t word) {
+    for (int bit = 31; bit >= 0; --bit) {
+        const bool top = (crc & 0x8000U) != 0;
+        crc = static_cast<std::uint16_t>(crc << 1U);
+        if (top != (((word >> static_cast<unsigned>(bit)) & 1U) != 0)) crc ^= 0x1021U;
+    }
+    return crc;
+}
+
+} // namespace
+
+std::vector<ProgramMove> moves_of(const RunPlan& plan) {
+    // 0.1 nm of slack: "at least the overrun" must not fail by the rounding of mm arithmetic.
+    constexpr double slack_mm = 1e-7;
+    const double overrun_mm = plan.overrun.in(mm);
+    double here_mm = plan.datum.in(mm);
+    std::vector<ProgramMove> moves{{here_mm, nullptr}};
+    for (const PlannedPoint& point : plan.points) {
+        const double target_mm = plan.targets[static_cast<std::size_t>(point.target_index)].in(mm);
+        const double side = point.direction == Direction::positive ? 1.0 : -1.0;
+        if (side * (target_mm - here_mm) < overrun_mm - slack_mm)
+            moves.push_back({target_mm - side * overrun_mm, nullptr});
+        moves.push_back({target_mm, &point});
+        here_mm = target_mm;
+    }
+    return moves;
+}
+
+std::span<const ProgramDialect> program_dialects() {
+    return dialects;
+}
+
+Result<ProgramDialect> find_dialect(std::string_view name) {
+    std::string known;
+    for (const ProgramDialect& dialect : dialects) {
+        if (dialect.name == name) return dialect;
+        known += (known.empty() ? "" : ", ") + std::string{dialect.name};
+    }
+    return fail(Fault::bad_request,
+                "there is no dialect '" + std::string{name} + "'; known are " + known);
+}
+
+std::string program_id(const RunPlan& plan) {
+    std::uint16_t check = 0;
+    for (const Length target : plan.targets)
+        check = crc16(check, static_cast<std::uint32_t>(std::lround(target.in(um)*10)));
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "%04X", check);
+    return "seed=" + (plan.seed ? std::to_string(*plan.seed) : "none") + " pass=" + plan.pass +
+           " targets=" + std::to_string(plan.targets.size()) +
+           " n=" + std::to_string(plan.approaches) + " check=" + hex;
+}
+
+std::string coordinate_word(const std::string& axis, double coordinate_mm) {
+    char word[40];
+    std::snprintf(word, sizeof word, "%s%.4f", axis.c_str(),
+                  coordinate_mm == 0 ? 0.0 : coordinate_mm);
+    return word;
+}
+
+} // namespace axiscal

@@ -1,0 +1,54 @@
+#pragma once
+// Part programs for controllers: one file a dialect, all from the same plan. Pure.
+
+#include "analysis/run_record.hpp"
+#include "config/station_config.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+struct ProgramOrder {
+    RunPlan plan;
+    std::string axis = "X"; ///< axis letter
+    Speed feed;
+    Duration dwell{};
+    TriggerShape shape = TriggerShape::sequence_block;
+    Duration answer_limit = std::chrono::seconds{10}; ///< longest wait for `done`
+    Duration least_halt{}; ///< dwell trigger: minimum halt + window; a shorter dwell is refused
+};
+
+/// One move of the cycle, before any dialect: where to, and whether a point is taken there.
+struct ProgramMove {
+    double coordinate_mm = 0;
+    const PlannedPoint* point = nullptr; ///< nullptr: over-travel or datum
+};
+
+/// The motion of the plan: datum, then every point reached from its own side by at least the
+/// overrun, with the over-travel moves that this needs.
+std::vector<ProgramMove> moves_of(const RunPlan& plan);
+
+struct ProgramDialect {
+    std::string_view name;      ///< "linuxcnc", "marlin"
+    std::string_view extension; ///< ".ngc"
+    std::string_view summary;
+    Result<std::string> (*write)(const ProgramOrder& order);
+};
+
+std::span<const ProgramDialect> program_dialects();
+/// @errors Fault::bad_request with the list of known dialects.
+Result<ProgramDialect> find_dialect(std::string_view name);
+
+/// "seed=42 pass=whole targets=11 n=5 check=1A2B": what ties a program to its plan; the check is
+/// CRC-16/XMODEM over the targets in 0.1 um, so that a wrong pair of program and job is seen.
+std::string program_id(const RunPlan& plan);
+/// Coordinates are written with four decimals (0.1 um) and always a decimal point.
+std::string coordinate_word(const std::string& axis, double coordinate_mm);
+
+Result<std::string> write_linuxcnc(const ProgramOrder& order);
+Result<std::string> write_marlin(const ProgramOrder& order);
+
+} // namespace axiscal
