@@ -1,0 +1,166 @@
+#include "tools/axiscal/daemon_commands.hpp"
+
+#include "drivers/registry.hpp"
+#include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/status_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <thread>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto repaint = std::chrono::milliseconds{500};
+
+int no_contact(const Error& error) {
+    std::cerr << error.detail << (error.cause ? " (" + error.cause.message() + ")" : "") << "\n";
+    return exit_no_contact;
+}
+
+/// Prints the station's own sentence for a refused call.
+int refused(const Reply& reply) {
+    const Json body = Json::parse(reply.body, nullptr, false);
+    const bool known = body.is_object() && body.contains("error");
+    std::cerr << (known ? body["error"].value("sentence", "")
+                        : "the station answered " + std::to_string(reply.status))
+              << "\n";
+    return exit_forbidden;
+}
+
+/// Asks, prints, and turns the answer into an exit code.
+template <class Show> int ask(const Result<Reply>& reply, bool json, Show show) {
+    if (!reply) return no_contact(reply.error());
+    if (reply->status >= 300) return refused(*reply);
+    if (json) return std::cout << reply->body << std::flush, exit_ok;
+    std::cout << show(Json::parse(reply->body)) << std::flush;
+    return exit_ok;
+}
+
+int outcome(const Json& status) {
+    const Json& run = status.at("run");
+    if (run.is_null()) return std::cout << "No run is open.\n", exit_ok;
+    const bool complete = run.at("state") == "complete";
+    std::cout << "Run " << run.at("id").get<std::string>() << " is "
+              << run.at("state").get<std::string>();
+    if (complete && !run.at("certificate").get<std::string>().empty())
+        std::cout << "; certificate in " << run.at("certificate").get<std::string>();
+    if (!run.at("sentence").get<std::string>().empty())
+        std::cout << ": " << run.at("sentence").get<std::string>();
+    std::cout << "\n";
+    return complete ? exit_ok : exit_incomplete;
+}
+
+/// Still something to wait for: an open run, or a certificate that is not written yet.
+bool goes_on(const Json& status, bool until_published) {
+    if (status.at("run_open") == true) return true;
+    const Json& run = status.at("run");
+    return until_published && !run.is_null() && run.at("state") == "complete" &&
+           run.at("certificate") == "" && run.at("sentence") == "";
+}
+
+/// What the header comment of a generated program says: "seed=123 pass=whole".
+Result<void> read_program_header(const std::string& path, Json& body) {
+    std::ifstream file{path};
+    if (!file) return fail(Fault::io, "cannot read the program " + path);
+    std::string line;
+    for (int i = 0; i < 20 && std::getline(file, line); ++i) {
+        const auto value_of = [&](const std::string& key) {
+            const auto at = line.find(key + "=");
+            if (at == std::string::npos) return std::string{};
+            const auto begin = at + key.size() + 1;
+            return line.substr(begin, line.find_first_of(" )\r\n", begin) - begin);
+        };
+        if (const std::string seed = value_of("seed"); !seed.empty() && seed != "none")
+            body["seed"] = std::stoull(seed);
+        if (const std::string pass = value_of("pass"); !pass.empty())
+            return body["pass"] = pass, Result<void>{};
+    }
+    return fail(Fault::bad_request,
+                path + " is not a program of 'axiscal program': its header names no pass");
+}
+
+} // namespace
+
+int command_status(const StationClient& client, bool json) {
+    return ask(client.get("/v1/status"), json, status_text);
+}
+
+int command_devices(const StationClient& client, bool json) {
+    return ask(client.get("/v1/instruments"), json, instruments_text);
+}
+
+int command_watch(const StationClient& client, bool json, bool until_published) {
+    const bool screen = !json && ::isatty(STDOUT_FILENO) != 0;
+    std::string last;
+    for (;;) {
+        const auto reply = client.get("/v1/status");
+        if (!reply) return no_contact(reply.error());
+        if (reply->status >= 300) return refused(*reply);
+        const Json status = Json::parse(reply->body);
+        if (json) std::cout << reply->body << std::flush;
+        if (screen) std::cout << "\x1b[H\x1b[2J" << status_text(status) << std::flush;
+        const std::string line = progress_line(status),
+                          key = status.at("run").is_null()
+                                    ? ""
+                                    : status.at("run").at("step").dump() +
+                                          status.at("run").at("sentence").dump();
+        if (!json && !screen && key != last) std::cout << line << "\n" << std::flush;
+        last = key;
+        if (!goes_on(status, until_published))
+            return json ? (status.at("run").is_null() || status.at("run").at("state") == "complete"
+                               ? exit_ok
+                               : exit_incomplete)
+                        : outcome(status);
+        std::this_thread::sleep_for(repaint);
+    }
+}
+
+int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
+    Json body{{"pass", order.pass},
+              {"datum_by_cnc", order.datum_by_cnc},
+              {"statements", order.statements}};
+    if (order.datum_mm) body["datum_mm"] = *order.datum_mm;
+    if (!order.program.empty())
+        if (const auto read = read_program_header(order.program, body); !read)
+            return std::cerr << read.error().detail << "\n", exit_refused;
+    if (order.seed) body["seed"] = *order.seed;
+    return ask(client.post("/v1/run", body.dump()), json, [](const Json& reply) {
+        return "Armed: run " + reply.at("run").get<std::string>() +
+               ". Start the part program; 'axiscal watch' shows the progress.\n";
+    });
+}
+
+int command_trigger(const StationClient& client, bool json) {
+    return ask(client.post("/v1/run/trigger", ""), json, [](const Json&) {
+        return std::string{"The next point is being captured, marked manual.\n"};
+    });
+}
+
+int command_abort(const StationClient& client, const std::string& reason, bool json) {
+    const Json body = reason.empty() ? Json::object() : Json{{"reason", reason}};
+    return ask(client.post("/v1/run/abort", body.dump()), json, [](const Json&) {
+        return std::string{"The run is closed as incomplete; its file is kept.\n"};
+    });
+}
+
+int command_list_drivers(bool json) {
+    Json list = Json::array();
+    for (const InstrumentDriver* driver : instrument_drivers()) {
+        list.push_back({{"driver", driver->name}, {"summary", driver->summary}});
+        if (!json)
+            std::printf("  %-12s %s\n", std::string{driver->name}.c_str(),
+                        std::string{driver->summary}.c_str());
+    }
+    if (json) std::cout << list.dump() << "\n";
+    return exit_ok;
+}
+
+} // namespace axiscal

@@ -1,0 +1,32 @@
+#pragma once
+// The commands that need a running axiscald.
+
+#include "tools/axiscal/station_client.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace axiscal {
+
+int command_status(const StationClient& client, bool json);
+int command_devices(const StationClient& client, bool json);
+/// Shows progress until the open run ends: 0 complete, 6 incomplete. `once` prints one frame.
+int command_watch(const StationClient& client, bool json, bool until_published);
+
+struct ArmOrder {
+    std::optional<double> datum_mm;
+    std::optional<std::uint64_t> seed;
+    std::string pass = "whole";
+    std::string program; ///< file whose header names seed and pass
+    bool datum_by_cnc = false;
+    std::map<std::string, std::string> statements;
+};
+int command_arm(const StationClient& client, const ArmOrder& order, bool json);
+int command_trigger(const StationClient& client, bool json);
+int command_abort(const StationClient& client, const std::string& reason, bool json);
+
+/// The connected drivers by name and summary; needs no daemon.
+int command_list_drivers(bool json);
+
+} // namespace axiscal

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace axiscal {
+
+/// What the command line tells the shell; `axiscal --help` lists them.
+enum ExitCode : int {
+    exit_ok = 0,
+    exit_failed = 1, ///< a file, the disk or the program itself
+    exit_usage = 2,
+    exit_refused = 3,    ///< input refused: case, run file, station file
+    exit_forbidden = 4,  ///< the station's state or rights forbid it
+    exit_no_contact = 5, ///< no daemon at that door
+    exit_incomplete = 6, ///< the run ended without all its points
+};
+
+} // namespace axiscal

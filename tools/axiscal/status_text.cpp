@@ -1,0 +1,158 @@
+#include "tools/axiscal/status_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, pattern);
+    std::vsnprintf(text, sizeof text, pattern, arguments);
+    va_end(arguments);
+    return text;
+}
+
+/// A value that is not there is shown as dashes, never as 0.
+std::string number_or_dashes(const Json& value, const char* pattern, const std::string& unit) {
+    if (!value.is_number()) return "- - - " + unit;
+    char text[64];
+    std::snprintf(text, sizeof text, pattern, value.get<double>());
+    return std::string{text} + " " + unit;
+}
+
+std::string clock_text(double seconds) {
+    const int whole = static_cast<int>(seconds + 0.5);
+    return format("%d:%02d", whole / 60, whole % 60);
+}
+
+std::string next_text(const Json& run) {
+    const Json& next = run.at("next");
+    if (next.is_null()) return "none";
+    const std::string arrow = next.at("direction") == "positive" ? "↑ from below" : "↓ from above";
+    return format("P%d = ", next.at("target").get<int>() + 1) +
+           number_or_dashes(next.at("nominal_mm"), "%.3f", "mm") + "  " + arrow +
+           format("  approach %d", next.at("approach").get<int>() + 1);
+}
+
+std::string run_text(const Json& status) {
+    const Json& run = status.at("run");
+    if (run.is_null())
+        return "Run          none since the daemon started; 'axiscal arm' opens one\n";
+    std::string text =
+        "Run          " + run.at("id").get<std::string>() + ", " +
+        run.at("state").get<std::string>() +
+        format(", %d of %d points", run.at("step").get<int>(), run.at("steps").get<int>());
+    if (run.at("seconds_left").is_number())
+        text += ", " + clock_text(run.at("seconds_left")) + " left";
+    text += "\n";
+    if (status.at("run_open") == true) text += "Next         " + next_text(run) + "\n";
+    if (!run.at("sentence").get<std::string>().empty())
+        text += "FAULT        " + run.at("sentence").get<std::string>() + "\n";
+    if (!run.at("certificate").get<std::string>().empty())
+        text += "Certificate  " + run.at("certificate").get<std::string>() + "\n";
+    return text;
+}
+
+std::string channel_text(const Json& channel) {
+    const std::string unit = channel.at("unit");
+    const char* pattern = unit == "Pa" ? "%.0f" : "%.2f";
+    const std::string shown =
+        unit == "m" ? (channel.at("value").is_number()
+                           ? number_or_dashes(channel.at("value").get<double>() * 1e3, "%.6f", "mm")
+                           : "- - - mm")
+                    : number_or_dashes(channel.at("value"), pattern, unit == "degC" ? "°C" : unit);
+    const std::string age = channel.at("age_s").is_number()
+                                ? format("%.1f s", channel.at("age_s").get<double>())
+                                : "never";
+    const std::string place = channel.at("place").get<std::string>();
+    return format("  %-10s %-24s ", channel.at("instrument").get<std::string>().c_str(),
+                  channel.at("channel").get<std::string>().c_str()) +
+           shown + "  (" + channel.at("quality").get<std::string>() + ", " + age +
+           (place.empty() ? "" : ", " + place) + ")\n";
+}
+
+} // namespace
+
+std::string instruments_text(const Json& instruments) {
+    std::string text;
+    for (const Json& one : instruments) {
+        text += format("  %-10s %-12s %-11s", one.at("name").get<std::string>().c_str(),
+                       one.at("driver").get<std::string>().c_str(),
+                       one.at("state").get<std::string>().c_str());
+        const std::string who = one.at("model").get<std::string>() +
+                                (one.at("serial").get<std::string>().empty()
+                                     ? ""
+                                     : " serial " + one.at("serial").get<std::string>());
+        text +=
+            " " + who +
+            format(
+                "  samples %llu, gaps %llu, bad frames %llu, checksum errors %llu, restarts %llu\n",
+                one.at("samples").get<unsigned long long>(),
+                one.at("gaps").get<unsigned long long>(),
+                one.at("bad_frames").get<unsigned long long>(),
+                one.at("checksum_errors").get<unsigned long long>(),
+                one.at("restarts").get<unsigned long long>());
+        if (!one.at("note").get<std::string>().empty())
+            text += "             " + one.at("note").get<std::string>() + "\n";
+    }
+    return text.empty() ? "  none configured\n" : text;
+}
+
+std::string status_text(const Json& status) {
+    const Json& axis = status.at("axis");
+    std::string text = "Station      " + status.at("station").get<std::string>() + "   " +
+                       status.at("utc").get<std::string>() + "\n";
+    text += run_text(status);
+    text += "Axis " + axis.at("name").get<std::string>() + "       " +
+            number_or_dashes(axis.at("position_mm"), "%.4f", "mm") + "   deviation " +
+            number_or_dashes(axis.at("deviation_um"), "%+.2f", "µm") + "   spread " +
+            number_or_dashes(axis.at("spread_um"), "%.2f", "µm") +
+            (axis.at("still") == true ? "   still" : "   moving") + "\n";
+    if (axis.at("strength_percent").is_number())
+        text += "Strength     " + number_or_dashes(axis.at("strength_percent"), "%.0f", "%") + "\n";
+    const Json& trigger = status.at("trigger");
+    text += "Trigger      " + trigger.at("port").get<std::string>() +
+            (trigger.at("cnc_silent") == true ? "   CNC SILENT" : "") + "\n";
+    if (!trigger.at("note").get<std::string>().empty())
+        text += "             " + trigger.at("note").get<std::string>() + "\n";
+    text += "Channels\n";
+    for (const Json& channel : status.at("channels"))
+        text += channel_text(channel);
+    text += "Instruments\n" + instruments_text(status.at("instruments"));
+    text += format("Outbox       %d waiting\n", status.at("outbox_entries").get<int>());
+    for (const Json& note : status.at("notes"))
+        text += "  " + note.get<std::string>() + "\n";
+    return text;
+}
+
+std::string progress_line(const Json& status) {
+    const Json& run = status.at("run");
+    if (run.is_null()) return "no run";
+    std::string text = format("%3d/%d  ", run.at("step").get<int>(), run.at("steps").get<int>());
+    const Json& next = run.at("next");
+    if (status.at("run_open") == true && !next.is_null())
+        text += format("next P%02d %s %d  ", next.at("target").get<int>() + 1,
+                       next.at("direction") == "positive" ? "↑" : "↓",
+                       next.at("approach").get<int>() + 1);
+    text += "x " + number_or_dashes(status.at("axis").at("position_mm"), "%9.4f", "mm") +
+            "  last e " + number_or_dashes(run.at("last_deviation_um"), "%+7.2f", "µm");
+    for (const Json& channel : status.at("channels"))
+        if (channel.at("kind") == "temperature")
+            text += "  " + channel.at("medium").get<std::string>() + " " +
+                    number_or_dashes(channel.at("value"), "%.2f", "°C");
+    const Json& strength = status.at("axis").at("strength_percent");
+    if (strength.is_number()) text += "  strength " + number_or_dashes(strength, "%.0f", "%");
+    if (run.at("seconds_left").is_number()) text += "  left " + clock_text(run.at("seconds_left"));
+    if (!run.at("sentence").get<std::string>().empty())
+        text += "  " + run.at("sentence").get<std::string>();
+    return text;
+}
+
+} // namespace axiscal
