@@ -4,8 +4,9 @@
 
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/thermal_compensation.hpp"
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,20 +27,6 @@ struct EnvironmentTrace { ///< for the plot: seconds since the first point, valu
     std::vector<double> seconds, values;
 };
 
-/// What compensation did to the readings; deviations in the result's unit before and after.
-struct CompensationSummary {
-    std::string air_formula, expansion_form;
-    double refractive_index_minus_1_first = 0, refractive_index_minus_1_last = 0;
-    double material_first_degC = 0, material_last_degC = 0;
-    double expansion_per_K = 0;
-    std::optional<double> expansion_standard_uncertainty_per_K;
-    double dead_path_mm = 0, cosine_factor = 1, vacuum_wavelength_nm = 0;
-    /// per plan order: deviation with nominal vacuum->air (air corrected) but not to 20 degC, and
-    /// after.
-    std::vector<double> before, after;
-    double largest_air_correction = 0, largest_material_correction = 0; ///< result unit
-};
-
 struct Certificate {
     RunRecord run; ///< as read from the file (samples may be dropped)
     PositioningResult result;
@@ -48,7 +35,10 @@ struct Certificate {
     std::vector<EnvironmentSummary> environment;
     std::vector<EnvironmentTrace> traces;
     std::string run_file_sha256; ///< of the closed file
-    std::string result_digest;   ///< SHA-256 over the canonical bytes of parameters and positions
+    /// SHA-256 (lower-case hex) of canonical_bytes(result). Left empty by make_certificate(),
+    /// because the analysis links no hash: filled by the caller
+    /// (acquisition/publish/result_digest.hpp).
+    std::string result_digest;
     std::string started_utc, finished_utc, issued_on,
         next_due;            ///< from the run, never from the clock
     bool preliminary = true; ///< no uncertainty budget yet: "U not evaluated", "preliminary"
@@ -56,7 +46,16 @@ struct Certificate {
 };
 
 /// The whole road from a closed run to its certificate.
-/// @errors Fault::incomplete_run, environment_stale, datum_lost, bad_run_file.
+/// @errors Fault::incomplete_run (also when the run was not closed as complete), and those of
+/// compensate_to_20C().
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256);
+
+/// Every figure of the result in one fixed order, so that equal figures give equal bytes anywhere:
+/// the text "axiscal.canonical/1"; k and n; A, A_forward, A_backward, E, E_forward, E_backward, M,
+/// R, R_forward, R_backward, B, B_mean; m; then per target: target, mean_forward, mean_backward,
+/// mean, B, s_forward, s_backward, R_forward, R_backward, R. Each figure is a byte 1 and the eight
+/// IEEE-754 bytes, least significant first; an absent one is a byte 0. Counts are figures too.
+/// The journal stores the hash of these bytes when a run is evaluated; recomputing must meet it.
+std::vector<std::byte> canonical_bytes(const PositioningResult& result);
 
 } // namespace axiscal

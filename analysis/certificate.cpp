@@ -1,0 +1,207 @@
+#include "analysis/certificate.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+bool is_environment(const ChannelRecord& channel) {
+    return channel.kind != ChannelKind::displacement && channel.kind != ChannelKind::strength;
+}
+
+std::vector<EnvironmentReading> readings_of(const RunRecord& run, int channel) {
+    std::vector<EnvironmentReading> readings;
+    for (const EnvironmentReading& reading : run.environment)
+        if (reading.channel == channel) readings.push_back(reading);
+    return readings;
+}
+
+EnvironmentSummary summarise(const ChannelRecord& channel,
+                             const std::vector<EnvironmentReading>& readings) {
+    EnvironmentSummary summary;
+    summary.channel = channel.name;
+    summary.place = channel.place;
+    summary.kind = channel.kind;
+    summary.medium = channel.medium;
+    summary.readings = static_cast<int>(readings.size());
+    if (readings.empty()) return summary;
+    const auto [low, high] = std::ranges::minmax(readings, {}, &EnvironmentReading::value);
+    summary.first = readings.front().value;
+    summary.last = readings.back().value;
+    summary.minimum = low.value;
+    summary.maximum = high.value;
+    return summary;
+}
+
+EnvironmentTrace trace_of(const ChannelRecord& channel,
+                          const std::vector<EnvironmentReading>& readings,
+                          MonotonicTime origin) {
+    EnvironmentTrace trace;
+    trace.channel = channel.name;
+    trace.kind = channel.kind;
+    trace.medium = channel.medium;
+    for (const EnvironmentReading& reading : readings) {
+        trace.seconds.push_back(seconds_of(reading.at - origin));
+        trace.values.push_back(reading.value);
+    }
+    return trace;
+}
+
+/// The same day next year; 28 February stands for 29 February.
+std::string one_year_after(std::int64_t utc_ns) {
+    using namespace std::chrono;
+    const sys_time<nanoseconds> instant{nanoseconds{utc_ns}};
+    const year_month_day day{floor<days>(instant)};
+    year_month_day next = day + years{1};
+    if (!next.ok()) next = next.year() / next.month() / last;
+    const auto ns = duration_cast<nanoseconds>(sys_days{next}.time_since_epoch()).count();
+    return iso8601_utc(ns).substr(0, 10);
+}
+
+std::string list_of_steps(const std::vector<int>& steps) {
+    constexpr std::size_t most = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(steps.size(), most); ++i)
+        text += (i ? ", " : "") + std::to_string(steps[i] + 1);
+    return steps.size() > most ? text + ", ..." : text;
+}
+
+void remark_on_events(const RunRecord& run, std::vector<std::string>& remarks) {
+    const auto utc = [&](const EventRecord& event) {
+        return iso8601_utc(event.utc_ns ? event.utc_ns : run.opened.utc_ns_at(event.at));
+    };
+    for (const EventRecord& event : run.events) {
+        const std::string tail = event.text.empty() ? "." : ": " + event.text;
+        if (event.kind == EventKind::interrupted)
+            remarks.push_back("The run was interrupted at " + utc(event) + tail);
+        else if (event.kind == EventKind::resumed)
+            remarks.push_back("The run was resumed at " + utc(event) + tail);
+        else if (event.kind == EventKind::skipped)
+            remarks.push_back("Skipped at " + utc(event) + tail);
+    }
+}
+
+void remark_on_manual_points(const RunRecord& run, std::vector<std::string>& remarks) {
+    std::vector<int> steps;
+    for (const PointRecord& point : run.points)
+        if (point.origin == TriggerOrigin::manual) steps.push_back(point.planned.step);
+    if (steps.empty()) return;
+    remarks.push_back(std::to_string(steps.size()) + " of " + std::to_string(run.points.size()) +
+                      " points were captured by hand (steps " + list_of_steps(steps) + ").");
+}
+
+std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSummary& summary) {
+    std::vector<std::string> remarks;
+    if (!run.plan.remark.empty()) remarks.push_back(run.plan.remark);
+    if (run.plan.pass == "stretch")
+        remarks.emplace_back("This pass covers a stretch of the axis in its working area, tested "
+                             "like a short axis.");
+    if (run.plan.cycle == CycleKind::step)
+        remarks.emplace_back("Step cycle: all approaches of a target follow each other, which "
+                             "hides slow drift.");
+    remark_on_events(run, remarks);
+    remark_on_manual_points(run, remarks);
+    for (const std::string& remark : summary.remarks)
+        remarks.push_back(remark);
+    return remarks;
+}
+
+void fill_environment(Certificate& certificate) {
+    const RunRecord& run = certificate.run;
+    const MonotonicTime origin = run.points.front().window_begin;
+    for (const ChannelRecord& channel : run.channels) {
+        if (!is_environment(channel)) continue;
+        const auto readings = readings_of(run, channel.id);
+        certificate.environment.push_back(summarise(channel, readings));
+        certificate.traces.push_back(trace_of(channel, readings, origin));
+    }
+}
+
+void fill_dates(Certificate& certificate) {
+    const RunRecord& run = certificate.run;
+    certificate.started_utc = iso8601_utc(run.opened.utc_ns);
+    certificate.finished_utc = iso8601_utc(run.closed.utc_ns);
+    certificate.issued_on = certificate.finished_utc.substr(0, 10);
+    certificate.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
+                                                           : run.statements.next_due;
+}
+
+/// Appends figures in the form of canonical_bytes(). Pure.
+class CanonicalWriter {
+public:
+    void text(std::string_view words) {
+        for (const char c : words)
+            bytes_.push_back(static_cast<std::byte>(c));
+    }
+    void figure(double value) {
+        bytes_.push_back(std::byte{1});
+        const auto bits = std::bit_cast<std::uint64_t>(value);
+        for (unsigned shift = 0; shift < 64; shift += 8)
+            bytes_.push_back(static_cast<std::byte>(bits >> shift & 0xffu));
+    }
+    void figure(const std::optional<double>& value) {
+        if (value) return figure(*value);
+        bytes_.push_back(std::byte{0});
+    }
+    [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+} // namespace
+
+Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256) {
+    if (!run.complete)
+        return fail(Fault::incomplete_run,
+                    "the run was not closed as complete" +
+                        (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
+    AXISCAL_TRY(Compensated compensated, compensate_to_20C(run));
+    PositioningResult result = evaluate_positioning(compensated.deviations);
+    Certificate certificate{std::move(run),
+                            std::move(result),
+                            std::move(compensated.deviations),
+                            std::move(compensated.summary),
+                            {},
+                            {},
+                            std::move(run_file_sha256),
+                            {},
+                            {},
+                            {},
+                            {},
+                            {},
+                            true,
+                            {}};
+    fill_environment(certificate);
+    fill_dates(certificate);
+    certificate.remarks = remarks_on(certificate.run, certificate.compensation);
+    return certificate;
+}
+
+std::vector<std::byte> canonical_bytes(const PositioningResult& result) {
+    CanonicalWriter out;
+    out.text("axiscal.canonical/1");
+    out.figure(result.cover_factor);
+    out.figure(static_cast<double>(result.approaches));
+    const PositioningParameters& p = result.parameters;
+    for (const auto& figure : {p.A, p.A_forward, p.A_backward, p.E, p.E_forward, p.E_backward, p.M,
+                               p.R, p.R_forward, p.R_backward, p.B, p.B_mean})
+        out.figure(figure);
+    out.figure(static_cast<double>(result.positions.size()));
+    for (const PositionRow& row : result.positions) {
+        out.figure(row.target);
+        out.figure(row.mean_forward);
+        for (const auto& figure :
+             {row.mean_backward, row.mean, row.reversal, row.s_forward, row.s_backward,
+              row.repeatability_forward, row.repeatability_backward, row.repeatability})
+            out.figure(figure);
+    }
+    return out.take();
+}
+
+} // namespace axiscal

@@ -1,0 +1,231 @@
+#include "analysis/thermal_compensation.hpp"
+
+#include "analysis/air_refraction.hpp"
+#include "analysis/environment_history.hpp"
+#include "analysis/run_at_20C_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+MonotonicTime middle_of_window(const PointRecord& point) {
+    return point.window_begin + (point.window_end - point.window_begin) / 2;
+}
+
+/// The decimal that the operator gave, where the Length holds just that: 123.456 instead of
+/// 123.45600000000002.
+double millimetres_as_given(Length length) {
+    const double plain = length.in(mm);
+    const double decimal = std::round(plain * 1e7) / 1e7;
+    return mm(decimal) == length ? decimal : plain;
+}
+
+Result<void> check_setup(const RunRecord& run) {
+    if (run.plan.axis_kind == AxisKind::rotary)
+        return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
+    if (run.laser.sign != 1 && run.laser.sign != -1)
+        return fail(Fault::bad_run_file, "the sign of the laser is neither +1 nor -1");
+    if (!(run.laser.dead_path >= Length{}))
+        return fail(Fault::bad_run_file, "the dead path of the laser is negative");
+    if (!std::isfinite(run.material.coefficient.si()))
+        return fail(Fault::bad_run_file, "the expansion coefficient is not a number");
+    return {};
+}
+
+/// One point on its way: axis coordinates in the three stages.
+struct CompensatedPoint {
+    Length uncorrected;   ///< as if in vacuum
+    Length air_corrected; ///< in air, along the axis
+    Length at_20C;
+    double n_minus_1 = 0;
+    Temperature material;
+};
+
+/// Carries what is the same for all points of a run, and gathers the remarks. Pure.
+class Compensation {
+public:
+    Compensation(const RunRecord& run, const DatumRecord& datum)
+        : run_{run}
+        , datum_{datum}
+        , environment_{run}
+        , cosine_factor_{cosine_factor_of(run.laser)} {}
+
+    /// Must come first: the dead path needs the index at the datum.
+    Result<void> tie_datum() {
+        AXISCAL_TRY(n_minus_1_at_datum_, refractivity_at(datum_.at, "the datum"));
+        return {};
+    }
+
+    Result<CompensatedPoint> apply(const PointRecord& point) {
+        const std::string what = "step " + std::to_string(point.planned.step + 1);
+        const MonotonicTime at = middle_of_window(point);
+        if (!std::isfinite(point.reading.si()))
+            return fail(Fault::bad_run_file, what + ": the reading is not a number");
+        CompensatedPoint out;
+        AXISCAL_TRY(out.n_minus_1, refractivity_at(at, what));
+        AXISCAL_TRY(out.material, environment_.material_at(at, what));
+        const Length vacuum = point.reading - datum_.reading;
+        const Length in_air =
+            displacement_in_air(vacuum, out.n_minus_1, n_minus_1_at_datum_, run_.laser.dead_path) *
+            cosine_factor_;
+        out.uncorrected = coordinate_of(vacuum * cosine_factor_);
+        out.air_corrected = coordinate_of(in_air);
+        out.at_20C = coordinate_of(displacement_at_20C(in_air, run_.material.coefficient,
+                                                       out.material, run_.material.form));
+        return out;
+    }
+
+    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+
+private:
+    Result<double> refractivity_at(MonotonicTime at, const std::string& what) {
+        AXISCAL_TRY(const AirState air, environment_.air_at(at, what));
+        const auto found = refractivity_of(run_.air.formula, air);
+        if (!found)
+            return fail(Fault::bad_run_file,
+                        what + ": " + found.error().field + " " + found.error().detail);
+        for (const std::string& remark : found->remarks)
+            if (std::ranges::find(remarks_, remark) == remarks_.end()) remarks_.push_back(remark);
+        return found->n_minus_1;
+    }
+
+    [[nodiscard]] Length coordinate_of(Length displacement) const {
+        return datum_.coordinate + (run_.laser.sign > 0 ? displacement : -displacement);
+    }
+
+    const RunRecord& run_;
+    const DatumRecord& datum_;
+    EnvironmentHistory environment_;
+    double n_minus_1_at_datum_ = 0;
+    double cosine_factor_;
+    std::vector<std::string> remarks_;
+};
+
+CompensationSummary summary_of_setup(const RunRecord& run) {
+    CompensationSummary summary;
+    summary.air_formula = name_of(run.air.formula);
+    summary.expansion_form = name_of(run.material.form);
+    summary.expansion_per_K = run.material.coefficient.si();
+    if (run.material.standard_uncertainty)
+        summary.expansion_standard_uncertainty_per_K = run.material.standard_uncertainty->si();
+    summary.dead_path_mm = run.laser.dead_path.in(mm);
+    summary.cosine_factor = cosine_factor_of(run.laser);
+    summary.vacuum_wavelength_nm = run.laser.vacuum_wavelength.in(nm);
+    return summary;
+}
+
+void add_to_summary(CompensationSummary& summary, const CompensatedPoint& point, Length target) {
+    if (summary.after.empty()) {
+        summary.refractive_index_minus_1_first = point.n_minus_1;
+        summary.material_first_degC = point.material.in_celsius();
+    }
+    summary.refractive_index_minus_1_last = point.n_minus_1;
+    summary.material_last_degC = point.material.in_celsius();
+    summary.before.push_back((point.air_corrected - target).in(mm));
+    summary.after.push_back((point.at_20C - target).in(mm));
+    const double air_mm = abs(point.air_corrected - point.uncorrected).in(mm);
+    const double material_mm = abs(point.at_20C - point.air_corrected).in(mm);
+    summary.largest_air_correction = std::max(summary.largest_air_correction, air_mm);
+    summary.largest_material_correction =
+        std::max(summary.largest_material_correction, material_mm);
+}
+
+DeviationTable empty_table_of(const RunPlan& plan) {
+    DeviationTable table;
+    for (const Length target : plan.targets)
+        table.targets.push_back(millimetres_as_given(target));
+    const std::vector<double> row(static_cast<std::size_t>(plan.approaches));
+    table.forward.assign(plan.targets.size(), row);
+    if (plan.bidirectional) table.backward.assign(plan.targets.size(), row);
+    return table;
+}
+
+/// Every cell of the table is planned exactly once, and nothing else is.
+Result<void> check_cells(const RunPlan& plan) {
+    const std::size_t directions = plan.bidirectional ? 2 : 1;
+    std::vector<int> seen(plan.targets.size() * directions *
+                          static_cast<std::size_t>(std::max(plan.approaches, 0)));
+    for (const PlannedPoint& point : plan.points) {
+        const bool known = point.target_index >= 0 &&
+                           static_cast<std::size_t>(point.target_index) < plan.targets.size() &&
+                           point.approach >= 0 && point.approach < plan.approaches &&
+                           (plan.bidirectional || point.direction == Direction::positive);
+        if (!known)
+            return fail(Fault::bad_run_file, "step " + std::to_string(point.step + 1) +
+                                                 " of the plan lies outside its table");
+        const std::size_t side = point.direction == Direction::positive ? 0 : directions - 1;
+        const std::size_t row = static_cast<std::size_t>(point.target_index) * directions + side;
+        ++seen[row * static_cast<std::size_t>(plan.approaches) +
+               static_cast<std::size_t>(point.approach)];
+    }
+    if (seen.empty() || std::ranges::any_of(seen, [](int count) { return count != 1; }))
+        return fail(Fault::bad_run_file,
+                    "the plan does not hold every approach of every target exactly once");
+    return {};
+}
+
+/// The datum of a run that may be compensated.
+Result<const DatumRecord*> checked_datum_of(const RunRecord& run) {
+    for (const auto& check : {check_complete(run), check_setup(run), check_cells(run.plan)})
+        if (!check) return tl::unexpected(check.error());
+    const std::string& id = run.points.front().datum_id;
+    const auto datum = std::ranges::find(run.datums, id, &DatumRecord::id);
+    if (datum == run.datums.end())
+        return fail(Fault::bad_run_file, "the datum '" + id + "' is not in the run file");
+    if (!std::isfinite(datum->reading.si()) || !std::isfinite(datum->coordinate.si()))
+        return fail(Fault::bad_run_file, "the datum '" + id + "' is not a number");
+    return &*datum;
+}
+
+void place(DeviationTable& table, const PlannedPoint& planned, double deviation) {
+    auto& rows = planned.direction == Direction::positive ? table.forward : table.backward;
+    rows[static_cast<std::size_t>(planned.target_index)]
+        [static_cast<std::size_t>(planned.approach)] = deviation;
+}
+
+} // namespace
+
+Length displacement_in_air(Length vacuum_displacement,
+                           double n_minus_1,
+                           double n_minus_1_at_datum,
+                           Length dead_path) {
+    return (vacuum_displacement - dead_path * (n_minus_1 - n_minus_1_at_datum)) / (1 + n_minus_1);
+}
+
+double cosine_factor_of(const LaserSetup& laser) {
+    if (!(laser.beam_walk_travel > Length{})) return 1;
+    const double tangent = laser.beam_walk / (laser.beam_walk_travel * 2);
+    return std::sqrt(1 + tangent * tangent);
+}
+
+Length displacement_at_20C(Length displacement,
+                           Expansion coefficient,
+                           Temperature material,
+                           ExpansionForm form) {
+    const double strain = (coefficient * (material - reference_temperature)).si();
+    return form == ExpansionForm::exact ? displacement / (1 + strain)
+                                        : displacement - displacement * strain;
+}
+
+Result<Compensated> compensate_to_20C(const RunRecord& run) {
+    AXISCAL_TRY(const DatumRecord* datum, checked_datum_of(run));
+    Compensation compensation{run, *datum};
+    if (auto tied = compensation.tie_datum(); !tied) return tl::unexpected(tied.error());
+    CompensationSummary summary = summary_of_setup(run);
+    DeviationTable table = empty_table_of(run.plan);
+    for (const PointRecord& point : run.points) {
+        AXISCAL_TRY(const CompensatedPoint compensated, compensation.apply(point));
+        const auto index = static_cast<std::size_t>(point.planned.target_index);
+        add_to_summary(summary, compensated, run.plan.targets[index]);
+        place(table, point.planned, summary.after.back());
+    }
+    summary.remarks = compensation.remarks();
+    return Compensated{RunAt20CMaker::make(std::move(table), "compensated_to_20C"),
+                       std::move(summary)};
+}
+
+} // namespace axiscal
