@@ -1,0 +1,178 @@
+#include "acquisition/run/pass_targets.hpp"
+
+#include "acquisition/capture/wording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+Length whole_steps_above(Length length) {
+    return target_step * std::ceil(length / target_step - 1e-6);
+}
+
+Result<Length> interval_of(const Pass& pass) {
+    const auto& config = pass.config;
+    if (!config.interval && !config.target_count)
+        return refuse_plan("interval", "Give a list of targets, an interval, or a target count.");
+    if (config.target_count && *config.target_count < 2)
+        return refuse_plan("target_count", "At least 2 targets are needed.");
+    if (!config.interval)
+        return whole_steps_below((highest(pass) - lowest(pass) - target_step) /
+                                 (*config.target_count - 1 + 2 * random_share));
+    return whole_steps_below(*config.interval);
+}
+
+Result<PassTargets> draw_targets(const Pass& pass) {
+    const auto& config = pass.config;
+    AXISCAL_TRY(const Length interval, interval_of(pass));
+    if (interval < 10 * target_step)
+        return refuse_plan("interval", "An interval of " + in_unit(config, interval) +
+                                           " is too small to draw a random part.");
+    const auto reach = interval * random_share;
+    const auto low = lowest(pass), high = highest(pass);
+    const auto first = config.first_target.value_or(whole_steps_above(low + reach));
+    const double steps_that_fit = (high - reach - first) / interval;
+    const int fit = static_cast<int>(std::floor(steps_that_fit + 1e-6)) + 1;
+    const int count = config.target_count.value_or(fit);
+    if (first - reach < low - rounding)
+        return refuse_plan("first_target", "The first target may fall to " +
+                                               in_unit(config, first - reach) +
+                                               "; with its overrun the lowest possible is " +
+                                               in_unit(config, low) + ".");
+    if (count > fit)
+        return refuse_plan(
+            "target_count",
+            std::to_string(count) + " targets at intervals of " + in_unit(config, interval) +
+                " reach up to " + in_unit(config, first + interval * (count - 1) + reach) +
+                "; with the overrun the highest possible is " + in_unit(config, high) + ": " +
+                std::to_string(std::max(fit, 0)) + " fit.");
+    if (config.cycle == CycleKind::standard && config.overrun > (1 - 2 * random_share) * interval)
+        return refuse_plan("overrun", "An overrun of " + in_unit(config, config.overrun) +
+                                          " is longer than the shortest way between two targets, "
+                                          "0.4 of the interval: take an interval of " +
+                                          in_unit(config, config.overrun / 0.4) + " or more.");
+    return PassTargets{spread_targets(first, interval, count, pass.seed), interval, pass.seed};
+}
+
+Result<PassTargets> listed_targets(const Pass& pass) {
+    const auto& config = pass.config;
+    PassTargets targets;
+    for (const auto target : *config.targets) {
+        const auto place = "targets[" + std::to_string(targets.positions.size()) + "]";
+        if (target < config.travel_low - rounding || target > config.travel_high + rounding)
+            return refuse_plan(place, "The target " + in_unit(config, target) +
+                                          " lies outside the travel from " +
+                                          in_unit(config, config.travel_low) + " to " +
+                                          in_unit(config, config.travel_high) + ".");
+        if (target < pass.begin - rounding || target > pass.end + rounding) continue;
+        if (!targets.positions.empty() && target <= targets.positions.back())
+            return refuse_plan(place, "The target " + in_unit(config, target) +
+                                          " does not lie above the one before it, " +
+                                          in_unit(config, targets.positions.back()) + ".");
+        targets.positions.push_back(target);
+    }
+    const auto count = targets.positions.size();
+    if (count < 2)
+        return refuse_plan("targets", "Only " + counted(static_cast<long>(count), "target") +
+                                          " of the list can be used.");
+    targets.interval =
+        (targets.positions.back() - targets.positions.front()) / static_cast<double>(count - 1);
+    return targets;
+}
+
+Result<void> check_overrun(const Pass& pass, const PassTargets& targets) {
+    const auto& config = pass.config;
+    const auto end_refusal = [&](Length target, Length end, const char* which) {
+        return refuse_plan(
+            "overrun", "From the " + std::string{which} + " target at " + in_unit(config, target) +
+                           " an overrun of " + in_unit(config, config.overrun) +
+                           " leaves the travel, which ends at " + in_unit(config, end) + ".");
+    };
+    const auto first = targets.positions.front(), last = targets.positions.back();
+    if (first - config.overrun < config.travel_low - rounding)
+        return end_refusal(first, config.travel_low, "first");
+    if (last + config.overrun > config.travel_high + rounding)
+        return end_refusal(last, config.travel_high, "last");
+    const auto spacing = smallest_spacing(targets.positions);
+    if (config.cycle == CycleKind::standard && spacing < config.overrun - rounding)
+        return refuse_plan("overrun", "Two targets are only " + in_unit(config, spacing) +
+                                          " apart, less than the overrun of " +
+                                          in_unit(config, config.overrun) +
+                                          ": the approach could not be seen.");
+    return {};
+}
+
+/// Over 2000 mm (360 degrees) the mean interval rules, and both ends must be reached.
+Result<void> check_long_pass(const Pass& pass, const PassTargets& targets, Length limit) {
+    const auto& config = pass.config;
+    if (targets.interval > limit + rounding)
+        return refuse_plan("interval", "The mean interval of " + in_unit(config, targets.interval) +
+                                           " exceeds " + in_unit(config, limit) +
+                                           ", the most for this travel.");
+    // 1.6 intervals: what a random first and last target may leave free at most.
+    const auto free_end = limit * 1.6 + config.overrun;
+    const auto below = targets.positions.front() - pass.begin;
+    const auto above = pass.end - targets.positions.back();
+    if (std::max(below, above) > free_end + rounding)
+        return refuse_plan("targets", "The targets leave " +
+                                          in_unit(config, std::max(below, above)) +
+                                          " at one end of the travel untested, at most " +
+                                          in_unit(config, free_end) + " are allowed.");
+    return {};
+}
+
+Result<void> check_standard(const Pass& pass, const PassTargets& targets) {
+    const auto& config = pass.config;
+    const bool rotary = config.axis_kind == AxisKind::rotary;
+    const auto travel = pass.end - pass.begin;
+    if (travel > (rotary ? full_turn : long_axis) + rounding)
+        return check_long_pass(pass, targets, rotary ? turn_interval : long_interval);
+    const int least = least_targets(config.axis_kind, travel);
+    const auto count = static_cast<int>(targets.positions.size());
+    if (count >= least) return {};
+    return refuse_plan("targets", counted(count, "target") + " on " + in_unit(config, travel) +
+                                      ": the standard asks for at least " + std::to_string(least) +
+                                      "; take a smaller interval or more targets.");
+}
+
+} // namespace
+
+std::string in_unit(const CycleConfig& config, Length length) {
+    return plain_number(length.in(mm), 3) +
+           (config.axis_kind == AxisKind::rotary ? " degree" : " mm");
+}
+
+tl::unexpected<Error> refuse_plan(std::string field, std::string reason) {
+    return refuse(Fault::bad_configuration, std::move(field), std::move(reason));
+}
+
+Length whole_steps_below(Length length) {
+    return target_step * std::floor(length / target_step + 1e-6);
+}
+Length lowest(const Pass& pass) {
+    return std::max(pass.begin, pass.config.travel_low + pass.config.overrun);
+}
+Length highest(const Pass& pass) {
+    return std::min(pass.end, pass.config.travel_high - pass.config.overrun);
+}
+
+int least_targets(AxisKind kind, Length travel) {
+    if (kind == AxisKind::rotary) {
+        const double degrees = (travel - rounding).in(mm);
+        return degrees <= 90 ? 3 : degrees <= 180 ? 5 : degrees <= 360 ? 8 : 2;
+    }
+    if (travel > long_axis + rounding) return 2;
+    return std::max(5, static_cast<int>(std::ceil(5 * (travel - rounding).in(metre))));
+}
+
+Result<PassTargets> targets_of(const Pass& pass) {
+    AXISCAL_TRY(auto targets, pass.config.targets ? listed_targets(pass) : draw_targets(pass));
+    const auto checked =
+        check_standard(pass, targets).and_then([&] { return check_overrun(pass, targets); });
+    if (!checked) return tl::unexpected<Error>(checked.error());
+    return targets;
+}
+
+} // namespace axiscal
