@@ -17,6 +17,10 @@ struct ChannelConfig {
     std::optional<Medium> medium; ///< air | material, as stated; checked against the use
     std::string place;            ///< "spindle nose", "table left"
     double correction = 0;        ///< added, in stored_unit_of(kind)
+    /// Unit in which the correction counts ("degC", "Pa", "%", "ppm"), to be compared with the
+    /// driver's kind; empty when none is stated.
+    std::string correction_unit;
+    int line = 0; ///< in the station file, for messages
 };
 
 struct InstrumentConfig {

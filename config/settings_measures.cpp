@@ -18,11 +18,12 @@ double Settings::Impl::measure_node(const std::string& key,
                                     const TomlNode& value,
                                     const Measure& measure,
                                     Range range,
+                                    double stand_in,
                                     UnitName* unit) {
     const std::string example = quoted(example_of(measure, range.low, range.high));
     const auto refuse_here = [&](std::string reason) {
         state->refuse(joined_path(path, key), value.line, std::move(reason));
-        return range.low;
+        return stand_in;
     };
     const std::string way_out = "; units: " + list_units(measure) + "; for example " + example;
     if (std::holds_alternative<std::int64_t>(value.value) ||
@@ -49,10 +50,10 @@ double Settings::Impl::measured(std::string_view key,
                                 std::optional<double> fallback,
                                 UnitName* unit) {
     const TomlNode* value = ask(key);
-    if (value) return measure_node(std::string{key}, *value, measure, range, unit);
-    if (fallback) return *fallback;
-    refuse_missing(key, quoted(example_of(measure, range.low, range.high)));
-    return range.low;
+    const double stand_in = fallback.value_or(range.low);
+    if (value) return measure_node(std::string{key}, *value, measure, range, stand_in, unit);
+    if (!fallback) refuse_missing(key, quoted(example_of(measure, range.low, range.high)));
+    return stand_in;
 }
 
 std::vector<Length> Settings::Impl::measured_list(std::string_view key,
@@ -69,7 +70,7 @@ std::vector<Length> Settings::Impl::measured_list(std::string_view key,
     for (std::size_t i = 0; i < items->size(); ++i) {
         const std::string place = std::string{key} + "[" + std::to_string(i) + "]";
         lengths.push_back(
-            Length::from_si(measure_node(place, (*items)[i], measure, range, nullptr)));
+            Length::from_si(measure_node(place, (*items)[i], measure, range, range.low)));
         if (state->refused.contains(joined_path(path, place)))
             state->refused.insert(joined_path(path, key));
     }

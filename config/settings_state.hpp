@@ -46,11 +46,12 @@ struct Settings::Impl {
     struct Range {
         double low, high;
     };
-    /// One measured value at `key` (an element of a list: "targets[3]"), or the refusal's stand-in.
+    /// One measured value at `key` (an element of a list: "targets[3]"); `stand_in` when refused.
     double measure_node(const std::string& key,
                         const TomlNode& value,
                         const Measure& measure,
                         Range range,
+                        double stand_in,
                         UnitName* unit = nullptr);
     double measured(std::string_view key,
                     const Measure& measure,

@@ -123,6 +123,8 @@ struct StationConfig {
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.
     std::vector<Settings> instrument_options;
+    /// What a person should know although it is allowed (a single material sensor); by line.
+    std::vector<Refusal> warnings;
 };
 
 /// Reads every key of the station but the drivers' own. Refusals stay in `document`; the returned

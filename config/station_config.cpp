@@ -1,0 +1,119 @@
+#include "config/station_readers.hpp"
+
+#include <algorithm>
+#include <arpa/inet.h>
+
+namespace axiscal {
+namespace {
+
+constexpr std::size_t longest_socket_path = 107; ///< bytes, sun_path without its end
+
+ConsoleConfig read_console(Settings console) {
+    const ConsoleConfig usual;
+    ConsoleConfig config;
+    config.socket_path = read_absolute_path(console, "socket", usual.socket_path);
+    if (config.socket_path.size() > longest_socket_path)
+        console.refuse("socket", "is longer than the 107 bytes that a Unix socket can have");
+    config.group = console.text("group", usual.group);
+    config.host = read_address(console, "host", usual.host);
+    config.port = static_cast<int>(console.integer("port", 0, 65535, usual.port));
+    config.allowed_hosts = console.texts("allowed_hosts", usual.allowed_hosts);
+    return config;
+}
+
+PublishConfig read_publish(Settings publish) {
+    using namespace std::chrono_literals;
+    PublishConfig config;
+    const std::string place = publish.text("destination", "");
+    if (!place.empty()) config.destination = read_absolute_path(publish, "destination");
+    config.retry = publish.duration("retry", 100ms, 1h, config.retry);
+    return config;
+}
+
+void read_place(Settings station, StationConfig& config) {
+    config.station = station.text("name", config.station);
+    config.state_directory = read_absolute_path(station, "state_directory", config.state_directory);
+}
+
+} // namespace
+
+Length AxisUnits::coordinate(Settings& table,
+                             std::string_view key,
+                             Length low,
+                             Length high,
+                             std::optional<Length> fallback) const {
+    return rotary_ ? table.rotary_length(key, low, high, fallback)
+                   : table.length(key, low, high, fallback);
+}
+
+std::optional<Length> AxisUnits::optional_coordinate(Settings& table,
+                                                     std::string_view key,
+                                                     Length low,
+                                                     Length high) const {
+    if (!table.has(key)) return std::nullopt;
+    return coordinate(table, key, low, high);
+}
+
+std::vector<Length>
+AxisUnits::coordinates(Settings& table, std::string_view key, Length low, Length high) const {
+    return rotary_ ? table.rotary_lengths(key, low, high) : table.lengths(key, low, high);
+}
+
+Speed AxisUnits::speed(Settings& table,
+                       std::string_view key,
+                       Speed low,
+                       Speed high,
+                       std::optional<Speed> fallback) const {
+    return rotary_ ? table.rotary_speed(key, low, high, fallback)
+                   : table.speed(key, low, high, fallback);
+}
+
+std::string AxisUnits::write_speed(Speed speed) const {
+    return write_number(speed.in(mm_per_minute)) + (rotary_ ? " deg/min" : " mm/min");
+}
+
+std::string
+read_address(Settings& table, std::string_view key, std::optional<std::string> fallback) {
+    std::string host = table.text(key, std::move(fallback));
+    in6_addr buffer{};
+    const bool known = inet_pton(AF_INET, host.c_str(), &buffer) == 1 ||
+                       inet_pton(AF_INET6, host.c_str(), &buffer) == 1;
+    if (!known && !table.refused(key))
+        table.refuse(key, "\"" + host +
+                              "\" is no address: write \"127.0.0.1\" for this PC only, or the "
+                              "address of one of its network cards");
+    return host;
+}
+
+std::string
+read_absolute_path(Settings& table, std::string_view key, std::optional<std::string> fallback) {
+    std::string path = table.text(key, std::move(fallback));
+    if (!path.starts_with('/') && !table.refused(key))
+        table.refuse(key, "\"" + path + "\" is no whole path: begin it with /");
+    return path;
+}
+
+StationConfig read_station(SettingsDocument& document) {
+    Settings root = document.root();
+    StationConfig config;
+    config.file = document.name();
+    config.text = document.source_text();
+    read_place(root.table("station"), config);
+    read_instruments(root, config);
+    Settings axis = root.table("axis");
+    const bool rotary = axis.choice("kind", {"linear", "rotary"}) == "rotary";
+    config.cycle.axis_kind = rotary ? AxisKind::rotary : AxisKind::linear;
+    const AxisUnits units{config.cycle.axis_kind};
+    read_axis(axis, units, config);
+    read_cycle(root.table("cycle"), units, config.cycle);
+    read_capture(root.table("capture"), units, config.cycle, config.capture);
+    read_trigger(root.table("trigger"), units, config.trigger);
+    config.console = read_console(root.table("console"));
+    config.publish = read_publish(root.table("publish"));
+    config.statements = read_statements(root.table("certificate"), units, config);
+    std::stable_sort(config.warnings.begin(), config.warnings.end(),
+                     [](const Refusal& a, const Refusal& b) { return a.line < b.line; });
+    return config;
+}
+
+} // namespace axiscal

@@ -1,0 +1,81 @@
+#include "config/station_readers.hpp"
+
+namespace axiscal {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Speed slowest = mm_per_minute(0.1), light_axis = metre_per_second(20);
+
+void read_targets(Settings cycle, AxisUnits units, CycleConfig& config) {
+    const bool list = cycle.has("targets"), grid = cycle.has("interval");
+    if (list) config.targets = units.coordinates(cycle, "targets", -farthest, farthest);
+    config.interval = units.optional_coordinate(cycle, "interval", mm(0.01), metre(10));
+    config.first_target = units.optional_coordinate(cycle, "first_target", -farthest, farthest);
+    if (cycle.has("target_count"))
+        config.target_count = static_cast<int>(cycle.integer("target_count", 2, 1000));
+    if (cycle.has("seed"))
+        config.seed = static_cast<std::uint64_t>(cycle.integer("seed", 0, INT64_MAX));
+    if (list && grid)
+        cycle.refuse("interval", "stands beside targets: give the list, or the interval, not both");
+    if (!list && !grid)
+        cycle.refuse(
+            "interval",
+            "is missing: give interval = \"100 mm\" (targets are then placed with a random "
+            "part), or a list: targets = [\"0 mm\", \"97.3 mm\", ...]");
+    for (const char* key : {"first_target", "target_count", "seed"})
+        if (list && !grid && cycle.has(key))
+            cycle.refuse(key, "belongs to interval, not to a list of targets: remove it");
+}
+
+} // namespace
+
+void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config) {
+    const std::string kind = cycle.choice("kind", {"standard", "step"}, "standard");
+    config.cycle = kind == "step" ? CycleKind::step : CycleKind::standard;
+    read_targets(cycle, units, config);
+    config.approaches = static_cast<int>(cycle.integer("approaches", 1, 50, config.approaches));
+    config.bidirectional = cycle.flag("bidirectional", config.bidirectional);
+    config.overrun = units.coordinate(cycle, "overrun", mm(0.01), metre(1));
+    config.near_tolerance = units.optional_coordinate(cycle, "near_tolerance", um(1), mm(10));
+    config.datum = units.optional_coordinate(cycle, "datum", -farthest, farthest);
+    config.feed = units.speed(cycle, "feed", slowest, light_axis);
+    config.dwell = cycle.duration("dwell", 100ms, 10min, config.dwell);
+    if (cycle.has("stretch_declined")) {
+        config.stretch_declined = cycle.text("stretch_declined");
+        if (config.stretch_declined->empty() && !cycle.refused("stretch_declined"))
+            cycle.refuse("stretch_declined", "needs the reason: it is printed");
+    }
+    config.stretch_begin = units.optional_coordinate(cycle, "stretch_begin", -farthest, farthest);
+    if (config.stretch_begin && config.stretch_declined)
+        cycle.refuse("stretch_begin", "contradicts stretch_declined: keep one of them");
+}
+
+void read_capture(Settings capture,
+                  AxisUnits units,
+                  const CycleConfig& cycle,
+                  CaptureConfig& config) {
+    config.window = capture.duration("window", 10ms, 60s, config.window);
+    config.spread_limit = units.coordinate(capture, "spread_limit", nm(1), mm(1));
+    const Speed slope =
+        units.speed(capture, "slope_limit", metre_per_second(1e-9), metre_per_second(1e-3),
+                    metre_per_second(config.slope_limit_um_per_s * 1e-6));
+    config.slope_limit_um_per_s = slope.si() / 1e-6;
+    config.timeout = capture.duration("timeout", 100ms, 10min, config.timeout);
+    config.history = capture.duration("history", 10s, 1h, config.history);
+    config.minimum_samples =
+        static_cast<int>(capture.integer("minimum_samples", 2, 100'000, config.minimum_samples));
+    config.fastest = units.speed(capture, "fastest", slowest, light_axis);
+    if (!capture.refused("timeout") && config.timeout < config.window)
+        capture.refuse("timeout", "is shorter than window: no window could ever be complete");
+    if (!capture.refused("history") && config.history < 2 * config.window)
+        capture.refuse("history", "is shorter than two windows: make it some minutes");
+    if (!capture.refused("window") && cycle.dwell < config.window)
+        capture.refuse("window", "is longer than cycle.dwell: the axis would not stand that long");
+    if (!capture.refused("fastest") && config.fastest < cycle.feed)
+        capture.refuse(
+            "fastest",
+            "is below cycle.feed: state the rapid traverse of the axis, with some spare");
+}
+
+} // namespace axiscal

@@ -1,0 +1,58 @@
+#pragma once
+// The station file table by table. Internal to config/. Pure.
+
+#include "config/measure.hpp"
+#include "config/station_config.hpp"
+
+namespace axiscal {
+
+/// Coordinates in the axis's own unit: mm on a linear axis, deg on a rotary one, where 1 mm stands
+/// for 1 degree (RunPlan).
+class AxisUnits {
+public:
+    explicit AxisUnits(AxisKind kind)
+        : rotary_{kind == AxisKind::rotary} {}
+    Length coordinate(Settings& table,
+                      std::string_view key,
+                      Length low,
+                      Length high,
+                      std::optional<Length> fallback = {}) const;
+    std::optional<Length>
+    optional_coordinate(Settings& table, std::string_view key, Length low, Length high) const;
+    std::vector<Length>
+    coordinates(Settings& table, std::string_view key, Length low, Length high) const;
+    Speed speed(Settings& table,
+                std::string_view key,
+                Speed low,
+                Speed high,
+                std::optional<Speed> fallback = {}) const;
+    /// "1000 mm/min" | "360 deg/min"
+    [[nodiscard]] std::string write_speed(Speed speed) const;
+
+private:
+    bool rotary_;
+};
+
+/// Beyond any axis: 100 m, or 100 000 degrees.
+inline constexpr Length farthest = metre(100);
+
+/// Fills config.instruments and config.instrument_options.
+void read_instruments(Settings root, StationConfig& config);
+/// After the instruments, which its roles name. Travel and kind go to config.cycle.
+void read_axis(Settings axis, AxisUnits units, StationConfig& config);
+void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config);
+void read_capture(Settings capture,
+                  AxisUnits units,
+                  const CycleConfig& cycle,
+                  CaptureConfig& config);
+void read_trigger(Settings trigger, AxisUnits units, TriggerConfig& config);
+Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
+
+/// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.
+std::string
+read_address(Settings& table, std::string_view key, std::optional<std::string> fallback = {});
+/// "/run/..."; refuses a path that depends on where the daemon was started.
+std::string
+read_absolute_path(Settings& table, std::string_view key, std::optional<std::string> fallback = {});
+
+} // namespace axiscal

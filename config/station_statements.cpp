@@ -1,0 +1,43 @@
+#include "config/station_readers.hpp"
+
+namespace axiscal {
+namespace {
+
+void read_people(Settings& certificate, Statements& stated) {
+    stated.certificate_number = certificate.text("number", "");
+    stated.laboratory = certificate.text("laboratory", "");
+    stated.customer = certificate.text("customer", "");
+    stated.place = certificate.text("place", "");
+    stated.operator_name = certificate.text("operator", "");
+    stated.approver = certificate.text("approver", "");
+    stated.procedure = certificate.text("procedure", "");
+    stated.next_due = certificate.date("next_due", "");
+}
+
+void read_machine(Settings& certificate, Statements& stated) {
+    stated.machine = certificate.text("machine", "");
+    stated.machine_maker = certificate.text("machine_maker", "");
+    stated.machine_serial = certificate.text("machine_serial", "");
+    if (certificate.has("state"))
+        stated.state = certificate.choice("state", {"as found", "raw", "as left"});
+    stated.control_compensation = certificate.text("control_compensation", "");
+    stated.warm_up = certificate.text("warm_up", "");
+    stated.offsets = certificate.text("offsets", "");
+    stated.idle_axes = certificate.text("idle_axes", "");
+    stated.sensor_note = certificate.text("sensor_note", "");
+}
+
+} // namespace
+
+Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config) {
+    Statements stated;
+    read_people(certificate, stated);
+    read_machine(certificate, stated);
+    // What the part program is written with needs no second statement.
+    stated.axis = certificate.text("axis", config.axis.name);
+    stated.feed = certificate.text("feed", units.write_speed(config.cycle.feed));
+    stated.dwell = certificate.text("dwell", write_number(seconds_of(config.cycle.dwell)) + " s");
+    return stated;
+}
+
+} // namespace axiscal
