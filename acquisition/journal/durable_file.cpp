@@ -1,0 +1,67 @@
+#include "acquisition/journal/durable_file.hpp"
+
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace axiscal {
+
+FileHandle::~FileHandle() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool FileHandle::close() {
+    return ::close(std::exchange(descriptor_, -1)) == 0;
+}
+
+tl::unexpected<Error> fail_io(std::string_view what, const std::string& path, int error) {
+    return fail(Fault::io, std::string{what} + " " + path,
+                std::error_code{error, std::generic_category()});
+}
+
+Result<void> sync_file(const std::string& path) {
+    const FileHandle file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (!file || ::fsync(file.get()) != 0) return fail_io("cannot sync", path);
+    return {};
+}
+
+Result<void> sync_folder(const std::string& path) {
+    const FileHandle folder{::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (!folder) return fail_io("cannot open folder", path);
+    if (::fsync(folder.get()) != 0 && errno != EINVAL && errno != ENOTSUP)
+        return fail_io("cannot sync folder", path);
+    return {};
+}
+
+Result<void> write_synced(const std::string& path, std::string_view content) {
+    FileHandle file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0664)};
+    if (!file) return fail_io("cannot create", path);
+    while (!content.empty()) {
+        const auto written = ::write(file.get(), content.data(), content.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return fail_io("cannot write", path);
+        content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (::fsync(file.get()) != 0) return fail_io("cannot sync", path);
+    if (!file.close()) return fail_io("cannot close", path);
+    return {};
+}
+
+Result<void> move_to_free_name(const std::string& from, const std::string& to) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
+    if (errno == EEXIST)
+        return fail(Fault::refused, to + " exists already and is never overwritten");
+    if (errno != EINVAL && errno != ENOSYS) return fail_io("cannot rename to", to);
+    // A file system without this rename (NFS): a hard link never replaces either.
+    if (::link(from.c_str(), to.c_str()) != 0) return fail_io("cannot take the name", to);
+    if (::unlink(from.c_str()) != 0) return fail_io("cannot remove", from);
+    return {};
+}
+
+std::string folder_of(const std::string& path) {
+    const auto folder = std::filesystem::path{path}.parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+} // namespace axiscal

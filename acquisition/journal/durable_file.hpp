@@ -1,0 +1,44 @@
+#pragma once
+// Files that are on disk when the call returns, and names that are taken once. Thread-safe: no
+// state. Every error is Fault::io with the path and the system's word.
+
+#include "analysis/quantity/result.hpp"
+
+#include <cerrno>
+#include <string>
+#include <string_view>
+
+namespace axiscal {
+
+/// Owns one file descriptor.
+class FileHandle {
+public:
+    explicit FileHandle(int descriptor)
+        : descriptor_{descriptor} {}
+    ~FileHandle();
+    FileHandle(FileHandle&& other) noexcept
+        : descriptor_{std::exchange(other.descriptor_, -1)} {}
+    FileHandle& operator=(FileHandle&&) = delete;
+    explicit operator bool() const { return descriptor_ >= 0; }
+    [[nodiscard]] int get() const { return descriptor_; }
+    /// Closes now; a share reports a failed write here at the latest.
+    [[nodiscard]] bool close();
+
+private:
+    int descriptor_;
+};
+
+/// Fault::io: "<what> <path>" with errno as cause.
+tl::unexpected<Error> fail_io(std::string_view what, const std::string& path, int error = errno);
+
+Result<void> sync_file(const std::string& path);
+/// Makes names in the folder durable. A share that cannot sync folders (EINVAL) is no error.
+Result<void> sync_folder(const std::string& path);
+/// Creates or replaces the content, synced; the name itself needs sync_folder.
+Result<void> write_synced(const std::string& path, std::string_view content);
+/// Renames a file or folder to a name that must be free. @errors Fault::refused if it is taken.
+Result<void> move_to_free_name(const std::string& from, const std::string& to);
+/// Folder part of a path; "." when there is none.
+std::string folder_of(const std::string& path);
+
+} // namespace axiscal

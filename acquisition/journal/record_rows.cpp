@@ -1,0 +1,424 @@
+#include "acquisition/journal/record_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+constexpr std::array tables{
+    Table{"run",
+          "run_id, software_version, station, station_config, config_hash, boot_id, "
+          "opened_before_ns, opened_utc_ns, opened_after_ns",
+          "ttttttiii"},
+    Table{"plan",
+          "axis_kind, cycle, pass, remark, approaches, bidirectional, interval_m, seed, overrun_m, "
+          "near_tolerance_m, datum_m",
+          "ttttiirIrrr"},
+    Table{"plan_target", "position_m", "r"},
+    Table{"plan_point", "step, target_index, direction, approach", "iiti"},
+    Table{"laser",
+          "instrument, vacuum_wavelength_m, optical_fold, sign, dead_path_m, beam_walk_m, "
+          "beam_walk_travel_m",
+          "trrirrr"},
+    Table{"material", "coefficient_per_K, standard_uncertainty_per_K, feedback, form", "rRtt"},
+    Table{"air", "formula, co2_ppm, oldest_ns", "tri"},
+    Table{"statement", "name, value", "tt"},
+    Table{"instrument",
+          "name, driver, maker, model, serial, firmware, certificate_number, calibrated_on, due_on",
+          "ttttttttt"},
+    Table{"channel", "id, name, instrument, place, kind, medium, correction", "itttttr"},
+    Table{"datum",
+          "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
+          "device_count",
+          "tirrirriii"},
+    Table{"point",
+          "step, sequence, planned_step, target_index, direction, approach, origin, triggered_ns, "
+          "window_begin_ns, window_end_ns, reading_m, spread_m, slope_um_per_s, n, "
+          "approach_travel_m, datum_id, live_deviation_m, samples",
+          "iiiititiiirrrirtrb"},
+    Table{"environment", "channel, at_ns, value", "iir"},
+    Table{"event", "kind, at_ns, utc_ns, text, fault, sequence", "tiitti"},
+    Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
+};
+
+constexpr std::size_t sample_bytes = 24; // at_ns, reading_m, device_count
+
+template <class Integer> Value whole(Integer number) {
+    return static_cast<std::int64_t>(number);
+}
+Value nanoseconds(MonotonicTime at) {
+    return nanoseconds_of(at);
+}
+Value text(std::string_view words) {
+    return std::string{words};
+}
+
+Blob pack(const std::vector<WindowSample>& samples) {
+    Blob blob;
+    blob.bytes.reserve(samples.size() * sample_bytes);
+    for (const auto& [at, reading_m, device_count] : samples) {
+        put_u64(blob.bytes, static_cast<std::uint64_t>(nanoseconds_of(at)));
+        put_u64(blob.bytes, std::bit_cast<std::uint64_t>(reading_m));
+        put_u64(blob.bytes, device_count);
+    }
+    return blob;
+}
+
+std::vector<WindowSample> unpack(RowReader& in) {
+    const std::string bytes = in.blob();
+    if (bytes.size() % sample_bytes != 0) in.reject("is not a whole number of samples");
+    std::vector<WindowSample> samples;
+    samples.reserve(bytes.size() / sample_bytes);
+    std::string_view rest = bytes;
+    for (; rest.size() >= sample_bytes; rest.remove_prefix(sample_bytes))
+        samples.push_back({monotonic_from_ns(static_cast<std::int64_t>(get_u64(rest))),
+                           std::bit_cast<double>(get_u64(rest.substr(8))),
+                           get_u64(rest.substr(16))});
+    if (!std::ranges::all_of(samples, [](const auto& s) { return std::isfinite(s.reading_m); }))
+        in.reject("holds a reading that is not a number");
+    return samples;
+}
+
+// Statements are stored by name, so that a new one needs no new column.
+struct NamedStatement {
+    std::string_view name;
+    std::string Statements::*value;
+};
+constexpr std::array named_statements{
+    NamedStatement{"certificate_number", &Statements::certificate_number},
+    NamedStatement{"customer", &Statements::customer},
+    NamedStatement{"place", &Statements::place},
+    NamedStatement{"machine", &Statements::machine},
+    NamedStatement{"machine_maker", &Statements::machine_maker},
+    NamedStatement{"machine_serial", &Statements::machine_serial},
+    NamedStatement{"axis", &Statements::axis},
+    NamedStatement{"operator_name", &Statements::operator_name},
+    NamedStatement{"approver", &Statements::approver},
+    NamedStatement{"procedure", &Statements::procedure},
+    NamedStatement{"state", &Statements::state},
+    NamedStatement{"control_compensation", &Statements::control_compensation},
+    NamedStatement{"feed", &Statements::feed},
+    NamedStatement{"dwell", &Statements::dwell},
+    NamedStatement{"warm_up", &Statements::warm_up},
+    NamedStatement{"offsets", &Statements::offsets},
+    NamedStatement{"idle_axes", &Statements::idle_axes},
+    NamedStatement{"sensor_note", &Statements::sensor_note},
+    NamedStatement{"laboratory", &Statements::laboratory},
+    NamedStatement{"next_due", &Statements::next_due},
+};
+static_assert(sizeof(Statements) == named_statements.size() * sizeof(std::string),
+              "every statement needs its name in the run file");
+
+ChainedRow chained(std::string_view table, Row row) {
+    return {&table_named(table), std::move(row)};
+}
+
+ChainedRow row_of_plan(const RunPlan& plan) {
+    const auto& [axis_kind, cycle, pass, remark, targets, approaches, bidirectional, interval, seed,
+                 overrun, near_tolerance, datum, points] = plan;
+    const Value seed_value =
+        seed ? Value{std::bit_cast<std::int64_t>(*seed)} : Value{std::monostate{}};
+    return chained("plan", {text(name_of(axis_kind)), text(name_of(cycle)), pass, remark,
+                            whole(approaches), whole(bidirectional), interval.si(), seed_value,
+                            overrun.si(), near_tolerance.si(), datum.si()});
+}
+
+ChainedRow row_of_planned(const PlannedPoint& point) {
+    const auto& [step, target_index, direction, approach] = point;
+    return chained("plan_point",
+                   {whole(step), whole(target_index), text(name_of(direction)), whole(approach)});
+}
+
+ChainedRow row_of_laser(const LaserSetup& laser) {
+    const auto& [instrument, wavelength, fold, sign, dead_path, walk, walk_travel] = laser;
+    return chained("laser", {instrument, wavelength.si(), fold, whole(sign), dead_path.si(),
+                             walk.si(), walk_travel.si()});
+}
+
+ChainedRow row_of_material(const MaterialSetup& material) {
+    const auto& [coefficient, uncertainty, feedback, form] = material;
+    const Value u = uncertainty ? Value{uncertainty->si()} : Value{std::monostate{}};
+    return chained("material", {coefficient.si(), u, feedback, text(name_of(form))});
+}
+
+ChainedRow row_of_air(const AirSetup& air) {
+    const auto& [formula, co2_ppm, oldest] = air;
+    return chained("air", {text(name_of(formula)), co2_ppm, whole(oldest.count())});
+}
+
+ChainedRow row_of_instrument(const InstrumentRecord& instrument) {
+    const auto& [name, driver, maker, model, serial, firmware, certificate, calibrated, due] =
+        instrument;
+    return chained("instrument",
+                   {name, driver, maker, model, serial, firmware, certificate, calibrated, due});
+}
+
+ChainedRow row_of_channel(const ChannelRecord& channel) {
+    const auto& [id, name, instrument, place, kind, medium, correction] = channel;
+    return chained("channel", {whole(id), name, instrument, place, text(name_of(kind)),
+                               text(name_of(medium)), correction});
+}
+
+Direction read_direction(RowReader& in) {
+    return in.choice({Direction::positive, Direction::negative});
+}
+
+ClockTie read_tie(RowReader& in) {
+    ClockTie tie;
+    tie.before = in.time();
+    tie.utc_ns = in.integer();
+    tie.after = in.time();
+    return tie;
+}
+
+void read_run(RunRecord& run, RowReader& in) {
+    run.run_id = in.text();
+    run.software_version = in.text();
+    run.station = in.text();
+    run.station_config = in.text();
+    run.config_hash = in.text();
+    run.boot_id = in.text();
+    run.opened = read_tie(in);
+}
+
+void read_plan(RunRecord& run, RowReader& in) {
+    auto& plan = run.plan;
+    plan.axis_kind = in.choice({AxisKind::linear, AxisKind::rotary});
+    plan.cycle = in.choice({CycleKind::standard, CycleKind::step});
+    plan.pass = in.text();
+    plan.remark = in.text();
+    plan.approaches = in.number<int>();
+    plan.bidirectional = in.flag();
+    plan.interval = in.length();
+    const auto seed = in.optional_integer();
+    plan.seed = seed ? std::optional{std::bit_cast<std::uint64_t>(*seed)} : std::nullopt;
+    plan.overrun = in.length();
+    plan.near_tolerance = in.length();
+    plan.datum = in.length();
+}
+
+void read_target(RunRecord& run, RowReader& in) {
+    run.plan.targets.push_back(in.length());
+}
+
+PlannedPoint read_planned(RowReader& in) {
+    PlannedPoint point;
+    point.step = in.number<int>();
+    point.target_index = in.number<int>();
+    point.direction = read_direction(in);
+    point.approach = in.number<int>();
+    return point;
+}
+
+void read_plan_point(RunRecord& run, RowReader& in) {
+    run.plan.points.push_back(read_planned(in));
+}
+
+void read_laser(RunRecord& run, RowReader& in) {
+    auto& laser = run.laser;
+    laser.instrument = in.text();
+    laser.vacuum_wavelength = in.length();
+    laser.optical_fold = in.real();
+    laser.sign = in.number<int>();
+    laser.dead_path = in.length();
+    laser.beam_walk = in.length();
+    laser.beam_walk_travel = in.length();
+}
+
+void read_material(RunRecord& run, RowReader& in) {
+    auto& material = run.material;
+    material.coefficient = Expansion::from_si(in.real());
+    const auto u = in.optional_real();
+    material.standard_uncertainty = u ? std::optional{Expansion::from_si(*u)} : std::nullopt;
+    material.feedback = in.text();
+    material.form = in.choice({ExpansionForm::first_order, ExpansionForm::exact});
+}
+
+void read_air(RunRecord& run, RowReader& in) {
+    run.air.formula = in.choice({AirFormula::ciddor, AirFormula::edlen});
+    run.air.co2_ppm = in.real();
+    run.air.oldest = Duration{in.integer()};
+}
+
+void read_statement(RunRecord& run, RowReader& in) {
+    const std::string name = in.text();
+    const auto known = std::ranges::find(named_statements, name, &NamedStatement::name);
+    if (known == named_statements.end()) return in.reject("\"" + name + "\" is not known");
+    run.statements.*known->value = in.text();
+}
+
+void read_instrument(RunRecord& run, RowReader& in) {
+    InstrumentRecord instrument;
+    for (auto field : {&InstrumentRecord::name, &InstrumentRecord::driver, &InstrumentRecord::maker,
+                       &InstrumentRecord::model, &InstrumentRecord::serial,
+                       &InstrumentRecord::firmware, &InstrumentRecord::certificate_number,
+                       &InstrumentRecord::calibrated_on, &InstrumentRecord::due_on})
+        instrument.*field = in.text();
+    run.instruments.push_back(std::move(instrument));
+}
+
+void read_channel(RunRecord& run, RowReader& in) {
+    ChannelRecord channel;
+    channel.id = in.number<int>();
+    channel.name = in.text();
+    channel.instrument = in.text();
+    channel.place = in.text();
+    channel.kind =
+        in.choice({ChannelKind::displacement, ChannelKind::temperature, ChannelKind::pressure,
+                   ChannelKind::humidity, ChannelKind::carbon_dioxide, ChannelKind::strength});
+    channel.medium = in.choice({Medium::none, Medium::air, Medium::material});
+    channel.correction = in.real();
+    run.channels.push_back(std::move(channel));
+}
+
+void read_datum(RunRecord& run, RowReader& in) {
+    DatumRecord datum;
+    datum.id = in.text();
+    datum.at = in.time();
+    datum.coordinate = in.length();
+    datum.reading = in.length();
+    datum.epoch = in.number<std::uint32_t>();
+    datum.spread = in.length();
+    datum.slope_um_per_s = in.real();
+    datum.n = in.number<int>();
+    datum.sequence = in.number<std::uint16_t>();
+    datum.device_count = std::bit_cast<std::uint64_t>(in.integer());
+    run.datums.push_back(std::move(datum));
+}
+
+void read_point(RunRecord& run, RowReader& in) {
+    PointRecord point;
+    point.step = in.number<int>();
+    point.sequence = in.number<std::uint16_t>();
+    point.planned = read_planned(in);
+    point.origin = in.choice({TriggerOrigin::cnc, TriggerOrigin::dwell, TriggerOrigin::manual});
+    point.triggered_at = in.time();
+    point.window_begin = in.time();
+    point.window_end = in.time();
+    point.reading = in.length();
+    point.spread = in.length();
+    point.slope_um_per_s = in.real();
+    point.n = in.number<int>();
+    point.approach_travel = in.length();
+    point.datum_id = in.text();
+    point.live_deviation = in.length();
+    point.samples = unpack(in);
+    run.points.push_back(std::move(point));
+}
+
+void read_environment(RunRecord& run, RowReader& in) {
+    EnvironmentReading reading;
+    reading.channel = in.number<int>();
+    reading.at = in.time();
+    reading.value = in.real();
+    run.environment.push_back(reading);
+}
+
+void read_event(RunRecord& run, RowReader& in) {
+    EventRecord event;
+    event.kind =
+        in.choice({EventKind::opened, EventKind::armed, EventKind::datum, EventKind::refused,
+                   EventKind::skipped, EventKind::interrupted, EventKind::resumed,
+                   EventKind::aborted, EventKind::closed, EventKind::note, EventKind::instrument});
+    event.at = in.time();
+    event.utc_ns = in.integer();
+    event.text = in.text();
+    const std::string fault = in.text();
+    event.fault = fault_from_name(fault);
+    if (fault_name(event.fault) != fault) in.reject("\"" + fault + "\" is not known");
+    event.sequence = in.number<std::uint16_t>();
+    run.events.push_back(std::move(event));
+}
+
+void read_closing(RunRecord& run, RowReader& in) {
+    run.complete = in.flag();
+    run.closing_reason = in.text();
+    run.closed = read_tie(in);
+}
+
+constexpr std::array<void (*)(RunRecord&, RowReader&), tables.size()> readers{
+    read_run,      read_plan,  read_target,      read_plan_point, read_laser,
+    read_material, read_air,   read_statement,   read_instrument, read_channel,
+    read_datum,    read_point, read_environment, read_event,      read_closing,
+};
+
+} // namespace
+
+std::span<const Table> chained_tables() {
+    return tables;
+}
+
+const Table& table_named(std::string_view name) {
+    return *std::ranges::find(tables, name, &Table::name);
+}
+
+std::vector<ChainedRow> header_rows(const RunRecord& header) {
+    const auto& [before, utc_ns, after] = header.opened;
+    std::vector<ChainedRow> rows;
+    rows.push_back(chained("run", {header.run_id, header.software_version, header.station,
+                                   header.station_config, header.config_hash, header.boot_id,
+                                   nanoseconds(before), utc_ns, nanoseconds(after)}));
+    rows.push_back(row_of_plan(header.plan));
+    for (const auto target : header.plan.targets)
+        rows.push_back(chained("plan_target", {target.si()}));
+    for (const auto& point : header.plan.points)
+        rows.push_back(row_of_planned(point));
+    rows.push_back(row_of_laser(header.laser));
+    rows.push_back(row_of_material(header.material));
+    rows.push_back(row_of_air(header.air));
+    for (const auto& [name, value] : named_statements)
+        rows.push_back(chained("statement", {text(name), header.statements.*value}));
+    for (const auto& instrument : header.instruments)
+        rows.push_back(row_of_instrument(instrument));
+    for (const auto& channel : header.channels)
+        rows.push_back(row_of_channel(channel));
+    return rows;
+}
+
+ChainedRow row_of(const DatumRecord& datum) {
+    const auto& [id, at, coordinate, reading, epoch, spread, slope_um_per_s, n, sequence,
+                 device_count] = datum;
+    return chained("datum",
+                   {id, nanoseconds(at), coordinate.si(), reading.si(), whole(epoch), spread.si(),
+                    slope_um_per_s, whole(n), whole(sequence), whole(device_count)});
+}
+
+ChainedRow row_of(const PointRecord& point) {
+    const auto& [step, sequence, planned, origin, triggered_at, window_begin, window_end, reading,
+                 spread, slope_um_per_s, n, approach_travel, datum_id, live_deviation, samples] =
+        point;
+    return chained("point",
+                   {whole(step), whole(sequence), whole(planned.step), whole(planned.target_index),
+                    text(name_of(planned.direction)), whole(planned.approach),
+                    text(name_of(origin)), nanoseconds(triggered_at), nanoseconds(window_begin),
+                    nanoseconds(window_end), reading.si(), spread.si(), slope_um_per_s, whole(n),
+                    approach_travel.si(), datum_id, live_deviation.si(), pack(samples)});
+}
+
+ChainedRow row_of(const EnvironmentReading& reading) {
+    const auto& [channel, at, value] = reading;
+    return chained("environment", {whole(channel), nanoseconds(at), value});
+}
+
+ChainedRow row_of(const EventRecord& event) {
+    const auto& [kind, at, utc_ns, words, fault, sequence] = event;
+    return chained("event", {text(name_of(kind)), nanoseconds(at), utc_ns, words,
+                             text(fault_name(fault)), whole(sequence)});
+}
+
+ChainedRow row_of(const Closing& closing) {
+    const auto& [complete, reason, tie] = closing;
+    return chained("closing", {whole(complete), reason, nanoseconds(tie.before), tie.utc_ns,
+                               nanoseconds(tie.after)});
+}
+
+Result<void> place_row(RunRecord& run, const Table& table, const Row& row) {
+    RowReader in{table, row};
+    readers[static_cast<std::size_t>(&table - tables.data())](run, in);
+    return in.status();
+}
+
+} // namespace axiscal

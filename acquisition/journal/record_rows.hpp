@@ -1,0 +1,41 @@
+#pragma once
+// Which field of the run record stands in which column (schema.sql). Pure.
+// A field added to a record breaks the structured binding in record_rows.cpp: give it a column.
+
+#include "acquisition/journal/row.hpp"
+#include "analysis/run_record.hpp"
+
+#include <span>
+
+namespace axiscal {
+
+/// How a run ended; its row is the last link of a closed file.
+struct Closing {
+    bool complete = false;
+    std::string reason;
+    ClockTie tie;
+};
+
+struct ChainedRow {
+    const Table* table = nullptr;
+    Row row;
+};
+
+/// Every table whose rows are links of the chain, `run` first and `closing` last.
+std::span<const Table> chained_tables();
+const Table& table_named(std::string_view name);
+
+/// The rows written when the file is made, in order; points, datums, environment, events and
+/// closing of `header` are not among them.
+std::vector<ChainedRow> header_rows(const RunRecord& header);
+ChainedRow row_of(const DatumRecord& datum);
+ChainedRow row_of(const PointRecord& point);
+ChainedRow row_of(const EnvironmentReading& reading);
+ChainedRow row_of(const EventRecord& event);
+ChainedRow row_of(const Closing& closing);
+
+/// Puts one checked row into its place in `run`.
+/// @errors Fault::bad_run_file naming table, column and value.
+Result<void> place_row(RunRecord& run, const Table& table, const Row& row);
+
+} // namespace axiscal

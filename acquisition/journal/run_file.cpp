@@ -1,0 +1,255 @@
+#include "acquisition/journal/run_file.hpp"
+
+#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/journal/schema.hpp"
+#include "acquisition/journal/statement.hpp"
+
+#include <fcntl.h>
+#include <filesystem>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+std::string insert_sql(const Table& table) {
+    std::string marks = "?";
+    for (std::size_t i = 0; i < table.types.size() + 1; ++i)
+        marks += ",?";
+    return "INSERT INTO " + std::string{table.name} + "(link, " + std::string{table.columns} +
+           ", hash) VALUES(" + marks + ")";
+}
+
+Blob blob_of(const Digest& digest) {
+    return Blob{std::string{digest.begin(), digest.end()}};
+}
+
+// Back from WAL to one file that can be mailed; fails while another connection reads it.
+Result<void> fold_into_one_file(Database& database, const std::string& path) {
+    AXISCAL_CHECK(database.execute("PRAGMA wal_checkpoint(TRUNCATE)"));
+    AXISCAL_TRY(const auto mode, database.value_of("PRAGMA journal_mode=DELETE"));
+    if (mode != Value{std::string{"delete"}})
+        return fail(Fault::io, path + " is in use by another program: stop it and close again");
+    return {};
+}
+
+Result<void> sync_with_folder(const std::string& path) {
+    AXISCAL_CHECK(sync_file(path));
+    return sync_folder(folder_of(path));
+}
+
+// What could not be read back is not written: a program error, not one of the disk.
+Result<void> check_before_writing(const ChainedRow& row) {
+    RunRecord scratch;
+    auto readable = check_row(*row.table, row.row);
+    if (readable) readable = place_row(scratch, *row.table, row.row);
+    if (!readable) return fail(Fault::internal, "not written: " + readable.error().detail);
+    return {};
+}
+
+Error as_not_durable(Error error) {
+    if (error.fault == Fault::io) error.fault = Fault::not_durable;
+    return error;
+}
+
+} // namespace
+
+bool RunBatch::empty() const {
+    return environment.empty() && events.empty() && !datum && !point;
+}
+
+RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
+    : path_{std::move(path)}
+    , database_{std::move(database)} {}
+RunFileWriter::RunFileWriter(RunFileWriter&&) noexcept = default;
+RunFileWriter& RunFileWriter::operator=(RunFileWriter&&) noexcept = default;
+RunFileWriter::~RunFileWriter() = default;
+
+Result<RunFileWriter> RunFileWriter::attach(const std::string& path) {
+    AXISCAL_TRY(auto database,
+                Database::open(path, Database::Access::read_write, Fault::not_durable));
+    return RunFileWriter{path, std::move(database)};
+}
+
+Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRecord& header) {
+    const std::string unfinished = path + ".new";
+    if (std::filesystem::exists(path))
+        return fail(Fault::refused, path + " exists already: a run file is never overwritten");
+    if (auto made = write_synced(unfinished, ""); !made)
+        return tl::unexpected<Error>(as_not_durable(made.error()));
+    Result<Digest> head = [&]() -> Result<Digest> {
+        AXISCAL_TRY(auto writer, attach(unfinished));
+        AXISCAL_CHECK(
+            writer.database_->execute("PRAGMA synchronous=EXTRA; PRAGMA page_size=4096;"));
+        AXISCAL_CHECK(writer.database_->execute(
+            "PRAGMA application_id=" + std::to_string(run_file_application_id) +
+            "; PRAGMA user_version=" + std::to_string(run_file_version) + ";"));
+        AXISCAL_CHECK(writer.database_->execute(run_file_schema));
+        AXISCAL_CHECK(writer.transact(header_rows(header)));
+        return writer.head_;
+    }();
+    if (!head) return tl::unexpected<Error>(head.error());
+    if (auto moved = move_to_free_name(unfinished, path); !moved)
+        return tl::unexpected<Error>(as_not_durable(moved.error()));
+    if (auto synced = sync_with_folder(path); !synced)
+        return tl::unexpected<Error>(as_not_durable(synced.error()));
+    return reopen(path);
+}
+
+Result<RunFileWriter> RunFileWriter::reopen(const std::string& path) {
+    AXISCAL_TRY(const auto contents, read_run_file_contents(path));
+    if (contents.closed) return fail(Fault::refused, path + " is closed: nothing can be added");
+    AXISCAL_TRY(auto writer, attach(path));
+    AXISCAL_TRY(const auto mode, writer.database_->value_of("PRAGMA journal_mode=WAL"));
+    if (mode != Value{std::string{"wal"}})
+        return fail(Fault::not_durable, path + ": this file system does not carry a WAL");
+    AXISCAL_CHECK(writer.database_->execute("PRAGMA synchronous=FULL"));
+    // What a killed process wrote may be in the page cache only: sync it before it counts.
+    AXISCAL_CHECK(writer.database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"));
+    writer.links_ = contents.links;
+    writer.head_ = contents.chain_head;
+    return writer;
+}
+
+Result<void> RunFileWriter::append(const ChainedRow& row) {
+    const Digest hash = sha256_link(head_, canonical_bytes(*row.table, row.row));
+    Row values{links_ + 1};
+    values.insert(values.end(), row.row.begin(), row.row.end());
+    values.emplace_back(blob_of(hash));
+    AXISCAL_TRY(auto insert, database_->prepare(insert_sql(*row.table)));
+    AXISCAL_CHECK(insert.bind(values));
+    if (auto stepped = insert.step(); !stepped) return tl::unexpected<Error>(stepped.error());
+    ++links_;
+    head_ = hash;
+    return {};
+}
+
+Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows) {
+    if (broken_) return tl::unexpected<Error>(*broken_);
+    for (const auto& row : rows)
+        AXISCAL_CHECK(check_before_writing(row));
+    return keep([&]() -> Result<void> {
+        AXISCAL_CHECK(database_->execute("BEGIN IMMEDIATE"));
+        for (const auto& row : rows)
+            AXISCAL_CHECK(append(row));
+        return database_->execute("COMMIT");
+    }());
+}
+
+Result<void> RunFileWriter::keep(Result<void> outcome) {
+    if (outcome) return outcome;
+    broken_ = outcome.error();
+    broken_->fault = Fault::not_durable;
+    if (auto undone = database_->execute("ROLLBACK"); !undone && broken_->detail.empty())
+        broken_->detail = undone.error().detail;
+    return tl::unexpected<Error>(*broken_);
+}
+
+Result<void> RunFileWriter::write(const RunBatch& batch) {
+    std::vector<ChainedRow> rows;
+    for (const auto& reading : batch.environment)
+        rows.push_back(row_of(reading));
+    for (const auto& event : batch.events)
+        rows.push_back(row_of(event));
+    if (batch.datum) rows.push_back(row_of(*batch.datum));
+    if (batch.point) rows.push_back(row_of(*batch.point));
+    if (rows.empty() && !broken_) return {};
+    return transact(rows);
+}
+
+Result<void> RunFileWriter::append_point(PointRecord point) {
+    RunBatch batch;
+    batch.point = std::move(point);
+    return write(batch);
+}
+
+Result<void> RunFileWriter::append_datum(DatumRecord datum) {
+    RunBatch batch;
+    batch.datum = std::move(datum);
+    return write(batch);
+}
+
+Result<void> RunFileWriter::append_event(EventRecord event) {
+    RunBatch batch;
+    batch.events.push_back(std::move(event));
+    return write(batch);
+}
+
+Result<void> RunFileWriter::append_environment(std::span<const EnvironmentReading> readings) {
+    RunBatch batch;
+    batch.environment.assign(readings.begin(), readings.end());
+    return write(batch);
+}
+
+Result<void> RunFileWriter::append_note(std::string text, MonotonicTime at, std::int64_t utc_ns) {
+    return append_event({EventKind::note, at, utc_ns, std::move(text), Fault::none, 0});
+}
+
+namespace {
+
+Result<std::optional<std::uint16_t>> sequence_in(const Database& database, const std::string& sql) {
+    AXISCAL_TRY(const auto value, database.value_of(sql));
+    const auto* sequence = std::get_if<std::int64_t>(&value);
+    if (sequence == nullptr) return std::optional<std::uint16_t>{};
+    return std::optional{static_cast<std::uint16_t>(*sequence)};
+}
+
+} // namespace
+
+Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_point(int step) const {
+    if (broken_) return tl::unexpected<Error>(*broken_);
+    return sequence_in(*database_, "SELECT sequence FROM point WHERE step=" + std::to_string(step));
+}
+
+Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_last_datum() const {
+    if (broken_) return tl::unexpected<Error>(*broken_);
+    return sequence_in(*database_, "SELECT sequence FROM datum ORDER BY link DESC LIMIT 1");
+}
+
+Result<void> RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie) {
+    AXISCAL_CHECK(transact({row_of(Closing{complete, std::move(reason), tie})}));
+    broken_ = Error{Fault::refused, path_ + " is closed: nothing can be added", {}, {}};
+    AXISCAL_CHECK(fold_into_one_file(*database_, path_));
+    database_.reset();
+    return sync_with_folder(path_);
+}
+
+Result<void> store_result(const std::string& path, const StoredResult& result) {
+    AXISCAL_TRY(const auto summary, summarize_run_file(path));
+    if (!summary.closed) return fail(Fault::refused, path + " is still open: close the run first");
+    AXISCAL_TRY(auto database,
+                Database::open(path, Database::Access::read_write, Fault::not_durable));
+    AXISCAL_CHECK(database->execute("PRAGMA synchronous=EXTRA"));
+    AXISCAL_TRY(auto insert,
+                database->prepare("INSERT INTO result(digest, document, hash) VALUES(?,?,?)"));
+    const Digest hash = sha256(result.digest + '\n' + result.document);
+    AXISCAL_CHECK(insert.bind({result.digest, result.document, blob_of(hash)}));
+    if (auto stepped = insert.step(); !stepped) return tl::unexpected<Error>(stepped.error());
+    return {};
+}
+
+Result<void> tidy_run_files(const std::string& folder) {
+    std::error_code error;
+    std::vector<std::filesystem::path> found;
+    for (std::filesystem::directory_iterator entry{folder, error}, end; !error && entry != end;
+         entry.increment(error))
+        found.push_back(entry->path());
+    for (const auto& path : found)
+        if (path.string().ends_with(".axiscal.new") ||
+            path.string().ends_with(".axiscal.new-journal"))
+            std::filesystem::remove(path, error);
+    for (const auto& path : found) {
+        if (path.extension() != run_file_ending) continue;
+        const bool side_file = std::filesystem::exists(path.string() + "-wal", error) ||
+                               std::filesystem::exists(path.string() + "-journal", error);
+        if (!side_file) continue;
+        AXISCAL_TRY(auto database, Database::open(path, Database::Access::read_write, Fault::io));
+        AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
+        if (closed == 0) continue;
+        AXISCAL_CHECK(fold_into_one_file(*database, path));
+        database.reset();
+        AXISCAL_CHECK(sync_with_folder(path));
+    }
+    return {};
+}
+
+} // namespace axiscal

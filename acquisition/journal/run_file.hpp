@@ -1,0 +1,120 @@
+#pragma once
+// One run is one SQLite file, <run-id>.axiscal; docs/run-file.md describes it. Blocking calls:
+// the daemon makes them on the journal's thread.
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/record_rows.hpp"
+#include "analysis/run_record.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+class Database;
+
+inline constexpr std::string_view run_file_ending = ".axiscal";
+
+/// What becomes durable together.
+struct RunBatch {
+    std::vector<EnvironmentReading> environment;
+    std::vector<EventRecord> events;
+    std::optional<DatumRecord> datum;
+    std::optional<PointRecord> point;
+    [[nodiscard]] bool empty() const;
+};
+
+/// The open run file. A write that returned without error is on disk (WAL, synchronous=FULL).
+/// After the first Fault::not_durable every further call fails with it: a failed sync is never
+/// retried. A value that could not be read back (NaN) is refused as Fault::internal, unwritten.
+/// For one thread at a time.
+class RunFileWriter {
+public:
+    /// Makes the file with everything of `header` that is known before the first point. The name
+    /// appears only with the whole header in it and is never taken from another file.
+    /// @errors Fault::refused when the name is taken; Fault::not_durable, Fault::bad_run_file.
+    static Result<RunFileWriter> create(const std::string& path, const RunRecord& header);
+    /// Goes on with an open file; all that it holds is verified and synced first.
+    /// @errors Fault::refused when the run is closed; Fault::bad_run_file.
+    static Result<RunFileWriter> reopen(const std::string& path);
+    RunFileWriter(RunFileWriter&&) noexcept;
+    RunFileWriter& operator=(RunFileWriter&&) noexcept;
+    ~RunFileWriter(); ///< leaves the run open, to be resumed
+
+    /// One transaction, in the order environment, events, datum, point.
+    Result<void> write(const RunBatch& batch);
+    Result<void> append_point(PointRecord point);
+    Result<void> append_datum(DatumRecord datum);
+    Result<void> append_event(EventRecord event);
+    Result<void> append_environment(std::span<const EnvironmentReading> readings);
+    /// A sentence that a person should find in the file.
+    Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);
+
+    /// Sequence numbers as they stand on disk; empty when there is no such row.
+    Result<std::optional<std::uint16_t>> sequence_of_point(int step) const;
+    Result<std::optional<std::uint16_t>> sequence_of_last_datum() const;
+
+    /// Writes the closing row and leaves one single file without WAL, synced with its folder.
+    Result<void> close(bool complete, std::string reason, const ClockTie& tie);
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    RunFileWriter(std::string path, std::unique_ptr<Database> database);
+    static Result<RunFileWriter> attach(const std::string& path);
+    Result<void> append(const ChainedRow& row);
+    Result<void> transact(const std::vector<ChainedRow>& rows);
+    Result<void> keep(Result<void> outcome);
+
+    std::string path_;
+    std::unique_ptr<Database> database_;
+    std::int64_t links_ = 0; ///< in the chain so far
+    Digest head_{};          ///< hash of the last link; zeros before the first
+    std::optional<Error> broken_;
+};
+
+struct StoredResult {
+    std::string digest;   ///< as given by the analysis: of `parameters` and `positions`
+    std::string document; ///< JSON
+};
+
+/// Everything in a run file.
+struct RunFileContents {
+    RunRecord run;
+    bool closed = false;
+    std::int64_t links = 0;
+    Digest chain_head{}; ///< proves every row before it
+};
+
+/// Reads and verifies: identity and version, schema, SQLite's own check, each column's type and
+/// range, the hash chain. Never writes to the file. Safe on hostile files.
+/// @errors Fault::bad_run_file with a sentence that names what is wrong and, in the chain, where;
+///         Fault::not_found.
+Result<RunFileContents> read_run_file_contents(const std::string& path);
+Result<RunRecord> read_run_file(const std::string& path);
+
+/// Adds a result to a closed run file; several may be kept, the last one counts. The chain is not
+/// touched; the file's SHA-256 changes. @errors Fault::refused while the run is open.
+Result<void> store_result(const std::string& path, const StoredResult& result);
+/// @errors Fault::not_found when none is stored; Fault::bad_run_file when it was changed.
+Result<StoredResult> read_stored_result(const std::string& path);
+
+/// One line of a list of runs, read quickly: the chain is not verified.
+struct RunSummary {
+    std::string path, run_id, machine, axis, closing_reason;
+    std::int64_t opened_utc_ns = 0;
+    int points = 0, planned = 0;
+    bool closed = false, complete = false;
+};
+Result<RunSummary> summarize_run_file(const std::string& path);
+/// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
+std::vector<RunSummary> list_run_files(const std::string& folder);
+/// Paths of those that are still open, to be resumed or closed.
+std::vector<std::string> open_run_files(const std::string& folder);
+/// Brings back to one file what a power cut left between closing row and tidying; sweeps files
+/// that were never finished. For the station's start, before any run is open.
+Result<void> tidy_run_files(const std::string& folder);
+
+} // namespace axiscal

@@ -1,0 +1,246 @@
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/schema.hpp"
+#include "acquisition/journal/statement.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+constexpr std::int64_t most_rows = 20'000'000; // ten channels at 1 Hz for three weeks
+
+tl::unexpected<Error> bad(const std::string& path, const std::string& reason) {
+    return fail(Fault::bad_run_file, path + ": " + reason);
+}
+
+Result<void> check_identity(const Database& database, const std::string& path) {
+    AXISCAL_TRY(const auto id, database.integer_of("PRAGMA application_id"));
+    if (id != run_file_application_id) return bad(path, "this is not an axiscal run file");
+    AXISCAL_TRY(const auto version, database.integer_of("PRAGMA user_version"));
+    if (version > run_file_version)
+        return bad(path, "written in format " + std::to_string(version) +
+                             " by a newer axiscal; this one reads up to format " +
+                             std::to_string(run_file_version));
+    if (version != run_file_version)
+        return bad(path, "format " + std::to_string(version) + " does not exist");
+    return {};
+}
+
+Result<std::vector<Row>> rows_of(const Database& database, const std::string& sql) {
+    AXISCAL_TRY(auto select, database.prepare(sql));
+    std::vector<Row> rows;
+    for (;;) {
+        AXISCAL_TRY(const bool more, select.step());
+        if (!more) return rows;
+        Row row;
+        for (int i = 0; i < select.column_count(); ++i)
+            row.push_back(select.column(i));
+        rows.push_back(std::move(row));
+    }
+}
+
+// Word for word the schema we write: no view, trigger, index or generated column can slip in.
+Result<void> check_schema(const Database& database, const std::string& path) {
+    const std::string all = "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY name";
+    AXISCAL_TRY(const auto ours, Database::in_memory());
+    AXISCAL_CHECK(ours->execute(run_file_schema));
+    AXISCAL_TRY(const auto expected, rows_of(*ours, all));
+    AXISCAL_TRY(const auto found, rows_of(database, all + " LIMIT 100"));
+    if (found != expected) return bad(path, "the tables are not those of a run file");
+    return {};
+}
+
+// SQLite forgives a last page that is cut short; without a WAL the size is known exactly.
+Result<void> check_size(const Database& database, const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::exists(path + "-wal", error)) return {};
+    AXISCAL_TRY(const auto pages, database.integer_of("PRAGMA page_count"));
+    AXISCAL_TRY(const auto page_size, database.integer_of("PRAGMA page_size"));
+    const auto size = std::filesystem::file_size(path, error);
+    if (error || size != static_cast<std::uintmax_t>(pages * page_size))
+        return bad(path, "cut short or grown: copy it again from where it was made");
+    return {};
+}
+
+Result<void> check_pages(const Database& database, const std::string& path) {
+    AXISCAL_TRY(const auto verdict, database.value_of("PRAGMA quick_check(1)"));
+    if (verdict == Value{std::string{"ok"}}) return {};
+    const auto* word = std::get_if<std::string>(&verdict);
+    return bad(path, "damaged: " + (word ? *word : std::string{"no verdict"}));
+}
+
+Result<std::unique_ptr<Database>> open_checked(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        return fail(Fault::not_found, path + " is not a file");
+    AXISCAL_TRY(auto database,
+                Database::open(path, Database::Access::read_only, Fault::bad_run_file));
+    AXISCAL_CHECK(database->execute("BEGIN")); // one state, even while the run goes on
+    AXISCAL_CHECK(check_identity(*database, path));
+    AXISCAL_CHECK(check_schema(*database, path));
+    return database;
+}
+
+/// Rows of one table in chain order, read as the chain reaches them.
+struct TableCursor {
+    const Table* table;
+    Statement select;
+    bool done = false;
+    std::int64_t link = 0;
+    Row row;
+    std::string hash;
+
+    Result<void> advance(const std::string& path) {
+        AXISCAL_TRY(const bool more, select.step());
+        done = !more;
+        if (done) return {};
+        row.clear();
+        const int last = select.column_count() - 1;
+        for (int i = 1; i < last; ++i)
+            row.push_back(select.column(i));
+        const Value place = select.column(0), stored = select.column(last);
+        if (const auto* number = std::get_if<std::int64_t>(&place)) link = *number;
+        if (const auto* bytes = std::get_if<Blob>(&stored)) hash = bytes->bytes;
+        if (auto checked = check_row(*table, row); !checked)
+            return bad(path, "link " + std::to_string(link) + ": " + checked.error().detail);
+        return {};
+    }
+};
+
+Result<std::vector<TableCursor>> open_cursors(const Database& database, const std::string& path) {
+    std::vector<TableCursor> cursors;
+    for (const auto& table : chained_tables()) {
+        const std::string name{table.name};
+        AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
+        if (count > most_rows) return bad(path, name + " has more rows than any run");
+        AXISCAL_TRY(auto select, database.prepare("SELECT link, " + std::string{table.columns} +
+                                                  ", hash FROM " + name + " ORDER BY link"));
+        cursors.push_back({&table, std::move(select), false, 0, {}, {}});
+        AXISCAL_CHECK(cursors.back().advance(path));
+    }
+    return cursors;
+}
+
+TableCursor* next_of(std::vector<TableCursor>& cursors) {
+    TableCursor* next = nullptr;
+    for (auto& cursor : cursors)
+        if (!cursor.done && (next == nullptr || cursor.link < next->link)) next = &cursor;
+    return next;
+}
+
+Result<void> take_link(RunFileContents& into, const TableCursor& at, const std::string& path) {
+    const std::string name = "link " + std::to_string(into.links + 1);
+    if (at.link != into.links + 1)
+        return bad(path, "the row of " + name + " is missing: the file was changed");
+    if (into.closed) return bad(path, name + " stands after the end of the run");
+    const Digest hash = sha256_link(into.chain_head, canonical_bytes(*at.table, at.row));
+    if (!std::ranges::equal(hash, at.hash, {}, {},
+                            [](char byte) { return static_cast<std::uint8_t>(byte); }))
+        return bad(path, "the row of " + name + " (table " + std::string{at.table->name} +
+                             ") was changed after it was written");
+    if (auto placed = place_row(into.run, *at.table, at.row); !placed)
+        return bad(path, name + ": " + placed.error().detail);
+    into.chain_head = hash;
+    into.links = at.link;
+    into.closed = at.table->name == "closing";
+    return {};
+}
+
+Result<void> check_header(const Database& database, const std::string& path) {
+    for (const std::string name : {"run", "plan", "laser", "material", "air"}) {
+        AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
+        if (count != 1) return bad(path, "table " + name + " does not have exactly one row");
+    }
+    return {};
+}
+
+void put_in_order(RunRecord& run) {
+    std::ranges::stable_sort(run.points, {}, &PointRecord::step);
+    std::ranges::stable_sort(run.environment, {}, &EnvironmentReading::at);
+}
+
+} // namespace
+
+Result<RunFileContents> read_run_file_contents(const std::string& path) {
+    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_CHECK(check_size(*database, path));
+    AXISCAL_CHECK(check_pages(*database, path));
+    AXISCAL_CHECK(check_header(*database, path));
+    AXISCAL_TRY(auto cursors, open_cursors(*database, path));
+    RunFileContents contents;
+    while (TableCursor* next = next_of(cursors)) {
+        AXISCAL_CHECK(take_link(contents, *next, path));
+        AXISCAL_CHECK(next->advance(path));
+    }
+    put_in_order(contents.run);
+    return contents;
+}
+
+Result<RunRecord> read_run_file(const std::string& path) {
+    AXISCAL_TRY(auto contents, read_run_file_contents(path));
+    return std::move(contents.run);
+}
+
+Result<StoredResult> read_stored_result(const std::string& path) {
+    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto rows, rows_of(*database, "SELECT digest, document, hash FROM result "
+                                                    "ORDER BY id DESC LIMIT 1"));
+    if (rows.empty()) return fail(Fault::not_found, path + " holds no result yet");
+    const auto* digest = std::get_if<std::string>(&rows[0][0]);
+    const auto* document = std::get_if<std::string>(&rows[0][1]);
+    const auto* hash = std::get_if<Blob>(&rows[0][2]);
+    if (digest == nullptr || document == nullptr || hash == nullptr)
+        return bad(path, "the stored result has another type");
+    const Digest right = sha256(*digest + '\n' + *document);
+    if (hash->bytes != std::string{right.begin(), right.end()})
+        return bad(path, "the stored result was changed after it was written");
+    return StoredResult{*digest, *document};
+}
+
+Result<RunSummary> summarize_run_file(const std::string& path) {
+    AXISCAL_TRY(const auto database, open_checked(path));
+    const auto text_of = [&](const std::string& sql) -> Result<std::string> {
+        AXISCAL_TRY(auto value, database->value_of(sql));
+        auto* text = std::get_if<std::string>(&value);
+        return text ? std::move(*text) : std::string{};
+    };
+    RunSummary summary;
+    summary.path = path;
+    AXISCAL_TRY(summary.run_id, text_of("SELECT run_id FROM run"));
+    AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
+    AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
+    AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason FROM closing"));
+    AXISCAL_TRY(summary.opened_utc_ns, database->integer_of("SELECT opened_utc_ns FROM run"));
+    AXISCAL_TRY(const auto points, database->integer_of("SELECT count(*) FROM point"));
+    AXISCAL_TRY(const auto planned, database->integer_of("SELECT count(*) FROM plan_point"));
+    AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
+    AXISCAL_TRY(const auto complete, database->integer_of("SELECT complete FROM closing"));
+    summary.points = static_cast<int>(points);
+    summary.planned = static_cast<int>(planned);
+    summary.closed = closed != 0;
+    summary.complete = complete != 0;
+    return summary;
+}
+
+std::vector<RunSummary> list_run_files(const std::string& folder) {
+    std::vector<RunSummary> summaries;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry{folder, error}, end; !error && entry != end;
+         entry.increment(error)) {
+        if (entry->path().extension() != run_file_ending) continue;
+        if (auto summary = summarize_run_file(entry->path().string()))
+            summaries.push_back(*std::move(summary));
+    }
+    std::ranges::sort(summaries, {}, &RunSummary::path);
+    return summaries;
+}
+
+std::vector<std::string> open_run_files(const std::string& folder) {
+    std::vector<std::string> paths;
+    for (const auto& summary : list_run_files(folder))
+        if (!summary.closed) paths.push_back(summary.path);
+    return paths;
+}
+
+} // namespace axiscal

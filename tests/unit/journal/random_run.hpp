@@ -1,0 +1,174 @@
+#pragma once
+// Seeded run records with every field filled, and a comparison of every bit, field by field,
+// that knows nothing of rows and columns.
+
+#include "analysis/run_record.hpp"
+
+#include <bit>
+#include <boost/pfr.hpp>
+#include <optional>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+namespace axiscal::testing {
+
+class RandomRun {
+public:
+    explicit RandomRun(unsigned seed)
+        : random_{seed} {}
+
+    RunRecord header() {
+        RunRecord run;
+        run.run_id = text(), run.software_version = text(), run.station = text();
+        run.station_config = text() + "\n[a]\nb = \"0.5 mm\"\n" + text();
+        run.config_hash = text(), run.boot_id = text();
+        run.opened = tie();
+        fill_plan(run.plan);
+        run.laser = {text(),   length(), number(), pick(2) == 0 ? 1 : -1,
+                     length(), length(), length()};
+        run.material.coefficient = Expansion::from_si(number());
+        if (pick(2) == 0) run.material.standard_uncertainty = Expansion::from_si(number());
+        run.material.feedback = text();
+        run.material.form = pick(2) == 0 ? ExpansionForm::exact : ExpansionForm::first_order;
+        run.air = {pick(2) == 0 ? AirFormula::edlen : AirFormula::ciddor, number(),
+                   Duration{integer()}};
+        boost::pfr::for_each_field(run.statements, [&](std::string& field) { field = text(); });
+        for (int i = pick(4); i > 0; --i) {
+            auto& instrument = run.instruments.emplace_back();
+            boost::pfr::for_each_field(instrument, [&](std::string& field) { field = text(); });
+        }
+        for (int i = pick(6); i > 0; --i)
+            run.channels.push_back({pick(1000), text(), text(), text(),
+                                    static_cast<ChannelKind>(pick(6)), static_cast<Medium>(pick(3)),
+                                    number()});
+        return run;
+    }
+
+    DatumRecord datum() {
+        return {text(),
+                time(),
+                length(),
+                length(),
+                static_cast<std::uint32_t>(random_()),
+                length(),
+                number(),
+                pick(1000),
+                static_cast<std::uint16_t>(pick(65536)),
+                random_()};
+    }
+
+    PointRecord point(int step) {
+        PointRecord point;
+        point.step = step;
+        point.sequence = static_cast<std::uint16_t>(pick(65536));
+        point.planned = {step, pick(99), direction(), pick(9)};
+        point.origin = static_cast<TriggerOrigin>(pick(3));
+        point.triggered_at = time(), point.window_begin = time(), point.window_end = time();
+        point.reading = length(), point.spread = length();
+        point.slope_um_per_s = number();
+        point.n = pick(100'000);
+        point.approach_travel = length();
+        point.datum_id = text();
+        point.live_deviation = length();
+        for (int i = pick(40); i > 0; --i)
+            point.samples.push_back({time(), number(), random_()});
+        return point;
+    }
+
+    std::vector<EnvironmentReading> environment() {
+        std::vector<EnvironmentReading> readings;
+        for (int i = pick(5); i > 0; --i) {
+            later_ += pick(1'000'000);
+            readings.push_back({pick(9), monotonic_from_ns(later_), number()});
+        }
+        return readings;
+    }
+
+    EventRecord event() {
+        return {static_cast<EventKind>(pick(11)),
+                time(),
+                integer(),
+                text(),
+                static_cast<Fault>(pick(static_cast<int>(Fault::internal) + 1)),
+                static_cast<std::uint16_t>(pick(65536))};
+    }
+
+    ClockTie tie() { return {time(), integer(), time()}; }
+    int pick(int below) { return static_cast<int>(random_() % static_cast<unsigned>(below)); }
+
+    /// Any finite double: small, huge, subnormal, whole, negative zero.
+    double number() {
+        switch (pick(8)) {
+        case 0: return -0.0;
+        case 1: return static_cast<double>(pick(2000) - 1000);
+        case 2: return 5e-324;
+        case 3: return -1.7976931348623157e308;
+        default: break;
+        }
+        const double any = std::bit_cast<double>(random_());
+        return any - any == 0 ? any : 0.1; // not NaN or infinity
+    }
+
+private:
+    std::string text() {
+        static constexpr std::string_view letters[] = {"a", "Ö", "\"", "'", "\n",
+                                                       " ", "±", "7",  ""};
+        std::string words;
+        for (int i = pick(12); i > 0; --i)
+            words += letters[pick(9)];
+        return words;
+    }
+    std::int64_t integer() { return static_cast<std::int64_t>(random_()); }
+    MonotonicTime time() { return monotonic_from_ns(integer()); }
+    Length length() { return Length::from_si(number()); }
+    Direction direction() { return pick(2) == 0 ? Direction::negative : Direction::positive; }
+
+    void fill_plan(RunPlan& plan) {
+        plan.axis_kind = pick(2) == 0 ? AxisKind::rotary : AxisKind::linear;
+        plan.cycle = pick(2) == 0 ? CycleKind::step : CycleKind::standard;
+        plan.pass = text(), plan.remark = text();
+        for (int i = pick(20); i > 0; --i)
+            plan.targets.push_back(length());
+        plan.approaches = pick(9);
+        plan.bidirectional = pick(2) == 0;
+        plan.interval = length();
+        if (pick(2) == 0) plan.seed = random_();
+        plan.overrun = length(), plan.near_tolerance = length(), plan.datum = length();
+        for (int i = pick(30); i > 0; --i)
+            plan.points.push_back({pick(99), pick(99), direction(), pick(9)});
+    }
+
+    std::mt19937_64 random_;
+    std::int64_t later_ = 0;
+};
+
+template <class T> struct IsVector : std::false_type {};
+template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+template <class T> struct IsOptional : std::false_type {};
+template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
+
+template <class T> bool same_bits(const T& a, const T& b) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    } else if constexpr (requires { a.si(); }) {
+        return same_bits(a.si(), b.si());
+    } else if constexpr (IsVector<T>::value) {
+        bool same = a.size() == b.size();
+        for (std::size_t i = 0; same && i < a.size(); ++i)
+            same = same_bits(a[i], b[i]);
+        return same;
+    } else if constexpr (IsOptional<T>::value) {
+        return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));
+    } else if constexpr (std::is_aggregate_v<T>) {
+        const auto left = boost::pfr::structure_tie(a), right = boost::pfr::structure_tie(b);
+        return [&]<std::size_t... i>(std::index_sequence<i...>) {
+            return (same_bits(std::get<i>(left), std::get<i>(right)) && ...);
+        }
+        (std::make_index_sequence<boost::pfr::tuple_size_v<T>>{});
+    } else {
+        return a == b;
+    }
+}
+
+} // namespace axiscal::testing

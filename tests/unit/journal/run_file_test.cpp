@@ -1,0 +1,316 @@
+#include "acquisition/journal/run_file.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/random_run.hpp"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+using testing::RandomRun;
+using testing::read_bytes;
+using testing::same_bits;
+using testing::ScratchFolder;
+using testing::write_bytes;
+
+/// Writes a random run and returns what was written.
+RunRecord write_run(const std::string& path, RandomRun& random, int points, bool close = true) {
+    RunRecord run = random.header();
+    auto writer = RunFileWriter::create(path, run).value();
+    for (int step = 0; step < points; ++step) {
+        RunBatch batch;
+        batch.environment = random.environment();
+        if (random.pick(2) == 0) batch.events.push_back(random.event());
+        if (random.pick(9) == 0) batch.datum = random.datum();
+        batch.point = random.point(step);
+        EXPECT_TRUE(writer.write(batch));
+        run.environment.insert(run.environment.end(), batch.environment.begin(),
+                               batch.environment.end());
+        run.events.insert(run.events.end(), batch.events.begin(), batch.events.end());
+        if (batch.datum) run.datums.push_back(*batch.datum);
+        run.points.push_back(*batch.point);
+    }
+    if (!close) return run;
+    run.complete = random.pick(2) == 0;
+    run.closing_reason = "done";
+    run.closed = random.tie();
+    EXPECT_TRUE(writer.close(run.complete, run.closing_reason, run.closed));
+    return run;
+}
+
+void run_sql(const std::string& path, const std::string& sql) {
+    sqlite3* connection = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &connection), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(connection, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(connection);
+    sqlite3_close(connection);
+}
+
+std::string refusal_of(const std::string& path) {
+    const auto read = read_run_file(path);
+    if (read) return "accepted";
+    EXPECT_EQ(read.error().fault, Fault::bad_run_file);
+    return read.error().detail;
+}
+
+TEST(RunFile, GivesBackEveryBitOfRandomRuns) {
+    const ScratchFolder scratch;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        RandomRun random{seed};
+        const auto path = scratch.file(std::to_string(seed) + ".axiscal");
+        const RunRecord written = write_run(path, random, random.pick(12));
+        const auto read = read_run_file(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(written, *read)) << "seed " << seed;
+    }
+}
+
+TEST(RunFile, IsOneSingleFileOnceClosed) {
+    const ScratchFolder scratch;
+    RandomRun random{7};
+    write_run(scratch.file("r.axiscal"), random, 3);
+    const std::filesystem::directory_iterator all{scratch.path()};
+    EXPECT_EQ(std::distance(begin(all), end(all)), 1);
+}
+
+TEST(RunFile, IsNeverMadeOverAnother) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    write_bytes(path, "somebody else's");
+    const auto made = RunFileWriter::create(path, RandomRun{1}.header());
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().fault, Fault::refused);
+    EXPECT_EQ(read_bytes(path), "somebody else's");
+}
+
+TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
+    const ScratchFolder scratch;
+    RandomRun random{2};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 1);
+    const auto bytes = read_bytes(path);
+    EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
+    EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\1", 4})); // user_version
+}
+
+TEST(RunFile, CanBeReadWhileItIsOpen) {
+    const ScratchFolder scratch;
+    RandomRun random{3};
+    const auto path = scratch.file("r.axiscal");
+    auto writer = RunFileWriter::create(path, random.header()).value();
+    ASSERT_TRUE(writer.append_point(random.point(0)));
+    const auto read = read_run_file_contents(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_FALSE(read->closed);
+    EXPECT_EQ(read->run.points.size(), 1U);
+}
+
+TEST(RunFile, GoesOnAfterReopening) {
+    const ScratchFolder scratch;
+    RandomRun random{4};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord written = write_run(path, random, 4, false);
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    EXPECT_EQ(writer->sequence_of_point(3).value(), written.points[3].sequence);
+    EXPECT_EQ(writer->sequence_of_point(4).value(), std::nullopt);
+    written.points.push_back(random.point(4));
+    ASSERT_TRUE(writer->append_point(written.points.back()));
+    EXPECT_TRUE(same_bits(written, read_run_file(path).value()));
+}
+
+TEST(RunFile, TakesNothingAfterClosing) {
+    const ScratchFolder scratch;
+    RandomRun random{5};
+    const auto path = scratch.file("r.axiscal");
+    auto writer = RunFileWriter::create(path, random.header()).value();
+    ASSERT_TRUE(writer.close(false, "aborted", random.tie()));
+    EXPECT_EQ(writer.append_point(random.point(0)).error().fault, Fault::refused);
+    EXPECT_EQ(RunFileWriter::reopen(path).error().fault, Fault::refused);
+}
+
+TEST(RunFile, RefusesANumberThatIsNone) {
+    const ScratchFolder scratch;
+    RandomRun random{6};
+    auto writer = RunFileWriter::create(scratch.file("r.axiscal"), random.header()).value();
+    auto in_field = random.point(0), in_sample = random.point(0);
+    in_field.reading = metre(std::numeric_limits<double>::quiet_NaN());
+    in_sample.samples.push_back({MonotonicTime{}, std::numeric_limits<double>::infinity(), 0});
+    EXPECT_EQ(writer.append_point(in_field).error().fault, Fault::internal);
+    EXPECT_EQ(writer.append_point(in_sample).error().fault, Fault::internal);
+    EXPECT_TRUE(writer.append_point(random.point(0)));
+}
+
+TEST(RunFile, TakesEachStepOnce) {
+    const ScratchFolder scratch;
+    RandomRun random{8};
+    auto writer = RunFileWriter::create(scratch.file("r.axiscal"), random.header()).value();
+    ASSERT_TRUE(writer.append_point(random.point(0)));
+    EXPECT_EQ(writer.append_point(random.point(0)).error().fault, Fault::not_durable);
+    EXPECT_EQ(writer.append_point(random.point(1)).error().fault, Fault::not_durable);
+}
+
+TEST(RunFile, NamesTheRowThatWasChanged) {
+    const ScratchFolder scratch;
+    RandomRun random{9};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 6);
+    run_sql(path, "UPDATE point SET reading_m = reading_m + 1e-6 WHERE step = 3");
+    EXPECT_NE(refusal_of(path).find("(table point) was changed"), std::string::npos)
+        << refusal_of(path);
+}
+
+TEST(RunFile, NamesTheRowThatIsMissing) {
+    const ScratchFolder scratch;
+    RandomRun random{10};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 6);
+    run_sql(path, "DELETE FROM point WHERE step = 2");
+    EXPECT_NE(refusal_of(path).find("is missing"), std::string::npos) << refusal_of(path);
+}
+
+TEST(RunFile, NoticesChangedHeaderStatementsAndClosing) {
+    const ScratchFolder scratch;
+    for (const std::string change :
+         {"UPDATE statement SET value = 'x' WHERE name = 'customer'",
+          "UPDATE closing SET complete = 1 - complete", "UPDATE laser SET sign = -sign",
+          "UPDATE run SET opened_utc_ns = 1"}) {
+        RandomRun random{11};
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        write_run(path, random, 2);
+        run_sql(path, change);
+        EXPECT_NE(refusal_of(path).find("was changed"), std::string::npos) << change;
+    }
+}
+
+TEST(RunFile, RefusesForeignTablesViewsAndTriggers) {
+    const ScratchFolder scratch;
+    for (const std::string change :
+         {"CREATE TABLE more(a)", "CREATE INDEX i ON point(n)", "CREATE VIEW v AS SELECT 1",
+          "CREATE TRIGGER t AFTER INSERT ON point BEGIN SELECT 1; END", "DROP TABLE air",
+          "ALTER TABLE air ADD COLUMN c TEXT"}) {
+        RandomRun random{12};
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        write_run(path, random, 1);
+        run_sql(path, change);
+        EXPECT_NE(refusal_of(path).find("tables are not those"), std::string::npos) << change;
+    }
+}
+
+TEST(RunFile, TellsANewerFormatFromADamagedFile) {
+    const ScratchFolder scratch;
+    RandomRun random{13};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 1);
+    run_sql(path, "PRAGMA user_version = 99");
+    EXPECT_NE(refusal_of(path).find("newer axiscal"), std::string::npos);
+    run_sql(path, "PRAGMA user_version = 0");
+    EXPECT_NE(refusal_of(path).find("does not exist"), std::string::npos);
+    run_sql(path, "PRAGMA application_id = 1");
+    EXPECT_NE(refusal_of(path).find("not an axiscal run file"), std::string::npos);
+}
+
+TEST(RunFile, RefusesWhatIsNoDatabaseAtAll) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    for (const std::string& bytes :
+         {std::string{}, std::string{"{\"analysis\":\"positioning\"}"}, std::string(5000, '\0'),
+          std::string{"SQLite format 3\0", 16}, "SQLite format 3" + std::string(9000, '\xff')}) {
+        write_bytes(path, bytes);
+        EXPECT_NE(refusal_of(path), "accepted");
+    }
+    EXPECT_EQ(read_run_file(scratch.file("none")).error().fault, Fault::not_found);
+    EXPECT_EQ(read_run_file(scratch.path()).error().fault, Fault::not_found);
+}
+
+TEST(RunFile, RefusesEveryTruncation) {
+    const ScratchFolder scratch;
+    RandomRun random{14};
+    const auto path = scratch.file("r.axiscal"), cut = scratch.file("cut.axiscal");
+    write_run(path, random, 5);
+    const auto bytes = read_bytes(path);
+    for (std::size_t size = 0; size < bytes.size();
+         size += 1777) { // the last step cuts less than a page
+        write_bytes(cut, bytes.substr(0, size));
+        EXPECT_NE(refusal_of(cut), "accepted") << size << " of " << bytes.size();
+    }
+}
+
+TEST(RunFile, NeverGivesAnotherRunWhateverByteIsChanged) {
+    const ScratchFolder scratch;
+    RandomRun random{15};
+    const auto path = scratch.file("r.axiscal"), hurt = scratch.file("hurt.axiscal");
+    const RunRecord written = write_run(path, random, 4);
+    const auto bytes = read_bytes(path);
+    int refused = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        auto changed = bytes;
+        const auto place = static_cast<std::size_t>(random.pick(static_cast<int>(bytes.size())));
+        changed[place] = static_cast<char>(changed[place] ^ (1 << random.pick(8)));
+        write_bytes(hurt, changed);
+        const auto read = read_run_file(hurt);
+        refused += read ? 0 : 1;
+        EXPECT_TRUE(!read || same_bits(written, *read)) << "byte " << place;
+    }
+    EXPECT_GT(refused, 20);
+}
+
+TEST(RunFile, KeepsResultsOnlyOnceClosed) {
+    const ScratchFolder scratch;
+    RandomRun random{16};
+    const auto open = scratch.file("open.axiscal"), closed = scratch.file("closed.axiscal");
+    write_run(open, random, 1, false);
+    const RunRecord written = write_run(closed, random, 1);
+    EXPECT_EQ(store_result(open, {"d", "{}"}).error().fault, Fault::refused);
+    EXPECT_EQ(read_stored_result(closed).error().fault, Fault::not_found);
+    ASSERT_TRUE(store_result(closed, {"d1", "{\"a\":1}"}));
+    ASSERT_TRUE(store_result(closed, {"d2", "{\"a\":2}"}));
+    EXPECT_EQ(read_stored_result(closed)->document, "{\"a\":2}");
+    EXPECT_TRUE(same_bits(written, read_run_file(closed).value()));
+    run_sql(closed, "UPDATE result SET document = '{\"a\":3}'");
+    EXPECT_EQ(read_stored_result(closed).error().fault, Fault::bad_run_file);
+}
+
+TEST(RunFile, ListsOpenAndClosedRunsAndLeavesOutTheRest) {
+    const ScratchFolder scratch;
+    RandomRun random{17};
+    write_run(scratch.file("a.axiscal"), random, 2, false);
+    write_run(scratch.file("b.axiscal"), random, 3);
+    write_bytes(scratch.file("c.axiscal"), "nothing");
+    const auto all = list_run_files(scratch.path());
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[1].points, 3);
+    EXPECT_TRUE(all[1].closed);
+    EXPECT_EQ(open_run_files(scratch.path()), std::vector{scratch.file("a.axiscal")});
+    EXPECT_TRUE(open_run_files(scratch.file("missing")).empty());
+}
+
+TEST(RunFile, IsTidiedAfterAPowerCutInItsClosing) {
+    const ScratchFolder scratch;
+    RandomRun random{18};
+    const auto path = scratch.file("r.axiscal"), cut = scratch.file("cut.axiscal");
+    std::optional writer{RunFileWriter::create(path, random.header()).value()};
+    // As a power cut leaves it: database and WAL copied after the closing row, before the tidying.
+    const auto header = read_bytes(path);
+    sqlite3* keeper = nullptr; // a reader keeps the WAL from being folded
+    ASSERT_EQ(sqlite3_open(path.c_str(), &keeper), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(keeper, "BEGIN; SELECT * FROM run", nullptr, nullptr, nullptr), 0);
+    EXPECT_FALSE(writer->close(true, "done", random.tie()));
+    write_bytes(cut, header);
+    write_bytes(cut + "-wal", read_bytes(path + "-wal"));
+    write_bytes(scratch.file("half.axiscal.new"), "half a header");
+    sqlite3_close(keeper);
+    writer.reset();
+    ASSERT_TRUE(tidy_run_files(scratch.path()));
+    EXPECT_FALSE(std::filesystem::exists(cut + "-wal"));
+    EXPECT_FALSE(std::filesystem::exists(scratch.file("half.axiscal.new")));
+    EXPECT_TRUE(read_run_file(cut)->complete);
+}
+
+} // namespace
+} // namespace axiscal
