@@ -1,0 +1,210 @@
+#include "drivers/cnc/modbus_tcp_port.hpp"
+
+#include "drivers/cnc/mbap_framer.hpp"
+#include "drivers/cnc/modbus_answer.hpp"
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/experimental/awaitable_operators.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+
+#include <algorithm>
+#include <exception>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using namespace asio::experimental::awaitable_operators;
+
+constexpr auto quietly = asio::as_tuple(asio::use_awaitable);
+constexpr int unread_answers = 16 * 1024; // bytes the kernel keeps for a client that does not read
+constexpr auto pause_after_failed_accept = std::chrono::milliseconds{100};
+
+} // namespace
+
+/// One connection; lives as long as its coroutine.
+struct ModbusTcpPort::Client {
+    Client(tcp::socket connected,
+           std::shared_ptr<TriggerDesk> served_desk,
+           std::shared_ptr<int> open_clients,
+           Scheduler* its_scheduler,
+           ClientPatience its_patience)
+        : desk{std::move(served_desk)}
+        , count{std::move(open_clients)}
+        , scheduler{its_scheduler}
+        , patience{its_patience}
+        , socket{std::move(connected)} {
+        ++*count;
+    }
+    ~Client() { --*count; }
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
+
+    std::shared_ptr<TriggerDesk> desk; // kept while the last handlers run
+    std::shared_ptr<int> count;
+    Scheduler* scheduler;
+    ClientPatience patience;
+    MbapFramer framer;
+    std::unique_ptr<ModbusAnswerer> answerer;
+    MonotonicTime deadline;   ///< when patience ends
+    bool frame_begun = false; ///< part of a frame was left over by the last read
+    std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> buffer{};
+    tcp::socket socket; // after its buffer
+};
+
+ModbusTcpPort::ModbusTcpPort(std::unique_ptr<RegisterMap> map,
+                             TriggerConfig config,
+                             ClientPatience patience)
+    : MappedPort{std::move(map), std::move(config)}
+    , patience_{patience} {}
+
+Result<ModbusTcpPort::Acceptor> ModbusTcpPort::listen(const TriggerContext& context) const {
+    boost::system::error_code error;
+    const auto place = config_.host + ":" + std::to_string(config_.port);
+    const auto address = asio::ip::make_address(config_.host, error);
+    if (error) return fail(Fault::io, "The trigger port cannot listen on " + place + ".", error);
+    const tcp::endpoint endpoint{address, static_cast<std::uint16_t>(config_.port)};
+    Acceptor acceptor{context.scheduler->executor()};
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error)
+        return fail(Fault::io,
+                    "The trigger port cannot listen on " + place +
+                        ": another program may hold it, or the address is not of this PC.",
+                    error);
+    return acceptor;
+}
+
+Task<Result<void>> ModbusTcpPort::run(TriggerContext context) {
+    AXISCAL_CO_TRY(Acceptor acceptor, listen(context));
+    bound_port_ = acceptor.local_endpoint().port();
+    desk_->attach(context);
+    try {
+        auto accepting = accept_clients(acceptor, context.scheduler);
+        auto timing = desk_->keep_time(context.scheduler);
+        co_await (std::move(accepting) || std::move(timing));
+    } catch (const std::exception&) { // cancelled: the way a port ends
+    }
+    desk_->detach();
+    hang_up_all();
+    bound_port_ = 0;
+    co_return fail(Fault::link_closed, describe() + " was stopped.");
+}
+
+Task<void> ModbusTcpPort::accept_clients(Acceptor& acceptor, Scheduler* scheduler) {
+    for (;;) {
+        auto [error, socket] = co_await acceptor.async_accept(quietly);
+        if (!error)
+            admit(std::move(socket), scheduler);
+        else // out of descriptors, or cancelled: then the next line throws
+            co_await scheduler->sleep_for(pause_after_failed_accept);
+    }
+}
+
+void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
+    std::erase_if(clients_, [](const auto& client) { return client.expired(); });
+    if (*open_clients_ >= config_.client_limit) {
+        ++desk_->counters.refused;
+        desk_->note(Fault::refused, describe() + " has all its " +
+                                        std::to_string(config_.client_limit) +
+                                        " clients; one more was turned away.");
+        return; // the socket closes here
+    }
+    auto answerer = ModbusAnswerer::open();
+    if (!answerer) {
+        desk_->note(Fault::io, axiscal::describe(answerer.error()));
+        return;
+    }
+    boost::system::error_code ignored; // a client gone already shows at the first read
+    socket.set_option(tcp::no_delay(true), ignored);
+    socket.set_option(asio::socket_base::send_buffer_size(unread_answers), ignored);
+    auto client =
+        std::make_shared<Client>(std::move(socket), desk_, open_clients_, scheduler, patience_);
+    client->answerer = std::move(*answerer);
+    clients_.push_back(client);
+    asio::co_spawn(scheduler->executor(), attend(std::move(client)), asio::detached);
+}
+
+Task<void> ModbusTcpPort::attend(std::shared_ptr<Client> client) {
+    client->deadline = client->scheduler->now() + client->patience.idle;
+    auto serving = serve(*client);
+    auto watching = watch(*client);
+    const auto ended = co_await (std::move(serving) || std::move(watching));
+    if (ended.index() == 1) ++client->desk->counters.hung_up;
+}
+
+Task<void> ModbusTcpPort::serve(Client& client) {
+    for (;;) {
+        const auto [error, length] =
+            co_await client.socket.async_read_some(asio::buffer(client.buffer), quietly);
+        if (error) co_return;
+        client.framer.feed({client.buffer.data(), length});
+        if (!co_await answer_frames(client)) co_return;
+        if (client.framer.broken()) {
+            ++client.desk->counters.hung_up;
+            co_return;
+        }
+    }
+}
+
+// Frames go one by one: an answer must be taken before the next request is looked at, so that a
+// client that never reads fills the kernel's buffers and not ours.
+Task<bool> ModbusTcpPort::answer_frames(Client& client) {
+    const MonotonicTime at = client.scheduler->now();
+    bool answered = false;
+    while (const auto frame = client.framer.next()) {
+        answered = true;
+        if (!client.desk->attached()) co_return false;
+        const std::span<const std::uint8_t> pdu{frame->data() + mbap_header,
+                                                frame->size() - mbap_header};
+        const auto request = parse_modbus_request(pdu);
+        const auto verdict = request ? client.desk->space().check(*request) : request.error();
+        if (verdict == ModbusException::none && !request->values.empty())
+            client.desk->write(*request, at);
+        const auto reply =
+            client.answerer->answer(*frame, verdict, client.desk->image(client.scheduler->now()));
+        if (!reply) co_return false;
+        ++client.desk->counters.requests;
+        if (verdict != ModbusException::none) ++client.desk->counters.exceptions;
+        client.deadline = client.scheduler->now() + client.patience.answer;
+        const auto [error, sent] =
+            co_await asio::async_write(client.socket, asio::buffer(*reply), quietly);
+        if (error) co_return false;
+    }
+    if (!client.framer.in_frame())
+        client.deadline = client.scheduler->now() + client.patience.idle;
+    else if (answered || !client.frame_begun)
+        client.deadline = client.scheduler->now() + client.patience.frame;
+    client.frame_begun = client.framer.in_frame();
+    co_return true;
+}
+
+// A deadline may come nearer while this sleeps, but never nearer than the shortest patience.
+Task<void> ModbusTcpPort::watch(Client& client) {
+    const Duration shortest =
+        std::min({client.patience.frame, client.patience.answer, client.patience.idle});
+    for (MonotonicTime now = client.scheduler->now(); now < client.deadline;
+         now = client.scheduler->now())
+        co_await client.scheduler->sleep_until(std::min(client.deadline, now + shortest));
+}
+
+void ModbusTcpPort::hang_up_all() {
+    boost::system::error_code ignored; // closing cannot be refused
+    for (const auto& held : clients_)
+        if (const auto client = held.lock()) client->socket.close(ignored);
+    clients_.clear();
+}
+
+std::string ModbusTcpPort::describe() const {
+    const int port = bound_port_ != 0 ? bound_port_ : config_.port;
+    return std::string{shape_name(config_.shape)} + ", Modbus TCP " + config_.host + ":" +
+           std::to_string(port);
+}
+
+} // namespace axiscal

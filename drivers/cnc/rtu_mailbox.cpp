@@ -1,0 +1,40 @@
+#include "drivers/cnc/rtu_mailbox.hpp"
+
+namespace axiscal {
+
+void RtuMailbox::put(const RegisterImage& image) {
+    const std::lock_guard lock{mutex_};
+    image_ = image;
+}
+
+void RtuMailbox::count_write() {
+    const std::lock_guard lock{mutex_};
+    ++writes_;
+    changed_.notify_all();
+}
+
+std::optional<RegisterImage> RtuMailbox::image_after(std::uint64_t writes, Duration patience) {
+    std::unique_lock lock{mutex_};
+    const bool arrived =
+        changed_.wait_for(lock, patience, [this, writes] { return stopped_ || writes_ >= writes; });
+    if (!arrived || stopped_) return std::nullopt;
+    return image_;
+}
+
+void RtuMailbox::stop() {
+    const std::lock_guard lock{mutex_};
+    stopped_ = true;
+    changed_.notify_all();
+}
+
+bool RtuMailbox::stopped() const {
+    const std::lock_guard lock{mutex_};
+    return stopped_;
+}
+
+void RtuMailbox::pause(Duration span) {
+    std::unique_lock lock{mutex_};
+    changed_.wait_for(lock, span, [this] { return stopped_; });
+}
+
+} // namespace axiscal

@@ -1,0 +1,35 @@
+#pragma once
+// What the thread of a serial line and the loop tell each other. Thread-safe; no call waits longer
+// than it was told to.
+
+#include "drivers/cnc/register_map.hpp"
+
+#include <condition_variable>
+#include <mutex>
+
+namespace axiscal {
+
+class RtuMailbox {
+public:
+    /// The loop: what is to be read from now on.
+    void put(const RegisterImage& image);
+    /// The loop: one more posted write is in the image.
+    void count_write();
+    /// The line's thread: the image once `writes` posted writes are in it, stamped by the caller.
+    /// Empty when the loop did not come round in time.
+    std::optional<RegisterImage> image_after(std::uint64_t writes, Duration patience);
+
+    void stop();
+    [[nodiscard]] bool stopped() const;
+    /// The line's thread: a pause that stop() cuts short.
+    void pause(Duration span);
+
+private:
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    RegisterImage image_;
+    std::uint64_t writes_ = 0;
+    bool stopped_ = false;
+};
+
+} // namespace axiscal

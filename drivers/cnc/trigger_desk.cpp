@@ -1,0 +1,76 @@
+#include "drivers/cnc/trigger_desk.hpp"
+
+namespace axiscal {
+
+RegisterImage TriggerDesk::image(MonotonicTime now) const {
+    RegisterImage image = map_->image();
+    image.stamp(now);
+    return image;
+}
+
+void TriggerDesk::write(const ModbusRequest& request, MonotonicTime at) {
+    deliver(map_->write(request, at));
+    changed();
+}
+
+void TriggerDesk::deliver(MapNews news) {
+    counters.late_indices += static_cast<std::uint64_t>(news.late_indices);
+    if (!context_.sink) return;
+    if (news.silent) context_.sink->on_cnc_silent(*news.silent);
+    for (auto& [fault, sentence] : news.notes)
+        context_.sink->on_port_note(fault, std::move(sentence));
+    for (const auto& event : news.events)
+        context_.sink->on_trigger(event);
+}
+
+void TriggerDesk::silent(bool silent) {
+    if (context_.sink) context_.sink->on_cnc_silent(silent);
+}
+
+void TriggerDesk::note(Fault fault, std::string sentence) {
+    if (context_.sink) context_.sink->on_port_note(fault, std::move(sentence));
+}
+
+void TriggerDesk::arm() {
+    map_->arm();
+    changed();
+}
+
+void TriggerDesk::acknowledge(const JournalReceipt& receipt) {
+    map_->finish(receipt.sequence());
+    changed();
+}
+
+void TriggerDesk::refuse(std::uint16_t sequence, Fault fault) {
+    map_->refuse(sequence, fault);
+    changed();
+}
+
+void TriggerDesk::publish(const PortStatus& status) {
+    map_->show(status);
+    changed();
+}
+
+void TriggerDesk::changed() const {
+    if (on_change) on_change();
+}
+
+Task<void> TriggerDesk::keep_time(Scheduler* scheduler) {
+    while (attached()) {
+        co_await scheduler->sleep_for(map_->ticks());
+        deliver(map_->tick(scheduler->now()));
+        changed();
+    }
+}
+
+std::string_view shape_name(TriggerShape shape) {
+    switch (shape) {
+    case TriggerShape::sequence_block: return "sequence-block";
+    case TriggerShape::single_register: return "single-register";
+    case TriggerShape::coil_and_index: return "coil-and-index";
+    case TriggerShape::dwell: return "dwell";
+    }
+    return "?";
+}
+
+} // namespace axiscal
