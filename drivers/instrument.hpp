@@ -37,7 +37,7 @@ struct InstrumentContext {
 /// Counted, never silent: frames dropped for each reason, gaps in the device's own numbering.
 struct InstrumentCounters {
     std::uint64_t frames = 0, samples = 0, bad_frames = 0, checksum_errors = 0, gaps = 0,
-                  lost_records = 0, restarts = 0;
+                  lost_records = 0, restarts = 0, timeouts = 0;
 };
 
 class Instrument {

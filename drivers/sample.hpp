@@ -24,7 +24,8 @@ struct Channel {
     std::string name; ///< "axis 1", "air temperature", "contact 2"
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
-    Duration typical_latency{}; ///< subtracted from the arrival time by the driver
+    Duration typical_latency{};     ///< subtracted from the arrival time by the driver
+    Duration latency_uncertainty{}; ///< half-known delay of the link (FTDI latency timer)
 };
 
 /// One reading. The number can be had only through `value()`, which is empty unless it is good:

@@ -11,6 +11,8 @@
 
 namespace axiscal {
 
+class ModbusBuses;
+
 struct TimedBytes {
     std::vector<std::byte> bytes;
     MonotonicTime read_at; ///< taken right after the read returned, before any parsing
@@ -23,6 +25,10 @@ public:
     /// @errors Fault::link_timeout at the deadline, Fault::link_closed at end of file or unplug.
     virtual Task<Result<TimedBytes>> read_some(MonotonicTime deadline) = 0;
     virtual Task<Result<void>> write_all(std::vector<std::byte> bytes, MonotonicTime deadline) = 0;
+    /// How much later than assumed bytes may be handed over (FTDI latency timer beyond 1 ms).
+    [[nodiscard]] virtual Duration latency_uncertainty() const { return {}; }
+    /// What a person should know of this link; empty when all is as it should be.
+    [[nodiscard]] virtual std::string remark() const { return {}; }
 };
 
 /// Where a link leads, as the station file says it.
@@ -44,6 +50,8 @@ public:
     virtual ~LinkOpener() = default;
     virtual Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                          MonotonicTime deadline) = 0;
+    /// The Modbus lines behind this opener; null where there are none (tapes).
+    [[nodiscard]] virtual ModbusBuses* modbus_buses() { return nullptr; }
 };
 
 } // namespace axiscal

@@ -1,0 +1,204 @@
+// Modbus sensors by profile: air and material temperature, humidity, pressure; RTU and TCP.
+//
+// Document: Modbus Application Protocol Specification V1.1b3 (2012-04-26), "[6.3]" read holding
+// registers, "[6.4]" read input registers; framing is libmodbus' (3.1.6 in Debian 12). What the
+// registers of one model hold stands, with its manual, in config/profiles/<model>.toml.
+//
+// The line belongs to a bus thread (drivers/link/modbus_bus.hpp); this class only awaits it, so a
+// dead peer never blocks the loop.
+
+#include "drivers/environment/modbus_instrument.hpp"
+
+#include "config/settings.hpp"
+#include "drivers/link/link_settings.hpp"
+#include "drivers/link/modbus_bus.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+/// After so many rounds without any answer the instrument is given up and opened anew.
+constexpr int silent_rounds = 3;
+
+std::vector<Channel> channels_of(const ModbusProfile& profile) {
+    std::vector<Channel> channels;
+    for (const ModbusChannel& channel : profile.channels)
+        channels.push_back(channel.channel);
+    return channels;
+}
+
+class ModbusInstrument final : public Instrument {
+public:
+    ModbusInstrument(ModbusProfile profile, ModbusStation station)
+        : profile_{std::move(profile)}
+        , station_{std::move(station)}
+        , channels_{channels_of(profile_)}
+        , blocks_{register_blocks(profile_)} {}
+    [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
+    Task<Result<void>> run(InstrumentContext context) override;
+    [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
+
+private:
+    [[nodiscard]] ModbusRead request(int function, int address, int count) const;
+    Task<void> identify(ModbusBus& bus, SampleSink& sink);
+    Task<Result<int>> round(ModbusBus& bus, InstrumentContext context);
+    void hand_up(const RegisterBlock& block, const ModbusWords& reply, SampleSink& sink);
+    void hand_up_absent(const RegisterBlock& block, MonotonicTime at, SampleSink& sink);
+    void count(Fault fault);
+
+    ModbusProfile profile_;
+    ModbusStation station_;
+    std::vector<Channel> channels_;
+    std::vector<RegisterBlock> blocks_;
+    InstrumentCounters counters_;
+    bool refusal_told_ = false;
+};
+
+ModbusRead ModbusInstrument::request(int function, int address, int count) const {
+    ModbusRead read;
+    read.unit_id = station_.unit_id;
+    read.function = function;
+    read.address = address + station_.address_offset;
+    read.count = count;
+    read.timeout = profile_.timeout;
+    read.gap = profile_.gap;
+    return read;
+}
+
+void ModbusInstrument::count(Fault fault) {
+    switch (fault) {
+    case Fault::link_timeout: ++counters_.timeouts; break;
+    case Fault::checksum: ++counters_.checksum_errors; break;
+    case Fault::bad_frame: ++counters_.bad_frames; break;
+    default: break;
+    }
+}
+
+/// A serial number that is none tells that the addresses are shifted by one.
+Task<void> ModbusInstrument::identify(ModbusBus& bus, SampleSink& sink) {
+    std::string serial;
+    if (profile_.serial_number) {
+        const ModbusField field = *profile_.serial_number;
+        const ModbusRead read = request(field.function, field.address, field.count);
+        const auto reply = co_await bus.read(read);
+        const auto number = reply ? decode_words(reply->words, field) : std::nullopt;
+        if (number && *number > 0)
+            serial = std::to_string(static_cast<long long>(*number));
+        else if (reply)
+            sink.note(Fault::bad_configuration,
+                      profile_.model + ": no serial number where the profile has it; try another "
+                                       "address_offset (-1, 0 or 1)");
+    }
+    if (!serial.empty() && !station_.stated_serial.empty() && serial != station_.stated_serial)
+        sink.note(Fault::bad_configuration,
+                  profile_.model + ": the instrument's serial number is " + serial +
+                      ", the station file states " + station_.stated_serial);
+    sink.identify(Identity{profile_.maker, profile_.model, serial, ""});
+}
+
+void ModbusInstrument::hand_up(const RegisterBlock& block,
+                               const ModbusWords& reply,
+                               SampleSink& sink) {
+    ++counters_.frames;
+    const std::span<const std::uint16_t> words{reply.words};
+    for (const std::size_t place : block.channels) {
+        const ModbusChannel& channel = profile_.channels[place];
+        const auto begin = static_cast<std::size_t>(channel.field.address - block.address);
+        const auto value = channel_value(
+            words.subspan(begin, static_cast<std::size_t>(channel.field.count)), channel);
+        const int number = static_cast<int>(place);
+        ++counters_.samples;
+        sink.take(value ? Sample{number, reply.read_at, *value}
+                        : Sample::bad(number, reply.read_at, Quality::absent));
+    }
+}
+
+void ModbusInstrument::hand_up_absent(const RegisterBlock& block,
+                                      MonotonicTime at,
+                                      SampleSink& sink) {
+    for (const std::size_t place : block.channels)
+        sink.take(Sample::bad(static_cast<int>(place), at, Quality::absent));
+}
+
+/// The number of blocks that were answered, a Modbus exception being an answer.
+Task<Result<int>> ModbusInstrument::round(ModbusBus& bus, InstrumentContext context) {
+    int answered = 0;
+    for (const RegisterBlock& block : blocks_) {
+        const ModbusRead read = request(block.function, block.address, block.count);
+        const auto reply = co_await bus.read(read);
+        if (reply) {
+            ++answered;
+            hand_up(block, *reply, *context.sink);
+            continue;
+        }
+        count(reply.error().fault);
+        hand_up_absent(block, context.scheduler->now(), *context.sink);
+        if (reply.error().fault == Fault::link_closed)
+            co_return tl::unexpected<Error>(reply.error());
+        if (reply.error().fault != Fault::refused) continue;
+        ++answered;
+        if (!std::exchange(refusal_told_, true))
+            context.sink->note(Fault::refused, reply.error().detail);
+    }
+    co_return answered;
+}
+
+Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
+    ModbusBuses* const buses = context.links->modbus_buses();
+    if (!buses) co_return fail(Fault::link_closed, "no Modbus lines here");
+    const auto bus = buses->bus(station_.link);
+    if (!bus) co_return tl::unexpected<Error>(bus.error());
+    refusal_told_ = false;
+    bool identified = false;
+    int silent = 0;
+    MonotonicTime next = context.scheduler->now();
+    for (;;) {
+        const auto answered = co_await round(**bus, context);
+        if (!answered) co_return tl::unexpected<Error>(answered.error());
+        silent = *answered > 0 ? 0 : silent + 1;
+        if (silent == silent_rounds)
+            co_return fail(Fault::link_timeout, profile_.model + " unit " +
+                                                    std::to_string(station_.unit_id) + " on " +
+                                                    station_.link.describe() + " does not answer");
+        if (*answered > 0 && !std::exchange(identified, true))
+            co_await identify(**bus, *context.sink);
+        // A slow line delays the next round instead of piling rounds up.
+        next = std::max(next + station_.poll_period, context.scheduler->now());
+        co_await context.scheduler->sleep_until(next);
+    }
+}
+
+} // namespace
+
+std::unique_ptr<Instrument> make_modbus_instrument(ModbusProfile profile, ModbusStation station) {
+    return std::make_unique<ModbusInstrument>(std::move(profile), std::move(station));
+}
+
+std::unique_ptr<Instrument> make_modbus(const InstrumentConfig& config, Settings& options) {
+    const std::string name = options.text("profile");
+    Result<ModbusProfile> profile = ModbusProfile{};
+    if (!name.empty()) {
+        const auto path = find_profile(name, profile_folders());
+        if (path)
+            profile = load_profile(*path);
+        else
+            profile = tl::unexpected<Error>(path.error());
+    }
+    if (!profile) {
+        options.refuse("profile", profile.error().detail);
+        profile = ModbusProfile{};
+    }
+    ModbusStation station;
+    station.link = read_link(options, profile->link);
+    station.unit_id = static_cast<int>(options.integer("unit_id", 0, 255, profile->unit_id));
+    station.address_offset =
+        static_cast<int>(options.integer("address_offset", -1, 1, profile->address_offset));
+    station.poll_period = options.duration("poll_period", std::chrono::milliseconds{20},
+                                           std::chrono::seconds{600}, profile->poll_period);
+    station.stated_serial = config.serial;
+    return make_modbus_instrument(*std::move(profile), std::move(station));
+}
+
+} // namespace axiscal

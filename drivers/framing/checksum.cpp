@@ -1,0 +1,15 @@
+#include "drivers/framing/checksum.hpp"
+
+namespace axiscal {
+
+std::uint16_t crc16_xmodem(std::string_view bytes) {
+    unsigned crc = 0;
+    for (const char byte : bytes) {
+        crc ^= static_cast<unsigned>(static_cast<unsigned char>(byte)) << 8;
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 0x8000u) != 0 ? (crc << 1) ^ 0x1021u : crc << 1;
+    }
+    return static_cast<std::uint16_t>(crc & 0xFFFFu);
+}
+
+} // namespace axiscal

@@ -1,0 +1,73 @@
+#pragma once
+// From uMD records to samples: continuity, signal faults, datum, time. No I/O. Loop-bound.
+
+#include "drivers/instrument.hpp"
+#include "drivers/laser/umd_facts.hpp"
+#include "drivers/laser/umd_record.hpp"
+
+#include <span>
+
+namespace axiscal {
+
+/// Channel numbers of the uMD driver. The environment slots exist on the uMD1 only.
+enum UmdChannel : int {
+    umd_displacement,
+    umd_temperature_1,
+    umd_temperature_2,
+    umd_pressure,
+    umd_humidity
+};
+
+/// Hands up one displacement sample a record once the instrument's facts are known. The epoch
+/// rises whenever counts may have been lost: restart, new connection, lost signal, slew error, or
+/// a jump that no axis makes.
+class UmdCounter {
+public:
+    UmdCounter(UmdSetup setup, Duration latency, InstrumentCounters& counters);
+    /// A link was opened: what the counter did meanwhile is unknown.
+    void opened();
+    /// The instrument printed its greeting: it restarted.
+    void greeted(SampleSink& sink);
+    /// Records that arrived together; they are spread backwards by the record rate.
+    void take(std::span<const UmdRecord> records, MonotonicTime read_at, SampleSink& sink);
+
+private:
+    enum class Signal : std::uint8_t { good, doubtful, lost };
+    struct Reading {
+        Signal signal = Signal::good;
+        Quality quality = Quality::good;
+        Fault fault = Fault::none;
+        const char* what = "";
+        double counts = 0;
+    };
+
+    void learn(const UmdRecord& record, MonotonicTime at, SampleSink& sink);
+    void learn_environment(const UmdRecord& record, MonotonicTime at, SampleSink& sink);
+    void introduce(SampleSink& sink);
+    void follow_sequence(std::int64_t sequence, MonotonicTime read_at, SampleSink& sink);
+    [[nodiscard]] std::int64_t step_of(std::int64_t sequence) const;
+    void lose_datum(SampleSink& sink, Fault fault, std::string sentence);
+    [[nodiscard]] Reading read(const UmdRecord& record) const;
+    [[nodiscard]] Reading read_signal(const UmdRecord& record, const UmdAxisFields& axis) const;
+    void judge_jump(double counts, SampleSink& sink);
+    void hand_up(const Reading& reading, MonotonicTime at, SampleSink& sink);
+    [[nodiscard]] Duration period() const;
+
+    UmdSetup setup_;
+    UmdFacts facts_;
+    Duration latency_;
+    InstrumentCounters& counters_;
+    std::uint32_t epoch_ = 0;
+    bool datum_in_use_ = false; ///< a sample was handed up in this epoch
+    bool signal_lost_ = false;
+    bool introduced_ = false, complained_ = false, contradicted_ = false, doubted_ = false;
+    std::optional<std::int64_t> last_sequence_;
+    std::uint64_t device_count_ = 0;
+    std::int64_t last_step_ = 1;
+    int records_without_facts_ = 0;
+    std::optional<double> last_counts_;
+    std::int64_t steps_since_counts_ = 0;
+    MonotonicTime last_read_at_{}, last_at_{};
+};
+
+} // namespace axiscal

@@ -1,0 +1,45 @@
+#include "drivers/laser/umd_record.hpp"
+
+#include <charconv>
+#include <cstddef>
+
+namespace axiscal {
+namespace {
+
+constexpr std::size_t short_record = 8, long_record = 16;
+
+/// The number of fields, or 0 when the line is no record.
+std::size_t split(std::string_view line, std::array<std::int64_t, long_record>& fields) {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    for (std::size_t count = 0; count < long_record;) {
+        const auto [next, error] = std::from_chars(at, end, fields[count]);
+        if (error != std::errc{}) return 0;
+        ++count;
+        if (next == end) return count;
+        if (*next != ' ') return 0;
+        at = next + 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+std::optional<UmdRecord> decode_umd_record(std::string_view line) {
+    std::array<std::int64_t, long_record> field;
+    const std::size_t count = split(line, field);
+    if (count != short_record && count != long_record) return std::nullopt;
+    UmdRecord record;
+    record.reference = field[0];
+    record.axes[0] = {field[1], field[2], field[4]};
+    record.sequence = field[5];
+    record.low_speed_code = field[6];
+    record.low_speed_data = field[7];
+    if (count == short_record) return record;
+    record.axis_count = 3;
+    record.axes[1] = {field[8], field[9], field[11]};
+    record.axes[2] = {field[12], field[13], field[15]};
+    return record;
+}
+
+} // namespace axiscal

@@ -1,0 +1,23 @@
+#pragma once
+// Opens real links: serial lines, TCP connections and shared Modbus lines. Loop-bound.
+
+#include "drivers/link/byte_link.hpp"
+#include "drivers/link/modbus_bus.hpp"
+
+namespace axiscal {
+
+class RealLinkOpener final : public LinkOpener {
+public:
+    /// `scheduler` is borrowed and must outlive the opener; the opener must outlive its
+    /// instruments' coroutines, and be destroyed before the loop (its bus threads are joined here).
+    explicit RealLinkOpener(Scheduler& scheduler);
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                 MonotonicTime deadline) override;
+    [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
+
+private:
+    Scheduler& scheduler_;
+    ModbusBuses buses_;
+};
+
+} // namespace axiscal

@@ -1,0 +1,73 @@
+#include "drivers/link/link_settings.hpp"
+
+#include <charconv>
+
+namespace axiscal {
+namespace {
+
+constexpr std::string_view serial_prefix = "serial:", tcp_prefix = "tcp:";
+
+constexpr std::string_view name_of_parity(char parity) {
+    return parity == 'E' ? "even" : parity == 'O' ? "odd" : "none";
+}
+
+std::string_view without_brackets(std::string_view host) {
+    const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+    return bracketed ? host.substr(1, host.size() - 2) : host;
+}
+
+Result<LinkSettings> parse_tcp(std::string_view place, LinkSettings settings) {
+    const auto colon = place.rfind(':');
+    const auto host = without_brackets(place.substr(0, colon));
+    if (colon == std::string_view::npos || host.empty())
+        return fail(Fault::bad_configuration, "write \"tcp:host:port\"");
+    const auto port = place.substr(colon + 1);
+    int number = 0;
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+    if (error != std::errc{} || end != port.data() + port.size() || number < 1 || number > 65535)
+        return fail(Fault::bad_configuration, "the port is a number from 1 to 65535");
+    settings.kind = LinkSettings::Kind::tcp;
+    settings.host = host;
+    settings.port = number;
+    return settings;
+}
+
+} // namespace
+
+std::string LinkSettings::describe() const {
+    if (kind == Kind::tcp) return "tcp " + host + ":" + std::to_string(port);
+    return "serial " + path + " " + std::to_string(baud) + " " + std::to_string(data_bits) +
+           parity + std::to_string(stop_bits);
+}
+
+Result<LinkSettings> parse_link(std::string_view text, LinkSettings defaults) {
+    if (text.starts_with(tcp_prefix))
+        return parse_tcp(text.substr(tcp_prefix.size()), std::move(defaults));
+    const bool serial = text.starts_with(serial_prefix);
+    if (!serial || text.size() == serial_prefix.size())
+        return fail(Fault::bad_configuration,
+                    "write \"serial:/dev/serial/by-id/...\" or \"tcp:host:port\"");
+    defaults.kind = LinkSettings::Kind::serial;
+    defaults.path = text.substr(serial_prefix.size());
+    return defaults;
+}
+
+LinkSettings read_link(Settings& options, const LinkSettings& defaults) {
+    const bool stated = options.has("link");
+    const auto parsed = parse_link(options.text("link"), defaults);
+    if (!parsed) {
+        if (stated) options.refuse("link", parsed.error().detail);
+        return defaults;
+    }
+    LinkSettings settings = *parsed;
+    if (settings.kind == LinkSettings::Kind::tcp) return settings;
+    settings.baud = static_cast<int>(options.integer("baud", 1200, 3'000'000, defaults.baud));
+    const auto parity = options.choice("parity", {"none", "even", "odd"},
+                                       std::string{name_of_parity(defaults.parity)});
+    settings.parity = parity == "even" ? 'E' : parity == "odd" ? 'O' : 'N';
+    settings.data_bits = static_cast<int>(options.integer("data_bits", 5, 8, defaults.data_bits));
+    settings.stop_bits = static_cast<int>(options.integer("stop_bits", 1, 2, defaults.stop_bits));
+    return settings;
+}
+
+} // namespace axiscal

@@ -1,0 +1,20 @@
+#pragma once
+// How a link is written in the station file. Pure.
+
+#include "config/settings.hpp"
+#include "drivers/link/byte_link.hpp"
+
+#include <string_view>
+
+namespace axiscal {
+
+/// "serial:/dev/serial/by-id/..." or "tcp:host:port"; IPv6 hosts in brackets. Other fields are
+/// taken from `defaults`.
+/// @errors Fault::bad_configuration with what would be right.
+Result<LinkSettings> parse_link(std::string_view text, LinkSettings defaults = {});
+
+/// Reads `link` and, on a serial line, `baud`, `parity`, `data_bits` and `stop_bits`; what is
+/// missing keeps the driver's default. Refusals go to `options`.
+LinkSettings read_link(Settings& options, const LinkSettings& defaults = {});
+
+} // namespace axiscal

@@ -1,0 +1,81 @@
+#pragma once
+// One Modbus line (RTU) or connection (TCP) with the thread that owns its libmodbus context.
+// libmodbus contexts are not thread-safe and block, so nothing else ever touches one.
+
+#include "drivers/link/byte_link.hpp"
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace axiscal {
+
+/// One request. Function 3 reads holding registers, 4 input registers; addresses are those on the
+/// wire, from 0.
+struct ModbusRead {
+    int unit_id = 1, function = 3, address = 0, count = 1;
+    Duration timeout = std::chrono::milliseconds{500}; ///< for the whole reply
+    Duration gap = std::chrono::milliseconds{5};       ///< silence kept before the request
+};
+
+struct ModbusWords {
+    std::vector<std::uint16_t> words;
+    MonotonicTime read_at; ///< taken on the bus thread, right after the reply
+};
+
+/// Thread-safe in `read` (called on the loop, served on the bus thread); construction and
+/// destruction belong to the loop. Destruction waits for the request in flight, at most its
+/// timeout.
+class ModbusBus {
+public:
+    ModbusBus(LinkSettings settings, boost::asio::any_io_executor loop);
+    ~ModbusBus();
+    ModbusBus(const ModbusBus&) = delete;
+    ModbusBus& operator=(const ModbusBus&) = delete;
+
+    /// Queued behind the requests of the other instruments on this line.
+    /// @errors Fault::link_closed (device or peer gone), link_timeout (no or half a reply),
+    /// checksum (bad CRC), bad_frame (a reply that is none), refused (the instrument answered with
+    /// a Modbus exception).
+    Task<Result<ModbusWords>> read(ModbusRead request);
+    [[nodiscard]] const LinkSettings& settings() const { return settings_; }
+
+private:
+    struct Pending;
+    class Context;
+    void serve();
+    std::shared_ptr<Pending> next_request();
+    bool keep_silent(Duration gap);
+
+    LinkSettings settings_;
+    boost::asio::any_io_executor loop_;
+    std::mutex mutex_; ///< guards requests_ and stopping_
+    std::condition_variable wake_;
+    std::deque<std::shared_ptr<Pending>> requests_; ///< shared with the waiting coroutine
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+/// All lines of the station: instruments on one line share its bus. Loop-bound.
+class ModbusBuses {
+public:
+    explicit ModbusBuses(boost::asio::any_io_executor loop)
+        : loop_{std::move(loop)} {}
+    /// @errors Fault::bad_configuration when the line is in use with other settings.
+    Result<ModbusBus*> bus(const LinkSettings& settings);
+    [[nodiscard]] std::size_t size() const { return buses_.size(); }
+
+private:
+    boost::asio::any_io_executor loop_;
+    std::map<std::string, std::unique_ptr<ModbusBus>> buses_;
+};
+
+} // namespace axiscal

@@ -1,0 +1,173 @@
+#include "drivers/link/tape_link.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <ostream>
+
+namespace axiscal {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const auto begin = text.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+std::string_view take_word(std::string_view& rest) {
+    rest = trimmed(rest);
+    const auto word = rest.substr(0, rest.find(' '));
+    rest = trimmed(rest.substr(word.size()));
+    return word;
+}
+
+Result<std::vector<std::byte>> bytes_from_hex(std::string_view hex) {
+    std::vector<std::byte> bytes;
+    for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
+        unsigned value = 0;
+        const auto [end, error] = std::from_chars(hex.data() + at, hex.data() + at + 2, value, 16);
+        if (error != std::errc{} || end != hex.data() + at + 2)
+            return fail(Fault::bad_request, "not a hexadecimal byte");
+        bytes.push_back(static_cast<std::byte>(value));
+    }
+    if (hex.size() % 2 != 0) return fail(Fault::bad_request, "half a hexadecimal byte");
+    return bytes;
+}
+
+Result<TapeEntry> parse_entry(std::string_view line, Duration not_before) {
+    TapeEntry entry;
+    entry.direction = static_cast<TapeEntry::Direction>(line.front());
+    std::string_view rest = line.substr(1);
+    const auto offset = take_word(rest);
+    std::int64_t nanoseconds = 0;
+    const auto [end, error] =
+        std::from_chars(offset.data(), offset.data() + offset.size(), nanoseconds);
+    if (error != std::errc{} || end != offset.data() + offset.size())
+        return fail(Fault::bad_request, "the offset is not a whole number of nanoseconds");
+    entry.offset = Duration{nanoseconds};
+    if (entry.offset < not_before) return fail(Fault::bad_request, "the offset goes back");
+    AXISCAL_TRY(entry.bytes, bytes_from_hex(rest));
+    return entry;
+}
+
+Result<void> parse_line(std::string_view line, Tape& tape) {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') return {};
+    if (std::string_view{"<>!"}.find(line.front()) != std::string_view::npos) {
+        const Duration last = tape.entries.empty() ? Duration{} : tape.entries.back().offset;
+        AXISCAL_TRY(auto entry, parse_entry(line, last));
+        tape.entries.push_back(std::move(entry));
+        return {};
+    }
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos || !tape.entries.empty())
+        return fail(Fault::bad_request, "neither a header line nor a transfer");
+    tape.header.emplace(trimmed(line.substr(0, equals)), trimmed(line.substr(equals + 1)));
+    return {};
+}
+
+} // namespace
+
+Result<Tape> parse_tape(std::string_view text) {
+    Tape tape;
+    for (int number = 1; !text.empty(); ++number) {
+        const auto line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(text.size(), line.size() + 1));
+        if (const auto read = parse_line(line, tape); !read)
+            return fail(Fault::bad_request,
+                        "tape line " + std::to_string(number) + ": " + read.error().detail);
+    }
+    constexpr std::array origins{"device", "vendor-document", "simulator"};
+    if (std::ranges::find(origins, tape.header["origin"]) == origins.end())
+        return fail(Fault::bad_request, "tape: origin = device | vendor-document | simulator");
+    return tape;
+}
+
+/// One opening of the tape. Loop-bound; the player outlives its links.
+class TapePlayerLink final : public ByteLink {
+public:
+    explicit TapePlayerLink(TapePlayer& player)
+        : player_{player} {}
+    Task<Result<TimedBytes>> read_some(MonotonicTime deadline) override;
+    Task<Result<void>> write_all(std::vector<std::byte> bytes, MonotonicTime deadline) override;
+
+private:
+    TapePlayer& player_;
+};
+
+TapePlayer::TapePlayer(Scheduler& scheduler, const Tape& tape)
+    : scheduler_{scheduler}
+    , tape_{tape} {}
+
+Task<Result<std::unique_ptr<ByteLink>>> TapePlayer::open(const LinkSettings& /*settings*/,
+                                                         MonotonicTime /*deadline*/) {
+    if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
+    if (!begin_) begin_ = scheduler_.now();
+    co_return std::make_unique<TapePlayerLink>(*this);
+}
+
+Task<Result<TimedBytes>> TapePlayerLink::read_some(MonotonicTime deadline) {
+    if (player_.at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
+    const TapeEntry& entry = player_.tape_.entries[player_.next_];
+    const MonotonicTime when = *player_.begin_ + entry.offset;
+    if (entry.direction == TapeEntry::Direction::out || when > deadline) {
+        co_await player_.scheduler_.sleep_until(deadline);
+        co_return fail(Fault::link_timeout, "the tape is silent");
+    }
+    co_await player_.scheduler_.sleep_until(when);
+    ++player_.next_;
+    if (entry.direction == TapeEntry::Direction::closed)
+        co_return fail(Fault::link_closed, "the link closed on the tape");
+    TimedBytes played{entry.bytes, player_.scheduler_.now()};
+    co_return played;
+}
+
+Task<Result<void>> TapePlayerLink::write_all(std::vector<std::byte> bytes,
+                                             MonotonicTime /*deadline*/) {
+    const bool expected =
+        !player_.at_end() &&
+        player_.tape_.entries[player_.next_].direction == TapeEntry::Direction::out &&
+        player_.tape_.entries[player_.next_].bytes == bytes;
+    if (!expected) co_return fail(Fault::internal, "the driver writes what the tape does not know");
+    ++player_.next_;
+    co_return Result<void>{};
+}
+
+TapeRecorderLink::TapeRecorderLink(std::unique_ptr<ByteLink> inner,
+                                   Scheduler& scheduler,
+                                   std::ostream& tape,
+                                   MonotonicTime begin)
+    : inner_{std::move(inner)}
+    , scheduler_{scheduler}
+    , tape_{tape}
+    , begin_{begin} {}
+
+void TapeRecorderLink::record(TapeEntry::Direction direction,
+                              MonotonicTime at,
+                              std::span<const std::byte> bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    tape_ << static_cast<char>(direction) << ' ' << (at - begin_).count();
+    if (!bytes.empty()) tape_ << ' ';
+    for (const std::byte byte : bytes)
+        tape_ << digits[std::to_integer<std::size_t>(byte >> 4)]
+              << digits[std::to_integer<std::size_t>(byte & std::byte{15})];
+    tape_ << '\n';
+}
+
+Task<Result<TimedBytes>> TapeRecorderLink::read_some(MonotonicTime deadline) {
+    auto arrived = co_await inner_->read_some(deadline);
+    if (arrived)
+        record(TapeEntry::Direction::in, arrived->read_at, arrived->bytes);
+    else if (arrived.error().fault == Fault::link_closed)
+        record(TapeEntry::Direction::closed, scheduler_.now(), {});
+    co_return arrived;
+}
+
+Task<Result<void>> TapeRecorderLink::write_all(std::vector<std::byte> bytes,
+                                               MonotonicTime deadline) {
+    record(TapeEntry::Direction::out, scheduler_.now(), bytes);
+    auto written = co_await inner_->write_all(std::move(bytes), deadline);
+    co_return written;
+}
+
+} // namespace axiscal

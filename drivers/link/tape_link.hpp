@@ -1,0 +1,76 @@
+#pragma once
+// Recorded bytes as a link: replay under any Scheduler, and a recorder around any link.
+//
+// A tape is text: header lines "key = value" (maker, model, firmware, who, when, what,
+// origin = device | vendor-document | simulator), then one line per transfer:
+//     <direction> <offset_ns> <hex>
+// with direction '<' from the instrument, '>' to it, '!' the link closed (no hex). Offsets are
+// monotonic and count from the first opening. '#' begins a comment line.
+
+#include "drivers/link/byte_link.hpp"
+
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace axiscal {
+
+struct TapeEntry {
+    enum class Direction : char { in = '<', out = '>', closed = '!' } direction = Direction::in;
+    Duration offset{};
+    std::vector<std::byte> bytes;
+};
+
+struct Tape {
+    std::map<std::string, std::string> header;
+    std::vector<TapeEntry> entries;
+};
+
+/// Pure. @errors Fault::bad_request naming the line: unknown direction, offsets that go back, odd
+/// hex, a missing or unknown origin.
+Result<Tape> parse_tape(std::string_view text);
+
+/// Plays a tape to a driver: each opening goes on where the last link closed. A write must be the
+/// one on the tape. Loop-bound; the tape is a borrowed value that must outlive the opener.
+class TapePlayer final : public LinkOpener {
+public:
+    TapePlayer(Scheduler& scheduler, const Tape& tape);
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                 MonotonicTime deadline) override;
+    [[nodiscard]] bool at_end() const { return next_ == tape_.entries.size(); }
+
+private:
+    friend class TapePlayerLink;
+    Scheduler& scheduler_;
+    const Tape& tape_;
+    std::size_t next_ = 0;
+    std::optional<MonotonicTime> begin_;
+};
+
+/// Writes all that passes through another link to a stream, then hands it on. Loop-bound.
+class TapeRecorderLink final : public ByteLink {
+public:
+    /// `tape` is borrowed; `begin` is the instant of offset 0.
+    TapeRecorderLink(std::unique_ptr<ByteLink> inner,
+                     Scheduler& scheduler,
+                     std::ostream& tape,
+                     MonotonicTime begin);
+    Task<Result<TimedBytes>> read_some(MonotonicTime deadline) override;
+    Task<Result<void>> write_all(std::vector<std::byte> bytes, MonotonicTime deadline) override;
+    [[nodiscard]] Duration latency_uncertainty() const override {
+        return inner_->latency_uncertainty();
+    }
+    [[nodiscard]] std::string remark() const override { return inner_->remark(); }
+
+private:
+    void record(TapeEntry::Direction direction, MonotonicTime at, std::span<const std::byte> bytes);
+
+    std::unique_ptr<ByteLink> inner_;
+    Scheduler& scheduler_;
+    std::ostream& tape_;
+    MonotonicTime begin_;
+};
+
+} // namespace axiscal
