@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Installs the service files into a scratch root and lets systemd judge them there.
+#   verify.sh BUILD_DIR SOURCE_DIR
+# Exit 77 (skipped) only where systemd-analyze is missing and AXISCAL_MAY_SKIP names systemd.
+set -euo pipefail
+build=$1 source=$2
+
+if ! command -v systemd-analyze >/dev/null; then
+    case ",${AXISCAL_MAY_SKIP:-}," in *,systemd,*) echo "skipped: no systemd-analyze"; exit 77 ;; esac
+    echo "systemd-analyze is missing: apt-get install systemd, or AXISCAL_MAY_SKIP=systemd"
+    exit 1
+fi
+
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+fail() { echo "FAILED: $*"; exit 1; }
+
+DESTDIR=$root cmake --install "$build" --prefix /usr --component services >"$root/install.log" \
+    || { cat "$root/install.log"; fail "cmake --install"; }
+
+units=$(pkg-config --variable=systemdsystemunitdir systemd)
+for file in "$units/axiscald.service" "$units/axiscal-publish.service" /usr/lib/sysusers.d/axiscal.conf \
+    /usr/lib/tmpfiles.d/axiscal.conf /usr/share/axiscal/station.example.toml; do
+    [ -s "$root/$file" ] || fail "not installed: $file"
+done
+rules=$(find "$root" -name 70-axiscal.rules)
+[ -s "$rules" ] || fail "not installed: 70-axiscal.rules"
+
+# The scratch root is a system of its own: stub programs, and systemd's own units to refer to.
+mkdir -p "$root/usr/bin" "$root/etc/axiscal"
+for program in axiscald axiscal-publish; do
+    grep -q "^ExecStart=/usr/bin/$program --config /etc/axiscal/station.toml$" "$root/$units/$program.service" \
+        || fail "$program.service starts another program"
+    printf '#!/bin/sh\n' >"$root/usr/bin/$program"
+    chmod 755 "$root/usr/bin/$program"
+done
+for unit in "$units"/*.target "$units"/*.slice "$units"/*.mount "$units"/*.socket; do
+    if [ -e "$unit" ]; then cp -P "$unit" "$root/$units/"; fi
+done
+
+# Every document that a unit names is installed.
+while read -r page; do
+    [ -e "$root/$page" ] || fail "Documentation= names $page, which is not installed"
+done < <(sed -n 's|^Documentation=file://||p' "$root/$units"/axiscal*.service)
+
+judge() { # unit, highest exposure in tenths
+    local said
+    said=$(systemd-analyze verify --man=no --root="$root" "$units/$1" 2>&1) || fail "verify $1: $said"
+    [ -z "$said" ] || fail "verify $1 says: $said"
+    systemd-analyze security --no-pager --offline=true --threshold="$2" "$root/$units/$1" >"$root/score.log" 2>&1 \
+        || { cat "$root/score.log"; fail "$1 is more exposed than $2 tenths"; }
+    tail -n 1 "$root/score.log"
+}
+judge axiscald.service 20
+judge axiscal-publish.service 12
+
+# The judge is awake: a planted mistake is told.
+sed 's/^NoNewPrivileges=/NoNewPriviliges=/' "$root/$units/axiscald.service" >"$root/$units/axiscal-planted.service"
+systemd-analyze verify --man=no --root="$root" "$units/axiscal-planted.service" 2>&1 | grep -q NoNewPriviliges \
+    || fail "systemd-analyze does not see a misspelt key"
+
+# systemd's own readers, against the scratch root: what they refuse is a syntax error.
+if [ "$(id -u)" = 0 ]; then
+    printf 'root:x:0:0::/root:/bin/sh\n' >"$root/etc/passwd"
+    printf 'root:x:0:\ndialout:x:20:\n' >"$root/etc/group"
+    systemd-sysusers --root="$root" axiscal.conf >"$root/sysusers.log" 2>&1 \
+        || { cat "$root/sysusers.log"; fail "sysusers"; }
+    grep -q '^axiscal:.*:/var/lib/axiscal:' "$root/etc/passwd" || fail "sysusers made no user axiscal"
+    systemd-tmpfiles --root="$root" --create axiscal.conf || fail "tmpfiles"
+    [ "$(stat -c %a "$root/var/lib/axiscal/outbox")" = 750 ] || fail "the outbox has other rights than 0750"
+fi
+
+python3 "$source/tests/systemd/udev_rules.py" "$rules"
