@@ -1,0 +1,278 @@
+#include "acquisition/journal/journal.hpp"
+
+#include "acquisition/journal/run_file.hpp"
+
+#include <boost/asio/async_result.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+namespace axiscal {
+namespace {
+
+constexpr std::chrono::seconds longest_unsaved{2};
+
+} // namespace
+
+struct Journal::Worker {
+    using Job = std::function<void()>;
+
+    Worker(boost::asio::any_io_executor loop_executor, JournalThread where)
+        : loop{std::move(loop_executor)} {
+        if (where == JournalThread::own)
+            thread = std::jthread{[this](const std::stop_token& stop) { serve(stop); }};
+    }
+    ~Worker() {
+        if (thread.joinable()) {
+            thread.request_stop();
+            thread.join();
+        }
+        (void)save_notes(); // a failure is remembered; nobody is left to hear it
+    }
+
+    void enqueue(Job job) {
+        if (!thread.joinable()) return job();
+        const std::scoped_lock lock{mutex};
+        jobs.push_back(std::move(job));
+        wake.notify_one();
+    }
+
+    template <class T> void queue_note(std::vector<T>& queue, std::vector<T> items) {
+        {
+            const std::scoped_lock lock{mutex};
+            queue.insert(queue.end(), std::make_move_iterator(items.begin()),
+                         std::make_move_iterator(items.end()));
+        }
+        if (thread.joinable()) return wake.notify_one();
+        (void)save_notes(); // a failure is remembered and fails the next commit
+    }
+
+    // Jobs in order; between them, notes that waited long enough.
+    void serve(const std::stop_token& stop) {
+        std::unique_lock lock{mutex};
+        while (!stop.stop_requested() || !jobs.empty()) {
+            const auto has_work = [this] { return !jobs.empty(); };
+            if (noted.empty() && jobs.empty())
+                wake.wait(lock, stop, [this] { return !jobs.empty() || !noted.empty(); });
+            else if (jobs.empty() && !wake.wait_for(lock, stop, longest_unsaved, has_work))
+                run_unlocked(lock, [this] { (void)save_notes(); });
+            if (jobs.empty()) continue;
+            const Job job = std::move(jobs.front());
+            jobs.pop_front();
+            run_unlocked(lock, job);
+        }
+    }
+
+    static void run_unlocked(std::unique_lock<std::mutex>& lock, const Job& job) {
+        lock.unlock();
+        job();
+        lock.lock();
+    }
+
+    RunBatch take_notes() {
+        const std::scoped_lock lock{mutex};
+        return std::exchange(noted, {});
+    }
+
+    Result<void> save_notes() {
+        if (!writer) return {}; // before a run: kept for its first commit
+        return write(take_notes());
+    }
+
+    Result<void> write(const RunBatch& batch) {
+        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+        if (!writer) return fail(Fault::no_run_armed, "no run file is open");
+        return remember(writer->write(batch));
+    }
+
+    Result<void> remember(Result<void> outcome) {
+        if (outcome || outcome.error().fault != Fault::not_durable) return outcome;
+        const std::scoped_lock lock{mutex};
+        broken = outcome.error();
+        return outcome;
+    }
+
+    std::optional<Error> known_failure() const {
+        const std::scoped_lock lock{mutex};
+        return broken;
+    }
+
+    Result<void> take(Result<RunFileWriter> opened) {
+        if (!opened) return remember(tl::unexpected<Error>(opened.error()));
+        writer.emplace(*std::move(opened));
+        return {};
+    }
+
+    Result<void> may_open() const {
+        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+        if (writer) return fail(Fault::busy, writer->path() + " is still open");
+        return {};
+    }
+
+    Result<void> close(bool complete, const std::string& reason, const ClockTie& tie) {
+        AXISCAL_CHECK(save_notes());
+        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+        if (!writer) return fail(Fault::no_run_armed, "no run file is open");
+        auto closed = remember(writer->close(complete, reason, tie));
+        if (closed) writer.reset();
+        return closed;
+    }
+
+    mutable std::mutex mutex; // guards jobs, noted, broken; the writer belongs to the thread
+    std::condition_variable_any wake;
+    std::deque<Job> jobs;
+    RunBatch noted;
+    std::optional<Error> broken;
+    std::optional<RunFileWriter> writer;
+    boost::asio::any_io_executor loop;
+    std::jthread thread;
+};
+
+namespace {
+
+// What one call waits for. Shared by the two threads in turn: the job writes the outcome before it
+// posts the completion, the coroutine reads it afterwards.
+template <class T> struct Call { std::optional<Result<T>> outcome; };
+
+// Hands the job to the worker and completes on the loop. An initiation of its own and not a timer,
+// so that no cancellation can leave the job's outcome unread; the guard keeps the loop alive.
+template <class Worker, class T> struct StartCall {
+    Worker* worker;
+    std::shared_ptr<Call<T>> call;
+    std::function<Result<T>()> work;
+
+    template <class Handler> void operator()(Handler&& handler) {
+        auto shared = std::make_shared<std::decay_t<Handler>>(std::forward<Handler>(handler));
+        auto guard = boost::asio::make_work_guard(worker->loop);
+        worker->enqueue(
+            [loop = worker->loop, waiting = call, job = std::move(work), shared, guard]() mutable {
+                waiting->outcome = job();
+                boost::asio::post(loop, [waiter = std::move(shared)] { (*waiter)(); });
+                guard.reset();
+            });
+    }
+};
+
+template <class Worker, class T>
+Task<Result<T>> perform(Worker* worker, std::function<Result<T>()> work) {
+    auto call = std::make_shared<Call<T>>();
+    StartCall<Worker, T> start{worker, call, std::move(work)};
+    co_await boost::asio::async_initiate<const boost::asio::use_awaitable_t<>, void()>(
+        std::move(start), boost::asio::use_awaitable);
+    co_return *std::move(call->outcome);
+}
+
+} // namespace
+
+Journal::Journal(Scheduler& scheduler, JournalThread thread)
+    : scheduler_{scheduler}
+    , worker_{std::make_unique<Worker>(scheduler.executor(), thread)} {}
+Journal::~Journal() = default;
+
+Task<Result<void>> Journal::open(std::string path, RunRecord header) {
+    Worker* worker = worker_.get();
+    auto shared = std::make_shared<const RunRecord>(std::move(header));
+    std::function<Result<void>()> work = [worker, path, shared]() -> Result<void> {
+        AXISCAL_CHECK(worker->may_open());
+        return worker->take(RunFileWriter::create(path, *shared));
+    };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
+Task<Result<void>> Journal::reopen(std::string path) {
+    Worker* worker = worker_.get();
+    std::function<Result<void>()> work = [worker, path]() -> Result<void> {
+        AXISCAL_CHECK(worker->may_open());
+        return worker->take(RunFileWriter::reopen(path));
+    };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
+Task<Result<JournalReceipt>> Journal::commit(RunBatch batch, std::uint16_t sequence, int step) {
+    Worker* worker = worker_.get();
+    auto shared = std::make_shared<RunBatch>(std::move(batch));
+    std::function<Result<void>()> work = [worker, shared]() -> Result<void> {
+        if (!worker->writer) return fail(Fault::no_run_armed, "no run file is open");
+        RunBatch notes = worker->take_notes();
+        shared->events = std::move(notes.events);
+        shared->environment = std::move(notes.environment);
+        return worker->write(*shared);
+    };
+    const auto written = co_await perform<Worker, void>(worker, std::move(work));
+    if (!written) co_return tl::unexpected<Error>(written.error());
+    co_return JournalReceipt{sequence, step};
+}
+
+Task<Result<JournalReceipt>> Journal::commit(PointRecord point) {
+    const auto sequence = point.sequence;
+    const int step = point.step;
+    RunBatch batch;
+    batch.point = std::move(point);
+    co_return co_await commit(std::move(batch), sequence, step);
+}
+
+Task<Result<JournalReceipt>> Journal::commit(DatumRecord datum) {
+    const auto sequence = datum.sequence;
+    RunBatch batch;
+    batch.datum = std::move(datum);
+    co_return co_await commit(std::move(batch), sequence, -1);
+}
+
+Task<Result<JournalReceipt>> Journal::receipt_for(int step) {
+    Worker* worker = worker_.get();
+    std::function<Result<std::uint16_t>()> work = [worker, step]() -> Result<std::uint16_t> {
+        if (!worker->writer) return fail(Fault::no_run_armed, "no run file is open");
+        AXISCAL_TRY(const auto sequence, step < 0 ? worker->writer->sequence_of_last_datum()
+                                                  : worker->writer->sequence_of_point(step));
+        if (!sequence)
+            return fail(Fault::not_found,
+                        worker->writer->path() + " holds no point of step " + std::to_string(step));
+        return *sequence;
+    };
+    const auto sequence = co_await perform<Worker, std::uint16_t>(worker, std::move(work));
+    if (!sequence) co_return tl::unexpected<Error>(sequence.error());
+    co_return JournalReceipt{*sequence, step};
+}
+
+void Journal::note(EventRecord event) {
+    std::vector<EventRecord> one_event;
+    one_event.push_back(std::move(event));
+    worker_->queue_note(worker_->noted.events, std::move(one_event));
+}
+
+void Journal::note(std::vector<EnvironmentReading> readings) {
+    worker_->queue_note(worker_->noted.environment, std::move(readings));
+}
+
+Task<Result<void>> Journal::flush() {
+    Worker* worker = worker_.get();
+    std::function<Result<void>()> work = [worker] { return worker->save_notes(); };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
+Task<Result<void>> Journal::close(bool complete, std::string reason) {
+    Worker* worker = worker_.get();
+    const ClockTie tie = scheduler_.clock_tie();
+    std::function<Result<void>()> work = [worker, complete, reason, tie] {
+        return worker->close(complete, reason, tie);
+    };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
+Task<Result<void>> Journal::store(std::string path, StoredResult result) {
+    auto shared = std::make_shared<const StoredResult>(std::move(result));
+    std::function<Result<void>()> work = [path, shared] { return store_result(path, *shared); };
+    co_return co_await perform<Worker, void>(worker_.get(), std::move(work));
+}
+
+std::optional<Error> Journal::failure() const {
+    return worker_->known_failure();
+}
+
+} // namespace axiscal

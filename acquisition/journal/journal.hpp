@@ -1,0 +1,73 @@
+#pragma once
+// The one writer of an open run: a thread that owns the run file, and the only maker of receipts.
+
+#include "analysis/run_record.hpp"
+#include "drivers/journal_receipt.hpp"
+#include "drivers/scheduler.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+struct RunBatch;
+struct StoredResult;
+
+/// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
+/// under a virtual clock, where nothing else has to go on meanwhile.
+enum class JournalThread : std::uint8_t { own, caller };
+
+/// Coroutines resume on the scheduler's executor; they cannot be cancelled, because a commit under
+/// way is either durable or not. The Journal must outlive them. note() and failure() are
+/// thread-safe; the coroutines are loop-bound.
+///
+/// A failed commit is final: every later one fails with Fault::not_durable and the first cause.
+class Journal {
+public:
+    explicit Journal(Scheduler& scheduler, JournalThread thread = JournalThread::own);
+    /// Writes what was noted and leaves an open run open, to be resumed.
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    /// A new run file. @errors Fault::refused when the name is taken, Fault::busy while another
+    /// run is open, Fault::not_durable.
+    Task<Result<void>> open(std::string path, RunRecord header);
+    /// Goes on with a run file that was left open. @errors as RunFileWriter::reopen.
+    Task<Result<void>> reopen(std::string path);
+
+    /// Durable, with everything noted before, when the receipt comes.
+    /// @errors Fault::not_durable; Fault::no_run_armed when no run is open.
+    Task<Result<JournalReceipt>> commit(PointRecord point);
+    /// The receipt's step is -1.
+    Task<Result<JournalReceipt>> commit(DatumRecord datum);
+    /// For what is durable already, read back from disk: a point by its step, the last datum by -1.
+    /// @errors Fault::not_found.
+    Task<Result<JournalReceipt>> receipt_for(int step);
+
+    /// Queued: durable with the next commit, or two seconds later at the latest.
+    void note(EventRecord event);
+    void note(std::vector<EnvironmentReading> readings);
+    /// Makes everything noted durable now.
+    Task<Result<void>> flush();
+
+    /// Ends the run: one single file, synced. The journal can then open another.
+    Task<Result<void>> close(bool complete, std::string reason);
+    /// Adds a result to a closed run file, off the loop.
+    Task<Result<void>> store(std::string path, StoredResult result);
+
+    /// Why nothing can be made durable any more, if so.
+    [[nodiscard]] std::optional<Error> failure() const;
+
+private:
+    struct Worker;
+    Task<Result<JournalReceipt>> commit(RunBatch batch, std::uint16_t sequence, int step);
+
+    Scheduler& scheduler_;
+    std::unique_ptr<Worker> worker_;
+};
+
+} // namespace axiscal
