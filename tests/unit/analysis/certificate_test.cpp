@@ -1,0 +1,138 @@
+#include "analysis/certificate.hpp"
+#include "reference_data.hpp"
+#include "simulated_run.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+using test::at_seconds;
+using test::simulated_run;
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+bool holds(const std::vector<std::string>& remarks, const std::string& words) {
+    return std::ranges::any_of(
+        remarks, [&](const std::string& text) { return text.find(words) != std::string::npos; });
+}
+
+TEST(Certificate, EvaluatesTheRunAndKeepsItsHash) {
+    const auto certificate = make_certificate(simulated_run({}), "abc123");
+    ASSERT_TRUE(certificate.has_value());
+    EXPECT_EQ(certificate->run_file_sha256, "abc123");
+    EXPECT_TRUE(certificate->result_digest.empty());
+    EXPECT_TRUE(certificate->preliminary);
+    EXPECT_EQ(certificate->result.standard, "ISO 230-2:2014");
+    EXPECT_EQ(certificate->result.unit, "mm");
+    EXPECT_EQ(certificate->result.approaches, 5);
+    // the truth has a reversal of 3 um everywhere; the air index of the truth differs by < 4e-8
+    EXPECT_NEAR(*certificate->result.parameters.B_mean, 0.003, 4e-5);
+    EXPECT_TRUE(certificate->remarks.empty());
+}
+
+TEST(Certificate, DatesComeFromTheRunAlone) {
+    RunRecord run = simulated_run({});
+    run.opened.utc_ns = 1'582'934'400 * second_ns; // 2020-02-29T00:00:00Z
+    run.closed.utc_ns = 1'582'938'000 * second_ns; // 2020-02-29T01:00:00Z
+    auto certificate = make_certificate(run, "");
+    EXPECT_EQ(certificate->started_utc, "2020-02-29T00:00:00Z");
+    EXPECT_EQ(certificate->finished_utc, "2020-02-29T01:00:00Z");
+    EXPECT_EQ(certificate->issued_on, "2020-02-29");
+    EXPECT_EQ(certificate->next_due, "2021-02-28") << "there is no 29 February 2021";
+    run.closed.utc_ns = 1'582'851'600 * second_ns; // 2020-02-28T01:00:00Z
+    EXPECT_EQ(make_certificate(run, "")->next_due, "2021-02-28");
+    run.statements.next_due = "2022-06-30";
+    EXPECT_EQ(make_certificate(run, "")->next_due, "2022-06-30");
+}
+
+TEST(Certificate, SummarisesTheEnvironmentOfEveryChannel) {
+    test::Truth truth;
+    truth.material_C = [](double s) { return 21 + s / 1000; };
+    RunRecord run = simulated_run(truth);
+    run.channels.push_back(
+        {6, "beam", "laser", "", ChannelKind::strength, Medium::none, 0}); // not environment
+    const auto certificate = make_certificate(run, "");
+    ASSERT_EQ(certificate->environment.size(), 5u);
+    const EnvironmentSummary& left = certificate->environment[3];
+    EXPECT_EQ(left.channel, "scale left");
+    EXPECT_EQ(left.place, "x = 0");
+    EXPECT_EQ(left.readings, 233); // 0 .. 2320 s every 10 s
+    EXPECT_DOUBLE_EQ(left.first, 20.75);
+    EXPECT_DOUBLE_EQ(left.last, 20.75 + 2.32);
+    EXPECT_DOUBLE_EQ(left.minimum, 20.75);
+    EXPECT_DOUBLE_EQ(left.maximum, 20.75 + 2.32);
+    ASSERT_EQ(certificate->traces.size(), 5u);
+    EXPECT_EQ(certificate->traces[3].values.size(), 233u);
+    EXPECT_DOUBLE_EQ(certificate->traces[3].seconds.front(), -99); // first window begins at 99 s
+}
+
+TEST(Certificate, RemarksTellInterruptionsManualAndSkippedPoints) {
+    RunRecord run = simulated_run({});
+    run.plan.remark = "The 2000 mm stretch was declined: axis is used in full.";
+    run.plan.cycle = CycleKind::step;
+    run.points[3].origin = run.points[8].origin = TriggerOrigin::manual;
+    run.events.push_back(
+        {EventKind::interrupted, at_seconds(600), 0, "power failed", Fault::none, 0});
+    run.events.push_back({EventKind::resumed, at_seconds(1200), 0, "after 600 s", Fault::none, 0});
+    run.events.push_back({EventKind::skipped, at_seconds(1300), 0, "request 7", Fault::none, 7});
+    const auto remarks = make_certificate(run, "")->remarks;
+    EXPECT_TRUE(holds(remarks, "stretch was declined"));
+    EXPECT_TRUE(holds(remarks, "Step cycle"));
+    EXPECT_TRUE(holds(remarks, "interrupted at 2026-01-01T00:10:00Z: power failed"));
+    EXPECT_TRUE(holds(remarks, "resumed at 2026-01-01T00:20:00Z: after 600 s"));
+    EXPECT_TRUE(holds(remarks, "Skipped at 2026-01-01T00:21:40Z: request 7"));
+    EXPECT_TRUE(holds(remarks, "2 of 110 points were captured by hand (steps 4, 9)"));
+}
+
+TEST(Certificate, RemarksOnAirOutsideTheFormula) {
+    test::Truth truth;
+    truth.pressure_Pa = [](double) { return 59000.0; };
+    EXPECT_TRUE(holds(make_certificate(simulated_run(truth), "")->remarks, "60..120 kPa"));
+}
+
+TEST(Certificate, RefusesARunThatWasNotClosedAsComplete) {
+    RunRecord run = simulated_run({});
+    run.complete = false;
+    run.closing_reason = "aborted by the operator";
+    const auto certificate = make_certificate(run, "");
+    ASSERT_FALSE(certificate.has_value());
+    EXPECT_EQ(certificate.error().fault, Fault::incomplete_run);
+    EXPECT_NE(certificate.error().detail.find("aborted by the operator"), std::string::npos);
+}
+
+// ---- canonical bytes ------------------------------------------------------------------------
+
+TEST(CanonicalBytes, StandInTheDocumentedOrder) {
+    const auto bytes =
+        canonical_bytes(evaluate_positioning(test::at_20C({0, 10}, {{0.5}, {-0.25}}, {})));
+    // head 19; k, n, E_forward, m, 2 targets, 2 means: 8 figures of 9; 11 + 2 * 8 absent of 1
+    ASSERT_EQ(bytes.size(), 19u + 8 * 9 + 27);
+    EXPECT_EQ(static_cast<char>(bytes[0]), 'a');
+    EXPECT_EQ(bytes[19], std::byte{1});
+    EXPECT_EQ(bytes[26], std::byte{0x00}); // 2.0 = 40 00 .. 00
+    EXPECT_EQ(bytes[27], std::byte{0x40});
+    EXPECT_EQ(bytes[37], std::byte{0});    // A is absent
+    EXPECT_EQ(bytes[41], std::byte{1});    // E_forward
+    EXPECT_EQ(bytes[48], std::byte{0xe8}); // 0.75 = 3f e8 00 .. 00
+    EXPECT_EQ(bytes[49], std::byte{0x3f});
+}
+
+TEST(CanonicalBytes, ChangeWithTheLastBitOfAnyFigure) {
+    const auto result = make_certificate(simulated_run({}), "")->result;
+    const auto bytes = canonical_bytes(result);
+    PositioningResult other = result;
+    *other.parameters.R = std::nextafter(*other.parameters.R, 1);
+    EXPECT_NE(canonical_bytes(other), bytes);
+    other = result;
+    *other.positions.back().s_backward = std::nextafter(*other.positions.back().s_backward, 1);
+    EXPECT_NE(canonical_bytes(other), bytes);
+    other = result;
+    other.parameters.A.reset();
+    EXPECT_NE(canonical_bytes(other), bytes);
+    EXPECT_EQ(canonical_bytes(result), bytes);
+}
+
+} // namespace
+} // namespace axiscal
