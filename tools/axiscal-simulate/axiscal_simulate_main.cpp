@@ -1,0 +1,133 @@
+// axiscal-simulate: the simulated machine with its instruments and its CNC.
+
+#include "control_socket.hpp"
+#include "simulator.hpp"
+#include "truth.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <iostream>
+
+namespace {
+
+using namespace axiscal;
+using namespace axiscal::simulate;
+
+/// Exit codes: 1 the world can not be opened, 3 the scenario or the program is refused.
+constexpr int can_not_open = 1, is_refused = 3;
+
+struct Options {
+    std::string scenario, program, truth, control, positions;
+    std::vector<double> targets;
+    int approaches = 5, positions_field = 1, cnc_port = -1;
+    bool run = false, one_way = false;
+};
+
+int complain(const Error& error, int code) {
+    std::cerr << "axiscal-simulate: " << describe(error) << "\n";
+    return code;
+}
+
+volatile std::sig_atomic_t asked_to_end = 0;
+void on_signal(int) {
+    asked_to_end = 1;
+}
+
+Result<TruthPlan> plan_of(const Options& options, const Scenario& scenario) {
+    if (!options.targets.empty()) {
+        auto targets = options.targets;
+        std::sort(targets.begin(), targets.end());
+        return TruthPlan{targets, options.approaches, !options.one_way};
+    }
+    AXISCAL_TRY(const std::string text, read_program(options.program));
+    return plan_of_program(text, is_marlin(options.program), scenario);
+}
+
+int print_truth(const Options& options) {
+    const auto scenario = read_scenario(options.scenario);
+    if (!scenario) return complain(scenario.error(), is_refused);
+    const auto plan = plan_of(options, *scenario);
+    if (!plan) return complain(plan.error(), is_refused);
+    const std::string text = truth_of(*scenario, *plan).dump(1) + "\n";
+    if (options.truth.empty()) return std::cout << text << std::flush, 0;
+    std::ofstream file{options.truth};
+    file << text;
+    return file.flush() ? 0 : can_not_open;
+}
+
+/// Lives until quit, a signal, or an error of the start.
+int live(const Options& options, Simulator& world) {
+    world.start(!options.positions.empty());
+    std::jthread control;
+    if (!options.control.empty()) {
+        auto socket = ControlSocket::listen(options.control);
+        if (!socket) return complain(socket.error(), can_not_open);
+        control = std::jthread{[&world, s = std::move(*socket)](std::stop_token stop) {
+            s.serve(stop, [&](const std::string& line) { return world.command(line).dump(); });
+        }};
+    }
+    nlohmann::json ready = world.places();
+    if (!options.control.empty()) ready["control"] = options.control;
+    std::cout << ready.dump() << std::endl;
+    if (options.run) {
+        const auto answer = world.command("run");
+        if (!answer["ok"].get<bool>()) return std::cerr << answer.dump() << "\n", is_refused;
+    }
+    if (options.positions == "-") world.feed_positions(std::cin, options.positions_field);
+    if (!options.positions.empty() && options.positions != "-") {
+        std::ifstream file{options.positions};
+        world.feed_positions(file, options.positions_field);
+    }
+    while (!world.ended() && asked_to_end == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    return 0;
+}
+
+int open_and_live(const Options& options) {
+    auto scenario = read_scenario(options.scenario);
+    if (!scenario) return complain(scenario.error(), is_refused);
+    if (options.cnc_port >= 0 && scenario->cnc) scenario->cnc->port = options.cnc_port;
+    auto world = Simulator::open(*scenario);
+    if (!world) return complain(world.error(), can_not_open);
+    (*world)->set_program(options.program);
+    if (!options.truth.empty()) {
+        auto written = (*world)->write_truth(options.truth);
+        if (!written) return complain(written.error(), is_refused);
+    }
+    return live(options, **world);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);
+    struct sigaction action {};
+    action.sa_handler = on_signal; // no SA_RESTART: a read of positions ends too
+    sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGINT, &action, nullptr);
+
+    Options options;
+    CLI::App app{"A machine with hidden errors, its instruments on the wire and its CNC."};
+    app.add_option("--scenario", options.scenario, "scenario file, .toml or .json");
+    app.add_option("--program", options.program, "part program (.gcode: Marlin, else LinuxCNC)");
+    app.add_option("--truth", options.truth, "write the hidden truth of the program here");
+    app.add_option("--control", options.control, "Unix socket for commands");
+    app.add_option("--positions", options.positions,
+                   "drive the laser from a 1 kHz stream; - is stdin");
+    app.add_option("--positions-field", options.positions_field, "which value of a line, from 1");
+    app.add_option("--cnc-port", options.cnc_port, "the daemon's Modbus TCP port");
+    app.add_flag("--run", options.run, "run the program at once");
+    CLI::App* truth = app.add_subcommand("truth", "only compute the truth");
+    truth->fallthrough();
+    truth->add_option("--targets", options.targets, "targets in mm")->delimiter(',');
+    truth->add_option("--approaches", options.approaches, "n in each direction");
+    truth->add_flag("--one-way", options.one_way, "forward approaches only");
+    CLI11_PARSE(app, argc, argv);
+    if (options.scenario.empty()) {
+        std::cerr << "axiscal-simulate: --scenario FILE is missing\n";
+        return is_refused;
+    }
+    return truth->parsed() ? print_truth(options) : open_and_live(options);
+}

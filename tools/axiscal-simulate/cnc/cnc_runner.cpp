@@ -1,0 +1,163 @@
+#include "cnc/cnc_runner.hpp"
+
+#include "cnc/linuxcnc_program.hpp"
+#include "cnc/marlin_program.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace axiscal::simulate {
+
+namespace {
+/// The servo period of a CNC: how often a waiting program looks at its inputs.
+constexpr double look_s = 0.001;
+} // namespace
+
+Result<std::string> read_program(const std::string& path) {
+    std::ifstream file{path};
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf()))
+        return fail(Fault::not_found, "the part program " + path + " can not be read");
+    return text.str();
+}
+
+bool is_marlin(const std::string& path) {
+    return path.ends_with(".gcode") || path.ends_with(".marlin");
+}
+
+Result<void>
+run_program(const std::string& text, bool marlin, char letter, MachineActions& machine) {
+    if (marlin) {
+        AXISCAL_TRY(const auto program, MarlinProgram::parse(text, letter));
+        return program.run(machine);
+    }
+    AXISCAL_TRY(const auto program, LinuxcncProgram::parse(text, letter));
+    return program.run(machine);
+}
+
+CncRunner::CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock)
+    : scenario_{scenario}
+    , axis_{axis}
+    , lines_{lines}
+    , clock_{clock}
+    , motion_fault_{scenario.cnc ? scenario.cnc->motion_fault : ""} {}
+
+CncRunner::~CncRunner() {
+    stop();
+    if (thread_.joinable()) thread_.join();
+}
+
+Result<void> CncRunner::start(const std::string& path) {
+    AXISCAL_TRY(std::string text, read_program(path));
+    const std::lock_guard lock{mutex_};
+    if (state_ == "running") return fail(Fault::busy, "a part program is running");
+    if (thread_.joinable()) thread_.join();
+    state_ = "running";
+    message_.clear();
+    stop_ = false;
+    line_ = 0;
+    thread_ = std::thread{[this, text = std::move(text), marlin = is_marlin(path)] {
+        finish(run_program(text, marlin, scenario_.axis.letter, *this));
+    }};
+    return {};
+}
+
+void CncRunner::finish(const Result<void>& outcome) {
+    const std::lock_guard lock{mutex_};
+    state_ = !outcome ? "failed" : stop_ ? "stopped" : "done";
+    if (!outcome) message_ = outcome.error().detail;
+}
+
+void CncRunner::stop() {
+    const std::lock_guard lock{mutex_};
+    stop_ = true;
+    wake_.notify_all();
+}
+
+bool CncRunner::stopped() {
+    const std::lock_guard lock{mutex_};
+    return stop_;
+}
+
+void CncRunner::at_line(int line) {
+    const std::lock_guard lock{mutex_};
+    line_ = line;
+}
+
+void CncRunner::message(const std::string& text) {
+    const std::lock_guard lock{mutex_};
+    message_ = text;
+}
+
+void CncRunner::inject(const std::string& motion_fault) {
+    const std::lock_guard lock{mutex_};
+    motion_fault_ = motion_fault;
+}
+
+bool CncRunner::sleep_until(double seconds) {
+    std::unique_lock lock{mutex_};
+    return !wake_.wait_until(lock, clock_.at(seconds), [this] { return stop_; });
+}
+
+/// Where the measured axis goes when the program says so; a set-up fault moves it elsewhere.
+double CncRunner::physical_mm(double programmed_mm) const {
+    const std::lock_guard lock{mutex_};
+    if (motion_fault_ == "diameter") return programmed_mm / 2;
+    if (motion_fault_ == "inch") return programmed_mm / 25.4;
+    if (motion_fault_ == "swapped-sign") return -programmed_mm;
+    if (motion_fault_ == "wrong-axis") return scenario_.axis.start_mm;
+    if (motion_fault_ == "shifted-datum" && lines_.requests() > 0)
+        return programmed_mm + (scenario_.cnc ? scenario_.cnc->shift_mm : 0);
+    return programmed_mm;
+}
+
+void CncRunner::move(double target_mm, double feed_mm_per_min) {
+    const AxisScenario& axis = scenario_.axis;
+    if (target_mm < axis.travel_low_mm || target_mm > axis.travel_high_mm) {
+        stop();
+        return message("the move to " + std::to_string(target_mm) + " mm leaves the travel");
+    }
+    const double fastest = axis.rapid_mm_per_min;
+    const double feed = feed_mm_per_min > 0 ? std::min(feed_mm_per_min, fastest) : fastest;
+    const double end_s = axis_.move(clock_.now_s(), physical_mm(target_mm), feed / 60.0);
+    if (!sleep_until(end_s)) axis_.halt(clock_.now_s());
+}
+
+void CncRunner::dwell(double seconds) {
+    sleep_until(clock_.now_s() + seconds);
+}
+
+void CncRunner::set_analog(int output, double value) {
+    lines_.set_analog(output, value, clock_.now_s());
+}
+
+void CncRunner::set_digital(int output, bool on) {
+    lines_.set_digital(output, on, clock_.now_s());
+}
+
+bool CncRunner::wait_input(int input, bool high, double timeout_s) {
+    const double end_s = clock_.now_s() + timeout_s;
+    while (lines_.input(input) != high) {
+        const double now_s = clock_.now_s();
+        if (now_s >= end_s || !sleep_until(now_s + look_s)) return false;
+    }
+    return true;
+}
+
+nlohmann::json CncRunner::status() const {
+    const CncAnswer answer = lines_.answer();
+    const double drive_mm = axis_.position_mm(clock_.now_s());
+    const std::lock_guard lock{mutex_};
+    nlohmann::json status{{"program", state_},
+                          {"line", line_},
+                          {"message", message_},
+                          {"requests", lines_.requests()},
+                          {"drive_mm", drive_mm},
+                          {"result", answer.result},
+                          {"fault_sequence", answer.fault_sequence}};
+    status["done"] = answer.done ? nlohmann::json(*answer.done) : nlohmann::json();
+    return status;
+}
+
+} // namespace axiscal::simulate

@@ -1,0 +1,62 @@
+#pragma once
+// Runs a part program on the simulated machine in real time. start, stop and status are
+// thread-safe.
+
+#include "cnc/cnc_lines.hpp"
+#include "cnc/commanded_axis.hpp"
+#include "cnc/machine_actions.hpp"
+#include "sim_clock.hpp"
+
+#include <condition_variable>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace axiscal::simulate {
+
+/// Marlin's programs end in .gcode or say so; all others are LinuxCNC's.
+/// Parses and runs one to its end. @errors bad_request with the line number.
+Result<void>
+run_program(const std::string& text, bool marlin, char letter, MachineActions& machine);
+Result<std::string> read_program(const std::string& path);
+/// Told by the name of the file: .gcode and .marlin are Marlin's.
+bool is_marlin(const std::string& path);
+
+class CncRunner final : private MachineActions {
+public:
+    CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock);
+    ~CncRunner() override;
+    /// @errors busy; not_found; the program is parsed on the way.
+    Result<void> start(const std::string& path);
+    void stop();
+    [[nodiscard]] nlohmann::json status() const;
+    void inject(const std::string& motion_fault);
+
+private:
+    void move(double target_mm, double feed_mm_per_min) override;
+    void dwell(double seconds) override;
+    void set_analog(int output, double value) override;
+    void set_digital(int output, bool on) override;
+    bool wait_input(int input, bool high, double timeout_s) override;
+    [[nodiscard]] bool input(int input) override { return lines_.input(input); }
+    void message(const std::string& text) override;
+    void at_line(int line) override;
+    [[nodiscard]] bool stopped() override;
+
+    /// Sleeps to this instant; false when the operator stopped.
+    bool sleep_until(double seconds);
+    [[nodiscard]] double physical_mm(double programmed_mm) const;
+    void finish(const Result<void>& outcome);
+
+    Scenario scenario_;
+    CommandedAxis& axis_;
+    CncLines& lines_;
+    SimClock clock_;
+    mutable std::mutex mutex_; ///< guards all below
+    std::condition_variable wake_;
+    std::string state_ = "idle", message_, motion_fault_;
+    int line_ = 0;
+    bool stop_ = false;
+    std::thread thread_;
+};
+
+} // namespace axiscal::simulate

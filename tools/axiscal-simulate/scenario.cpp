@@ -1,0 +1,279 @@
+#include "scenario.hpp"
+
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+namespace axiscal::simulate {
+
+using Json = nlohmann::json;
+
+double SlowSignal::at(double seconds) const {
+    return start + rate_per_hour * seconds / 3600.0 +
+           swing * std::sin(2.0 * std::numbers::pi * seconds / period_s);
+}
+
+namespace {
+
+/// One table of the file: reads keys into variables, refuses what is left over.
+class Fields {
+public:
+    Fields(const Json& object, std::string place, std::string& refusals)
+        : object_{object}
+        , place_{std::move(place)}
+        , refusals_{refusals} {
+        if (!object_.is_object()) refuse("", "is not a table");
+    }
+    ~Fields() {
+        if (!object_.is_object()) return;
+        for (const auto& [key, value] : object_.items())
+            if (!seen_.contains(key)) refuse(key, "is not a known key");
+    }
+    Fields(const Fields&) = delete;
+    Fields& operator=(const Fields&) = delete;
+
+    template <class T> void read(const char* key, T& value) {
+        const Json* found = find(key);
+        if (found == nullptr) return;
+        try {
+            value = found->get<T>();
+        } catch (const Json::exception&) {
+            refuse(key, "has the wrong type");
+        }
+    }
+    template <class T> void read(const char* key, std::optional<T>& value) {
+        if (!has(key)) return;
+        T given{};
+        read(key, given);
+        value = given;
+    }
+    void letter(const char* key, char& value) {
+        std::string text(1, value);
+        read(key, text);
+        if (text.size() != 1) return refuse(key, "is one letter");
+        value = text[0];
+    }
+    void one_of(const char* key, std::string& value, const std::set<std::string>& allowed) {
+        read(key, value);
+        if (allowed.contains(value)) return;
+        std::string list;
+        for (const auto& word : allowed)
+            list += " " + (word.empty() ? "\"\"" : word);
+        refuse(key, "is one of:" + list);
+    }
+    void positive(const char* key, double& value) {
+        read(key, value);
+        if (!(value > 0)) refuse(key, "must be above 0");
+    }
+    void table(const char* key, const std::function<void(Fields&)>& reader) {
+        const Json* found = find(key);
+        if (found == nullptr) return;
+        Fields inner{*found, place_ + key + ".", refusals_};
+        if (found->is_object()) reader(inner);
+    }
+    void tables(const char* key, const std::function<void(Fields&)>& reader) {
+        const Json* found = find(key);
+        if (found == nullptr) return;
+        if (!found->is_array()) return refuse(key, "is not a list of tables");
+        for (std::size_t i = 0; i < found->size(); ++i) {
+            Fields inner{(*found)[i], place_ + key + "[" + std::to_string(i) + "].", refusals_};
+            if ((*found)[i].is_object()) reader(inner);
+        }
+    }
+    [[nodiscard]] bool has(const char* key) const {
+        return object_.is_object() && object_.contains(key);
+    }
+    void refuse(const std::string& key, const std::string& why) {
+        refusals_ += (refusals_.empty() ? "" : "; ") + place_ + key + " " + why;
+    }
+
+private:
+    const Json* find(const char* key) {
+        seen_.insert(key);
+        return has(key) ? &object_.at(key) : nullptr;
+    }
+    const Json& object_;
+    std::string place_;
+    std::string& refusals_;
+    std::set<std::string> seen_;
+};
+
+void read_signal(Fields& in, const char* key, SlowSignal& signal) {
+    in.table(key, [&](Fields& f) {
+        f.read("start", signal.start);
+        f.read("rate_per_hour", signal.rate_per_hour);
+        f.read("swing", signal.swing);
+        f.positive("period_s", signal.period_s);
+    });
+}
+
+void read_axis(Fields& f, AxisScenario& axis) {
+    f.read("name", axis.name);
+    f.letter("letter", axis.letter);
+    f.read("start_mm", axis.start_mm);
+    f.read("travel_low_mm", axis.travel_low_mm);
+    f.read("travel_high_mm", axis.travel_high_mm);
+    f.positive("rapid_mm_per_min", axis.rapid_mm_per_min);
+    f.positive("acceleration_mm_per_s2", axis.acceleration_mm_per_s2);
+}
+
+void read_table(Fields& f, ErrorScenario& errors) {
+    std::vector<std::vector<double>> rows;
+    f.read("table", rows);
+    for (const auto& row : rows) {
+        const bool ascending =
+            errors.table.empty() || row.empty() || row.front() > errors.table.back().position_mm;
+        if (row.size() != 2 || !ascending)
+            return f.refuse("table", "needs ascending pairs [position mm, error um]");
+        errors.table.push_back({row[0], row[1]});
+    }
+}
+
+void read_errors(Fields& f, ErrorScenario& errors) {
+    f.read("linear_um_per_m", errors.linear_um_per_m);
+    f.read("quadratic_um_per_m2", errors.quadratic_um_per_m2);
+    f.read("cubic_um_per_m3", errors.cubic_um_per_m3);
+    f.read("centre_mm", errors.centre_mm);
+    read_table(f, errors);
+    f.tables("periodic", [&](Fields& p) {
+        PeriodicError term;
+        p.read("amplitude_um", term.amplitude_um);
+        p.positive("period_mm", term.period_mm);
+        p.read("phase_deg", term.phase_deg);
+        errors.periodic.push_back(term);
+    });
+    f.read("reversal_um", errors.reversal_um);
+    f.read("reversal_slope_um_per_m", errors.reversal_slope_um_per_m);
+    f.read("approach_noise_um", errors.approach_noise_um);
+    f.read("noise_um", errors.noise_um);
+    f.read("vibration_um", errors.vibration_um);
+    f.positive("vibration_hz", errors.vibration_hz);
+    f.read("drift_um_per_hour", errors.drift_um_per_hour);
+}
+
+void read_laser(Fields& f, LaserScenario& laser) {
+    f.one_of("kind", laser.kind, {"umd0", "umd1", "umd2-homodyne", "umd2-heterodyne"});
+    const bool homodyne = laser.kind == "umd0" || laser.kind == "umd2-homodyne";
+    laser.counts_per_cycle = homodyne ? 4 : 1;
+    laser.phase_bits = laser.kind == "umd1" ? 8 : 16;
+    f.read("path", laser.path);
+    f.positive("wavelength_nm", laser.wavelength_nm);
+    f.read("fold", laser.fold);
+    f.read("counts_per_cycle", laser.counts_per_cycle);
+    f.read("phase_bits", laser.phase_bits);
+    f.read("fields", laser.fields);
+    f.read("sign", laser.sign);
+    f.read("dead_path_mm", laser.dead_path_mm);
+    f.read("zero_mm", laser.zero_mm);
+    f.read("rate_hz", laser.rate_hz);
+    f.read("partial_first_line", laser.partial_first_line);
+    if (laser.sign != 1 && laser.sign != -1) f.refuse("sign", "is 1 or -1");
+    if (laser.fields != 8 && laser.fields != 16) f.refuse("fields", "is 8 or 16");
+    if (laser.phase_bits != 8 && laser.phase_bits != 16) f.refuse("phase_bits", "is 8 or 16");
+    if (laser.rate_hz && !(*laser.rate_hz > 0)) f.refuse("rate_hz", "must be above 0");
+}
+
+void read_sensor(Fields& f, SensorScenario& sensor) {
+    f.read("name", sensor.name);
+    f.one_of("kind", sensor.kind, {"dracal-vcp", "tm-th8", "xy-md02", "comet"});
+    f.read("path", sensor.path);
+    f.read("port", sensor.port);
+    f.read("unit", sensor.unit);
+    f.read("fraction_digits", sensor.fraction_digits);
+    f.read("first_register", sensor.first_register);
+    if (sensor.name.empty()) f.refuse("name", "is missing");
+    if (sensor.kind == "dracal-vcp" && sensor.path.empty()) f.refuse("path", "is missing");
+}
+
+void read_cnc(Fields& f, CncScenario& cnc) {
+    f.one_of("shape", cnc.shape, {"sequence-block", "single-register", "coil-and-index", "dwell"});
+    f.one_of("transport", cnc.transport, {"tcp", "rtu", "server"});
+    f.read("host", cnc.host);
+    f.read("path", cnc.path);
+    f.read("port", cnc.port);
+    f.read("baud", cnc.baud);
+    f.read("unit", cnc.unit);
+    f.read("base_address", cnc.base_address);
+    f.letter("parity", cnc.parity);
+    f.positive("poll_s", cnc.poll_s);
+    f.positive("counts_per_unit", cnc.counts_per_unit);
+    f.read("low_word_first", cnc.low_word_first);
+    f.one_of("motion_fault", cnc.motion_fault,
+             {"", "diameter", "inch", "wrong-axis", "swapped-sign", "shifted-datum"});
+    f.read("shift_mm", cnc.shift_mm);
+    f.tables("fault", [&](Fields& g) {
+        CncFault fault;
+        g.one_of("kind", fault.kind,
+                 {"doubled", "late", "missed", "out-of-order", "wrong-direction", "wrong-target"});
+        g.read("request", fault.request);
+        g.positive("late_s", fault.late_s);
+        cnc.faults.push_back(fault);
+    });
+}
+
+void read_all(Fields& f, Scenario& s) {
+    f.read("seed", s.seed);
+    f.table("axis", [&](Fields& t) { read_axis(t, s.axis); });
+    f.table("errors", [&](Fields& t) { read_errors(t, s.errors); });
+    f.table("thermal", [&](Fields& t) {
+        t.read("expansion_um_per_m_k", s.thermal.expansion_um_per_m_k);
+        t.read("fixed_point_mm", s.thermal.fixed_point_mm);
+        read_signal(t, "material", s.thermal.material);
+        t.read("sensor_difference_k", s.thermal.sensor_difference_k);
+    });
+    f.table("air", [&](Fields& t) {
+        read_signal(t, "temperature", s.air.temperature);
+        read_signal(t, "pressure_pa", s.air.pressure_pa);
+        read_signal(t, "humidity_percent", s.air.humidity_percent);
+        t.read("co2_ppm", s.air.co2_ppm);
+    });
+    f.table("laser", [&](Fields& t) { read_laser(t, s.laser); });
+    f.tables("sensor", [&](Fields& t) { read_sensor(t, s.sensors.emplace_back()); });
+    f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });
+    f.table("truth", [&](Fields& t) {
+        t.positive("window_s", s.truth.window_s);
+        t.positive("duration_s", s.truth.duration_s);
+        t.read("draws", s.truth.draws);
+    });
+}
+
+} // namespace
+
+Result<Scenario> parse_scenario(const std::string& text, bool toml) {
+    Json document;
+    try {
+        if (toml) {
+            std::ostringstream json;
+            json << toml::json_formatter{toml::parse(text)};
+            document = Json::parse(json.str());
+        } else {
+            document = Json::parse(text);
+        }
+    } catch (const std::exception& error) {
+        return fail(Fault::bad_configuration, std::string{"scenario: "} + error.what());
+    }
+    Scenario scenario;
+    std::string refusals;
+    {
+        Fields root{document, "", refusals};
+        read_all(root, scenario);
+    }
+    if (!refusals.empty()) return fail(Fault::bad_configuration, "scenario: " + refusals);
+    return scenario;
+}
+
+Result<Scenario> read_scenario(const std::string& path) {
+    std::ifstream file{path};
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf()))
+        return fail(Fault::not_found, "the scenario file " + path + " can not be read");
+    return parse_scenario(text.str(), !path.ends_with(".json"));
+}
+
+} // namespace axiscal::simulate

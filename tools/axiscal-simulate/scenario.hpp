@@ -1,0 +1,116 @@
+#pragma once
+// What a scenario file says: the machine's hidden truth and the faces that show it. Plain data.
+
+#include "analysis/quantity/result.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal::simulate {
+
+/// A quantity that changes slowly: start + rate t + swing sin(2 pi t / period).
+struct SlowSignal {
+    double start = 0, rate_per_hour = 0, swing = 0, period_s = 600;
+    [[nodiscard]] double at(double seconds) const;
+};
+
+struct PeriodicError {
+    double amplitude_um = 0, period_mm = 10, phase_deg = 0;
+};
+struct TablePoint {
+    double position_mm = 0, error_um = 0;
+};
+
+struct AxisScenario {
+    std::string name = "X";
+    char letter = 'X';
+    double start_mm = 0, travel_low_mm = -1e6, travel_high_mm = 1e6;
+    double rapid_mm_per_min = 12000, acceleration_mm_per_s2 = 2000;
+};
+
+/// The errors of the axis at 20 C; all in um over mm.
+struct ErrorScenario {
+    double linear_um_per_m = 0, quadratic_um_per_m2 = 0, cubic_um_per_m3 = 0, centre_mm = 0;
+    std::vector<TablePoint> table; ///< pitch error, straight between points, held outside
+    std::vector<PeriodicError> periodic;
+    double reversal_um = 0, reversal_slope_um_per_m = 0; ///< B; negative: approaches stop short
+    double approach_noise_um = 0;                        ///< sigma, drawn anew at each stop
+    double noise_um = 0;                                 ///< sigma per sample
+    double vibration_um = 0, vibration_hz = 50, drift_um_per_hour = 0;
+};
+
+struct ThermalScenario {
+    double expansion_um_per_m_k = 11.7, fixed_point_mm = 0;
+    SlowSignal material{20, 0, 0, 600};
+    std::vector<double> sensor_difference_k{0, 0}; ///< of each contact sensor; mean 0
+};
+
+struct AirScenario {
+    SlowSignal temperature{20, 0, 0, 600}, pressure_pa{101325, 0, 0, 600},
+        humidity_percent{50, 0, 0, 600};
+    double co2_ppm = 450;
+};
+
+struct LaserScenario {
+    std::string kind = "umd2-homodyne"; ///< umd0, umd1, umd2-homodyne, umd2-heterodyne
+    std::string path;
+    double wavelength_nm = 632.991354;
+    int fold = 2, counts_per_cycle = 4, phase_bits = 16, fields = 8;
+    int sign = 1;                         ///< +1: the axis moves away from the interferometer
+    double dead_path_mm = 0, zero_mm = 0; ///< distance to the reflector when the axis is at zero_mm
+    std::optional<double> rate_hz;
+    bool partial_first_line = false;
+};
+
+struct SensorScenario {
+    std::string name, kind; ///< dracal-vcp, tm-th8, xy-md02, comet
+    std::string path;       ///< symlink to the pty; empty: Modbus TCP
+    int port = 0, unit = 1, fraction_digits = 2, first_register = 0x31;
+};
+
+struct CncFault {
+    std::string kind; ///< doubled late missed out-of-order wrong-direction wrong-target
+    int request = 0;  ///< 1-based count of requests
+    double late_s = 1;
+};
+
+struct CncScenario {
+    std::string shape = "sequence-block"; ///< single-register, coil-and-index, dwell
+    std::string transport = "tcp";        ///< rtu, server (the CNC is the Modbus server)
+    std::string host = "127.0.0.1", path;
+    int port = 0, baud = 115200, unit = 1, base_address = 0;
+    char parity = 'N';
+    double poll_s = 0.01, counts_per_unit = 10000;
+    bool low_word_first = false;
+    std::string motion_fault; ///< diameter inch wrong-axis swapped-sign shifted-datum
+    double shift_mm = 1;
+    std::vector<CncFault> faults;
+};
+
+/// What the derivation of the bounds needs to know of the run.
+struct TruthScenario {
+    double window_s = 0.5, duration_s = 300;
+    int draws = 10000;
+};
+
+struct Scenario {
+    std::uint64_t seed = 1;
+    AxisScenario axis;
+    ErrorScenario errors;
+    ThermalScenario thermal;
+    AirScenario air;
+    LaserScenario laser;
+    std::vector<SensorScenario> sensors;
+    std::optional<CncScenario> cnc;
+    TruthScenario truth;
+};
+
+/// @errors bad_configuration naming the key: unknown keys, wrong types and unknown kinds, all at
+/// once.
+Result<Scenario> read_scenario(const std::string& path);
+/// The same from text; `toml` false: JSON.
+Result<Scenario> parse_scenario(const std::string& text, bool toml);
+
+} // namespace axiscal::simulate

@@ -1,0 +1,113 @@
+#include "simulated_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace axiscal::simulate {
+
+namespace {
+
+double table_um(const std::vector<TablePoint>& table, double position_mm) {
+    if (table.empty()) return 0;
+    const auto above =
+        std::lower_bound(table.begin(), table.end(), position_mm,
+                         [](const TablePoint& p, double x) { return p.position_mm < x; });
+    if (above == table.begin()) return table.front().error_um;
+    if (above == table.end()) return table.back().error_um;
+    const TablePoint& a = *(above - 1);
+    const double share = (position_mm - a.position_mm) / (above->position_mm - a.position_mm);
+    return a.error_um + share * (above->error_um - a.error_um);
+}
+
+/// An axis settles to its stop; 10 ms is a stiff drive's time constant.
+constexpr double settle_s = 0.01;
+/// A sample step below this is standing still: 1 nm, the print step of a position stream.
+constexpr double still_step_mm = 1.5e-6;
+/// Play of an axis without reversal error; only keeps the state of the operator defined.
+constexpr double least_play_mm = 1e-7;
+
+} // namespace
+
+double TrueErrors::pitch_um(double position_mm) const {
+    const double x_m = (position_mm - errors_.centre_mm) * 1e-3;
+    double um = x_m * (errors_.linear_um_per_m +
+                       x_m * (errors_.quadratic_um_per_m2 + x_m * errors_.cubic_um_per_m3));
+    um += table_um(errors_.table, position_mm);
+    for (const PeriodicError& term : errors_.periodic)
+        um += term.amplitude_um * std::sin(2.0 * std::numbers::pi *
+                                           (position_mm / term.period_mm + term.phase_deg / 360.0));
+    return um;
+}
+
+double TrueErrors::reversal_um(double position_mm) const {
+    return errors_.reversal_um +
+           errors_.reversal_slope_um_per_m * (position_mm - errors_.centre_mm) * 1e-3;
+}
+
+double Play::follow(double drive_mm) {
+    if (!started_) slide_mm_ = drive_mm - half_mm_; // as after a forward approach
+    started_ = true;
+    slide_mm_ = std::clamp(slide_mm_, drive_mm - half_mm_, drive_mm + half_mm_);
+    return (slide_mm_ - drive_mm) / half_mm_;
+}
+
+TrueAir air_at(const AirScenario& air, double seconds) {
+    return {Temperature::celsius(air.temperature.at(seconds)), pascal(air.pressure_pa.at(seconds)),
+            percent(air.humidity_percent.at(seconds)), air.co2_ppm};
+}
+
+Temperature material_at(const ThermalScenario& thermal, double seconds) {
+    return Temperature::celsius(thermal.material.at(seconds));
+}
+
+double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperature material) {
+    const Ratio growth =
+        um_per_m_kelvin(thermal.expansion_um_per_m_k) * (material - reference_temperature);
+    const double from_fixed_mm = position_20_mm - thermal.fixed_point_mm;
+    return thermal.fixed_point_mm + from_fixed_mm * (1.0 + growth.si());
+}
+
+SimulatedMachine::SimulatedMachine(const Scenario& scenario)
+    : scenario_{scenario}
+    , errors_{scenario.errors}
+    , noise_{scenario.seed}
+    , play_{std::max(std::abs(scenario.errors.reversal_um) * 1e-3, least_play_mm)} {}
+
+/// Each stop has its own random offset; the slide settles to it with the drive's time constant.
+double SimulatedMachine::approach_offset_mm(double drive_mm, double dt_s) {
+    const bool moves = std::abs(drive_mm - last_drive_mm_) > still_step_mm;
+    if (moves && !moving_) ++stops_;
+    moving_ = moves;
+    const double goal_mm =
+        scenario_.errors.approach_noise_um * 1e-3 * noise_.normal(NoiseStream::approach, stops_);
+    approach_mm_ += (goal_mm - approach_mm_) * (1.0 - std::exp(-dt_s / settle_s));
+    return approach_mm_;
+}
+
+double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t sample) {
+    const ErrorScenario& e = scenario_.errors;
+    if (!started_) last_drive_mm_ = drive_mm, last_seconds_ = seconds, started_ = true;
+    const double side = play_.follow(drive_mm); // -1 forward, +1 backward
+    double deviation_um = errors_.pitch_um(drive_mm) - 0.5 * side * errors_.reversal_um(drive_mm);
+    deviation_um += e.noise_um * noise_.normal(NoiseStream::axis, sample);
+    deviation_um += e.vibration_um * std::sin(2.0 * std::numbers::pi * e.vibration_hz * seconds);
+    deviation_um += e.drift_um_per_hour * seconds / 3600.0;
+    const double offset_mm = approach_offset_mm(drive_mm, seconds - last_seconds_);
+    last_drive_mm_ = drive_mm;
+    last_seconds_ = seconds;
+    const double at_20_mm = drive_mm + deviation_um * 1e-3 + offset_mm;
+    return grown_mm(scenario_.thermal, at_20_mm, material_at(scenario_.thermal, seconds));
+}
+
+double SimulatedMachine::cycles(double slide_mm, double seconds) {
+    const LaserScenario& laser = scenario_.laser;
+    const double length_mm = laser.dead_path_mm + laser.sign * (slide_mm - laser.zero_mm);
+    const double index =
+        1.0 + refractivity(air_at(scenario_.air, seconds), nm(laser.wavelength_nm));
+    const double optical_mm = index * length_mm;
+    if (!zeroed_) optical_zero_mm_ = optical_mm, zeroed_ = true;
+    return laser.fold * (optical_mm - optical_zero_mm_) / (laser.wavelength_nm * 1e-6);
+}
+
+} // namespace axiscal::simulate

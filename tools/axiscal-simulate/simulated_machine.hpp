@@ -1,0 +1,77 @@
+#pragma once
+// The one truth: where the slide of the simulated machine really is, and what the laser beam and
+// the air see of it. Everything the wire faces show comes from here.
+
+#include "scenario.hpp"
+#include "seeded_noise.hpp"
+#include "true_air.hpp"
+
+#include <cstdint>
+
+namespace axiscal::simulate {
+
+/// The errors of the axis at 20 C as functions of the coordinate. Pure.
+class TrueErrors {
+public:
+    explicit TrueErrors(ErrorScenario errors)
+        : errors_{std::move(errors)} {}
+    /// Pitch and periodic error, um, without reversal.
+    [[nodiscard]] double pitch_um(double position_mm) const;
+    /// B at this coordinate, um: forward minus backward.
+    [[nodiscard]] double reversal_um(double position_mm) const;
+    /// The deviation after an approach from below (direction +1) or from above (-1), um.
+    [[nodiscard]] double deviation_um(double position_mm, int direction) const {
+        return pitch_um(position_mm) + 0.5 * direction * reversal_um(position_mm);
+    }
+
+private:
+    ErrorScenario errors_;
+};
+
+/// Lost motion: the slide follows the drive only when the play is used up. Not thread-safe.
+/// State in [-1, 1]: -1 after a forward approach (the slide trails below), +1 after a backward one.
+class Play {
+public:
+    explicit Play(double width_mm)
+        : half_mm_{0.5 * width_mm} {}
+    double follow(double drive_mm);
+
+private:
+    double half_mm_;
+    double slide_mm_ = 0;
+    bool started_ = false;
+};
+
+/// The environment at a time after the start. Pure.
+TrueAir air_at(const AirScenario& air, double seconds);
+Temperature material_at(const ThermalScenario& thermal, double seconds);
+/// Exact expansion of a coordinate about the fixed point of the machine, mm.
+double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperature material);
+
+/// Steps through samples in order. One thread.
+class SimulatedMachine {
+public:
+    explicit SimulatedMachine(const Scenario& scenario);
+
+    /// One sample: the drive stands at drive_mm at this time.
+    /// @returns where the slide really is, mm, in the length of the machine at its temperature.
+    double slide_mm(double drive_mm, double seconds, std::uint64_t sample);
+    /// Optical cycles since the counter started, from the exact equation
+    /// N = fold (n L - n0 L0) / lambda with L the length from interferometer to reflector.
+    double cycles(double slide_mm, double seconds);
+    /// The counter starts anew: the next sample is its zero.
+    void zero_counter() { zeroed_ = false; }
+
+private:
+    double approach_offset_mm(double drive_mm, double dt_s);
+
+    Scenario scenario_;
+    TrueErrors errors_;
+    SeededNoise noise_;
+    Play play_;
+    bool moving_ = false, started_ = false, zeroed_ = false;
+    double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, optical_zero_mm_ = 0;
+    std::uint64_t stops_ = 0;
+};
+
+} // namespace axiscal::simulate

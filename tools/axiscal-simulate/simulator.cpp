@@ -1,0 +1,165 @@
+#include "simulator.hpp"
+
+#include "truth.hpp"
+#include "wire/sensor_faces.hpp"
+
+#include <fstream>
+#include <sstream>
+
+namespace axiscal::simulate {
+
+Simulator::Simulator(const Scenario& scenario)
+    : scenario_{scenario}
+    , axis_{scenario.axis.start_mm, scenario.axis.acceleration_mm_per_s2}
+    , lines_{scenario.cnc.value_or(CncScenario{})} {}
+
+Simulator::~Simulator() {
+    for (auto& thread : threads_)
+        thread.request_stop();
+    if (runner_) runner_->stop();
+}
+
+Result<std::unique_ptr<Simulator>> Simulator::open(const Scenario& scenario) {
+    std::unique_ptr<Simulator> simulator{new Simulator{scenario}};
+    auto opened = simulator->open_faces();
+    if (!opened) return tl::unexpected<Error>(opened.error());
+    return simulator;
+}
+
+Result<void> Simulator::open_faces() {
+    if (!scenario_.laser.path.empty()) {
+        AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
+        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_,
+                                             [this](double s) { return axis_.position_mm(s); });
+    }
+    for (const SensorScenario& sensor : scenario_.sensors) {
+        AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_));
+        sensors_.push_back(std::move(face));
+    }
+    if (!scenario_.cnc) return {};
+    runner_ = std::make_unique<CncRunner>(scenario_, axis_, lines_, clock_);
+    if (scenario_.cnc->shape == "dwell") return {};
+    if (scenario_.cnc->transport == "server") {
+        AXISCAL_TRY(exchange_, CncServer::open(*scenario_.cnc, lines_, clock_));
+        return {};
+    }
+    auto client = std::make_unique<CncClient>(*scenario_.cnc, lines_, clock_);
+    client_ = client.get();
+    exchange_ = std::move(client);
+    return {};
+}
+
+void Simulator::start(bool external_positions) {
+    if (laser_ && !external_positions)
+        threads_.emplace_back([this](std::stop_token stop) { laser_->run(stop); });
+    for (const auto& sensor : sensors_)
+        threads_.emplace_back([face = sensor.get()](std::stop_token stop) { face->run(stop); });
+    if (exchange_) threads_.emplace_back([this](std::stop_token stop) { exchange_->run(stop); });
+}
+
+void Simulator::feed_positions(std::istream& lines, int field) {
+    for (std::string line; !ended_ && laser_ && std::getline(lines, line);) {
+        std::istringstream fields{line};
+        double number = 0, position_mm = 0;
+        fields >> number; // the CNC's own count of servo cycles
+        for (int i = 0; i < field; ++i)
+            fields >> position_mm;
+        if (fields) laser_->feed(position_mm); // "overrun" and the like are no samples
+    }
+}
+
+Result<void> Simulator::write_truth(const std::string& path) {
+    AXISCAL_TRY(const std::string text, read_program(program_));
+    AXISCAL_TRY(const TruthPlan plan, plan_of_program(text, is_marlin(program_), scenario_));
+    std::ofstream file{path};
+    file << truth_of(scenario_, plan).dump(1) << "\n";
+    if (!file.flush()) return fail(Fault::io, "the truth can not be written to " + path);
+    return {};
+}
+
+nlohmann::json Simulator::places() const {
+    nlohmann::json places{{"ready", true}};
+    if (laser_) places["laser"] = laser_->place();
+    for (const auto& sensor : sensors_)
+        places["sensors"][sensor->name()] = sensor->place();
+    if (exchange_) places["cnc"] = {{"port", exchange_->port()}};
+    return places;
+}
+
+nlohmann::json Simulator::status() const {
+    nlohmann::json status = runner_ ? runner_->status() : nlohmann::json::object();
+    if (laser_) status["laser"] = laser_->status();
+    if (exchange_) status["connected"] = exchange_->connected();
+    return status;
+}
+
+Result<void> Simulator::obey_laser(const std::string& word, std::istream& arguments) {
+    if (!laser_) return fail(Fault::not_found, "this scenario has no laser");
+    std::string state;
+    if (word == "beam") arguments >> state;
+    if (word == "beam" && state != "on" && state != "off")
+        return fail(Fault::bad_request, "the beam is on or off");
+    if (word == "beam") return laser_->set_beam(state == "on"), Result<void>{};
+    if (word == "restart-counter") return laser_->restart_counter(), Result<void>{};
+    int number = 0;
+    arguments >> number;
+    if (!arguments) return fail(Fault::bad_request, word + " needs a number");
+    if (word == "skip") laser_->skip_records(number);
+    if (word == "fields") laser_->set_fields(number);
+    if (word == "error-mask") laser_->set_error_mask(number);
+    return {};
+}
+
+Result<void> Simulator::obey_cnc(const std::string& word, std::istream& arguments) {
+    if (!runner_) return fail(Fault::not_found, "this scenario has no CNC");
+    std::string argument;
+    arguments >> argument;
+    if (word == "run") {
+        if (!argument.empty()) program_ = argument;
+        return runner_->start(program_);
+    }
+    if (word == "stop") return runner_->stop(), Result<void>{};
+    if (word == "motion-fault")
+        return runner_->inject(argument == "none" ? "" : argument), Result<void>{};
+    int port = 0;
+    arguments >> port;
+    if (client_ == nullptr || port == 0)
+        return fail(Fault::bad_request, "connect HOST PORT needs a CNC that is a TCP client");
+    return client_->redirect({argument, port}), Result<void>{};
+}
+
+Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& arguments) {
+    const auto done = [](const Result<void>& outcome) -> Result<nlohmann::json> {
+        if (!outcome) return tl::unexpected<Error>(outcome.error());
+        return nlohmann::json{{"ok", true}};
+    };
+    std::string name, behaviour;
+    if (word == "status") return status();
+    if (word == "quit") return ended_ = true, done({});
+    if (word == "truth") return arguments >> name, done(write_truth(name));
+    if (word == "sensor") {
+        arguments >> name >> behaviour;
+        if (laser_ && name == "laser") return done(laser_->behave(behaviour));
+        for (const auto& sensor : sensors_)
+            if (sensor->name() == name) return done(sensor->behave(behaviour));
+        return fail(Fault::not_found, "no sensor is named \"" + name + "\"");
+    }
+    if (word == "beam" || word == "restart-counter" || word == "skip" || word == "fields" ||
+        word == "error-mask")
+        return done(obey_laser(word, arguments));
+    if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect")
+        return done(obey_cnc(word, arguments));
+    return fail(Fault::bad_request, "\"" + word + "\" is no command");
+}
+
+nlohmann::json Simulator::command(const std::string& line) {
+    const std::lock_guard lock{command_mutex_};
+    std::istringstream arguments{line};
+    std::string word;
+    arguments >> word;
+    auto answer = obey(word, arguments);
+    if (answer) return *answer;
+    return {{"ok", false}, {"error", answer.error().detail}};
+}
+
+} // namespace axiscal::simulate

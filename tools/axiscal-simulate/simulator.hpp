@@ -1,0 +1,64 @@
+#pragma once
+// The whole simulated world of one scenario: faces, CNC, and the commands that change them.
+
+#include "cnc/cnc_exchange.hpp"
+#include "cnc/cnc_runner.hpp"
+#include "wire/laser_face.hpp"
+
+#include <condition_variable>
+#include <istream>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace axiscal::simulate {
+
+/// command() is thread-safe; the rest belongs to the thread that made it.
+class Simulator {
+public:
+    /// Opens every wire; nothing runs yet. @errors io, refused.
+    static Result<std::unique_ptr<Simulator>> open(const Scenario& scenario);
+    ~Simulator();
+    Simulator(const Simulator&) = delete;
+    Simulator& operator=(const Simulator&) = delete;
+
+    /// Starts the threads; with external positions the laser waits for feed_positions().
+    void start(bool external_positions);
+    /// Reads lines `n x y z ...` of a 1 kHz stream until its end; `field` counts from 1 (x).
+    void feed_positions(std::istream& lines, int field);
+    /// The program that `run` without a file, and `truth`, use.
+    void set_program(std::string path) { program_ = std::move(path); }
+    Result<void> write_truth(const std::string& path);
+
+    /// One line of the control channel; the answer is one JSON object:
+    /// run [FILE], stop, beam off|on, restart-counter, skip N, fields 8|16, error-mask N,
+    /// sensor NAME off|on|garbage|flood, motion-fault KIND|none, connect HOST PORT, status,
+    /// truth FILE, quit.
+    nlohmann::json command(const std::string& line);
+    [[nodiscard]] nlohmann::json places() const;
+    [[nodiscard]] bool ended() const { return ended_; }
+
+private:
+    explicit Simulator(const Scenario& scenario);
+    Result<void> open_faces();
+    Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
+    Result<void> obey_laser(const std::string& word, std::istream& arguments);
+    Result<void> obey_cnc(const std::string& word, std::istream& arguments);
+    [[nodiscard]] nlohmann::json status() const;
+
+    Scenario scenario_;
+    SimClock clock_;
+    CommandedAxis axis_;
+    CncLines lines_;
+    std::unique_ptr<LaserFace> laser_;
+    std::vector<std::unique_ptr<Face>> sensors_;
+    std::unique_ptr<CncExchange> exchange_;
+    CncClient* client_ = nullptr; ///< exchange_, where it is a client
+    std::unique_ptr<CncRunner> runner_;
+    std::mutex command_mutex_;
+    std::string program_;
+    std::atomic<bool> ended_{false};
+    std::vector<std::jthread> threads_; ///< last: joined first
+};
+
+} // namespace axiscal::simulate

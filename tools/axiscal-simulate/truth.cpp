@@ -1,0 +1,375 @@
+#include "truth.hpp"
+
+#include "cnc/cnc_runner.hpp"
+#include "seeded_noise.hpp"
+#include "simulated_machine.hpp"
+#include "wire/sensor_faces.hpp"
+#include "wire/umd_counter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace axiscal::simulate {
+
+namespace {
+
+using Table = std::vector<std::vector<double>>;
+
+/// A machine of paper: every input comes at once, every point is noted.
+class PaperMachine final : public MachineActions {
+public:
+    struct Visits {
+        int up = 0, down = 0;
+    };
+    /// Keyed by the position in nanometres.
+    using Points = std::map<long, Visits>;
+
+    void move(double target_mm, double) override {
+        if (target_mm != position_mm_) up_ = target_mm > position_mm_;
+        position_mm_ = target_mm;
+    }
+    void dwell(double) override { note(dwelled_); }
+    void set_analog(int output, double value) override {
+        if (output == 0 && value != 0 && value != sequence_) note(sequenced_);
+        if (output == 0) sequence_ = value;
+    }
+    void set_digital(int output, bool on) override {
+        if (output == 0 && on) note(pulsed_);
+    }
+    bool wait_input(int, bool high, double) override { return input_ = high, true; }
+    [[nodiscard]] bool input(int) override { return input_; }
+    void message(const std::string&) override {}
+    void at_line(int) override { ++lines_; }
+    [[nodiscard]] bool stopped() override { return lines_ > line_limit; }
+
+    /// A coil is the trigger where there is one; then the index register; else the dwells.
+    [[nodiscard]] Points points() const {
+        if (!pulsed_.empty()) return pulsed_;
+        if (!sequenced_.empty()) return sequenced_;
+        int most = 0;
+        for (const auto& [position, v] : dwelled_)
+            most = std::max(most, v.up + v.down);
+        Points measured;
+        for (const auto& [position, v] : dwelled_)
+            if (v.up + v.down == most) measured.emplace(position, v);
+        return measured;
+    }
+
+private:
+    /// No calibration program is that long; an endless loop on paper ends here.
+    static constexpr int line_limit = 1000000;
+    void note(Points& points) const {
+        Visits& visits = points[std::lround(position_mm_ * 1e6)];
+        ++(up_ ? visits.up : visits.down);
+    }
+    Points pulsed_, sequenced_, dwelled_;
+    double position_mm_ = 0, sequence_ = -1;
+    bool up_ = true, input_ = false;
+    int lines_ = 0;
+};
+
+double mean_of(const std::vector<double>& row) {
+    double sum = 0;
+    for (const double x : row)
+        sum += x;
+    return sum / static_cast<double>(row.size());
+}
+
+double deviation_of(const std::vector<double>& row, double mean) {
+    double squares = 0;
+    for (const double x : row)
+        squares += (x - mean) * (x - mean);
+    return std::sqrt(squares / static_cast<double>(row.size() - 1));
+}
+
+/// Largest minus smallest of all that was put in.
+struct Range {
+    double low = 1e300, high = -1e300;
+    void put(double x) { low = std::min(low, x), high = std::max(high, x); }
+    [[nodiscard]] double width() const { return high - low; }
+};
+
+struct OneWay {
+    std::vector<double> mean_um, s_um;
+    Range means, band;
+    double R_um = 0;
+};
+
+OneWay one_way(const Table& table) {
+    OneWay way;
+    for (const auto& row : table) {
+        const double mean = mean_of(row);
+        const double s = row.size() > 1 ? deviation_of(row, mean) : 0;
+        way.mean_um.push_back(mean);
+        way.s_um.push_back(s);
+        way.means.put(mean);
+        way.band.put(mean - 2 * s);
+        way.band.put(mean + 2 * s);
+        way.R_um = std::max(way.R_um, 4 * s);
+    }
+    return way;
+}
+
+void add_two_way(std::map<std::string, double>& p, const OneWay& up, const OneWay& down) {
+    Range means, middle, band;
+    double B = 0, B_sum = 0, R = 0;
+    for (std::size_t i = 0; i < up.mean_um.size(); ++i) {
+        const double reversal = up.mean_um[i] - down.mean_um[i];
+        B = std::max(B, std::abs(reversal));
+        B_sum += reversal;
+        middle.put(0.5 * (up.mean_um[i] + down.mean_um[i]));
+        const double su = up.s_um[i], sd = down.s_um[i];
+        R = std::max({R, 2 * su + 2 * sd + std::abs(reversal), 4 * su, 4 * sd});
+    }
+    for (const OneWay* way : {&up, &down}) {
+        means.put(way->means.low), means.put(way->means.high);
+        band.put(way->band.low), band.put(way->band.high);
+    }
+    p["E"] = means.width();
+    p["M"] = middle.width();
+    p["B"] = B;
+    p["B_mean"] = B_sum / static_cast<double>(up.mean_um.size());
+    p["R"] = R;
+    p["A"] = band.width();
+}
+
+/// The injected means at 20 C, one row per target.
+Table means_of(const Scenario& scenario, const TruthPlan& plan, int direction) {
+    const TrueErrors errors{scenario.errors};
+    Table table;
+    for (const double target : plan.targets_mm)
+        table.push_back({errors.deviation_um(target, direction)});
+    return table;
+}
+
+/// Standard deviation of one capture, um: the offset of the stop, and what a window leaves of the
+/// noise of its samples and of the vibration (a sine averaged over T keeps at most A / (pi f T)).
+double capture_sigma_um(const Scenario& s) {
+    const double samples = std::max(1.0, s.truth.window_s * UmdCounter{s.laser}.rate_hz());
+    const double rest_of_noise = s.errors.noise_um / std::sqrt(samples);
+    const double rest_of_vibration =
+        s.errors.vibration_um / (std::numbers::pi * s.truth.window_s * s.errors.vibration_hz);
+    return std::hypot(s.errors.approach_noise_um, rest_of_noise, rest_of_vibration);
+}
+
+/// What the sensors' resolution and the differences of admissible formulas can shift, um.
+struct Systematic {
+    double material_scale = 0, material_step = 0, air = 0, formula = 0, first_order = 0,
+           counting = 0, drift = 0, fixed_point = 0;
+    /// Over the length of the axis (E, M, A).
+    [[nodiscard]] double along() const {
+        return material_scale + air + formula + first_order + counting + drift + fixed_point;
+    }
+    /// Between two readings at one place (B, R): a scale error is the same for both, but a
+    /// sensor may step to its next digit between them.
+    [[nodiscard]] double between() const {
+        return material_step + air + counting + drift + fixed_point;
+    }
+};
+
+/// Largest and spread of (shown - true) material temperature over the run, K.
+Range material_error_k(const Scenario& s) {
+    Range range;
+    for (const SensorScenario& sensor : s.sensors) {
+        if (sensor.kind != "tm-th8") continue;
+        const double step = temperature_step_k(sensor);
+        for (int i = 0; i <= 1000; ++i) {
+            const double t = s.thermal.material.at(s.truth.duration_s * i / 1000.0);
+            double sum = 0;
+            for (const double difference : s.thermal.sensor_difference_k)
+                sum += std::round((t + difference) / step) * step;
+            const auto count = static_cast<double>(s.thermal.sensor_difference_k.size());
+            range.put(count > 0 ? sum / count - t : 0);
+        }
+    }
+    if (range.low > range.high) range.put(0);
+    return range;
+}
+
+/// Half a step of each air quantity in index of refraction (sensitivities near 20 C).
+double air_step_index(const Scenario& s) {
+    double index = 0;
+    for (const SensorScenario& sensor : s.sensors) {
+        if (sensor.kind == "tm-th8") continue;
+        const bool dracal = sensor.kind == "dracal-vcp";
+        const double step = temperature_step_k(sensor);
+        const double pressure_step = dracal ? 1.0 : 10.0; // Pa
+        index = std::max(index, 0.5 * (0.94e-6 * step + 2.68e-9 * pressure_step + 8.5e-9 * step));
+    }
+    return index;
+}
+
+/// Two accepted equations for n differ by at most this near 20 C, RH up to 100 %.
+constexpr double equations_differ = 6e-8;
+
+Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
+    const double span_um = (plan.targets_mm.back() - plan.targets_mm.front()) * 1e3;
+    const double beam_um = span_um + s.laser.dead_path_mm * 1e3;
+    const double alpha = s.thermal.expansion_um_per_m_k * 1e-6;
+    const Range shown = material_error_k(s);
+    Range material;
+    for (int i = 0; i <= 1000; ++i)
+        material.put(s.thermal.material.at(s.truth.duration_s * i / 1000.0));
+    const double from_20 = std::max(std::abs(material.low - 20), std::abs(material.high - 20));
+    const double off_mm = std::max(std::abs(s.axis.start_mm - s.thermal.fixed_point_mm),
+                                   std::abs(plan.targets_mm.front() - s.thermal.fixed_point_mm));
+    Systematic sys;
+    sys.material_scale = span_um * alpha * std::max(std::abs(shown.low), std::abs(shown.high));
+    sys.material_step = span_um * alpha * shown.width();
+    sys.air = beam_um * 2 * air_step_index(s);
+    sys.formula = span_um * equations_differ;
+    sys.first_order = span_um * alpha * alpha * from_20 * from_20;
+    sys.counting = s.laser.wavelength_nm * 1e-3 / (s.laser.fold * s.laser.counts_per_cycle);
+    const LaserScenario& laser = s.laser;
+    if (laser.kind == "umd1" || laser.kind == "umd2-heterodyne")
+        sys.counting /= std::pow(2.0, laser.phase_bits);
+    sys.drift = std::abs(s.errors.drift_um_per_hour) * s.truth.duration_s / 3600.0;
+    sys.fixed_point = off_mm * 1e3 * alpha * material.width();
+    return sys;
+}
+
+struct Quantiles {
+    double low, median, high;
+};
+
+/// 10 000 runs of the injected process, seeded; the middle 99.9 % of each parameter.
+std::map<std::string, Quantiles> draw(const Scenario& s, const TruthPlan& plan, double sigma_um) {
+    const SeededNoise noise{s.seed};
+    const Table up = means_of(s, plan, +1), down = means_of(s, plan, -1);
+    std::map<std::string, std::vector<double>> drawn;
+    std::uint64_t index = 0;
+    const auto scatter = [&](const Table& means) {
+        Table table;
+        for (const auto& row : means) {
+            auto& readings = table.emplace_back();
+            for (int j = 0; j < plan.approaches; ++j)
+                readings.push_back(row[0] + sigma_um * noise.normal(NoiseStream::draws, index++));
+        }
+        return table;
+    };
+    for (int k = 0; k < s.truth.draws; ++k) {
+        const Table forward = scatter(up);
+        const auto values = evaluate_truth(forward, plan.bidirectional ? scatter(down) : Table{});
+        for (const auto& [key, value] : values)
+            drawn[key].push_back(value);
+    }
+    std::map<std::string, Quantiles> quantiles;
+    for (auto& [key, values] : drawn) {
+        std::sort(values.begin(), values.end());
+        const auto at = [&](double share) {
+            return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+        };
+        quantiles[key] = {at(0.0005), at(0.5), at(0.9995)};
+    }
+    return quantiles;
+}
+
+/// How the noise of one capture reaches a parameter of means: its factor on sigma / sqrt(n).
+double noise_factor(const std::string& key, std::size_t targets) {
+    if (key == "B") return std::sqrt(2.0);                                     // B_i
+    if (key == "B_mean") return std::sqrt(2.0 / static_cast<double>(targets)); // mean of B_i
+    if (key == "M") return 2.0 / std::sqrt(2.0);                               // two middles
+    return 2.0;                                                                // two means
+}
+
+const char* const bound_formula =
+    "E, M, B, B_mean: bound = k sigma/sqrt(n) z + systematic; z = sqrt(2 ln(2 m / 0.001)) holds "
+    "for all 2 m means at 99.9 %; k: E 2, M sqrt 2, B sqrt 2, B_mean sqrt(2/m); sigma^2 = "
+    "approach^2 "
+    "+ noise^2/(window rate) + (vibration/(pi f window))^2. R, A: the middle 99.9 % of the draws, "
+    "widened by the systematic part. systematic along the axis (E, M, A): span alpha |shown - "
+    "true| "
+    "+ (span + dead path) air steps + span 6e-8 + span (alpha dT)^2 + count + drift time + fixed "
+    "point; between readings at one place (B, B_mean, R): the material sensor's change of error "
+    "in place of the scale terms.";
+
+bool is_between(const std::string& key) {
+    return key.starts_with("B") || key.starts_with("R");
+}
+
+} // namespace
+
+Result<TruthPlan> plan_of_program(const std::string& text, bool marlin, const Scenario& scenario) {
+    PaperMachine machine;
+    auto ran = run_program(text, marlin, scenario.axis.letter, machine);
+    if (!ran) return tl::unexpected<Error>(ran.error());
+    TruthPlan plan;
+    bool down = false;
+    for (const auto& [position, visits] : machine.points()) {
+        plan.targets_mm.push_back(static_cast<double>(position) * 1e-6);
+        plan.approaches = std::max(visits.up, visits.down);
+        down = down || (visits.down > 0 && visits.up > 0);
+    }
+    plan.bidirectional = down;
+    if (plan.targets_mm.empty())
+        return fail(Fault::incomplete_run, "the part program asks for no capture");
+    return plan;
+}
+
+std::map<std::string, double> evaluate_truth(const Table& forward_um, const Table& backward_um) {
+    std::map<std::string, double> p;
+    const auto add = [&](const OneWay& way, const std::string& name) {
+        p["E" + name] = way.means.width();
+        p["R" + name] = way.R_um;
+        p["A" + name] = way.band.width();
+    };
+    const OneWay up = one_way(forward_um);
+    add(up, "_forward");
+    if (!backward_um.empty()) {
+        const OneWay down = one_way(backward_um);
+        add(down, "_backward");
+        add_two_way(p, up, down);
+    }
+    if (forward_um.front().size() < 2)
+        std::erase_if(p, [](const auto& entry) {
+            return entry.first.starts_with("R") || entry.first.starts_with("A");
+        });
+    return p;
+}
+
+nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
+    const double sigma_um = capture_sigma_um(scenario);
+    const Systematic sys = systematic_of(scenario, plan);
+    const auto m = static_cast<double>(plan.targets_mm.size());
+    const double z = std::sqrt(2.0 * std::log(2.0 * m / 0.001));
+    const double noise_um = z * sigma_um / std::sqrt(plan.approaches);
+    const auto exact = evaluate_truth(means_of(scenario, plan, +1),
+                                      plan.bidirectional ? means_of(scenario, plan, -1) : Table{});
+    nlohmann::json parameters;
+    for (const auto& [key, um] : exact) {
+        const double systematic = is_between(key) ? sys.between() : sys.along();
+        const double bound = noise_factor(key, plan.targets_mm.size()) * noise_um + systematic;
+        parameters[key] = {{"value", um * 1e-3}, {"bound", bound * 1e-3}};
+    }
+    if (plan.approaches > 1)
+        for (const auto& [key, q] : draw(scenario, plan, sigma_um)) {
+            if (!key.starts_with("R") && !key.starts_with("A")) continue;
+            // A drift also widens s: four s of a straight drift stay below twice its range.
+            const double widen = is_between(key) ? 2 * sys.between() : sys.along() + 2 * sys.drift;
+            parameters[key] = {{"value", q.median * 1e-3},
+                               {"low", std::max(0.0, q.low - widen) * 1e-3},
+                               {"high", (q.high + widen) * 1e-3},
+                               {"draw_low", q.low * 1e-3},
+                               {"draw_high", q.high * 1e-3}};
+        }
+    return {{"format", "axiscal.truth/1"},
+            {"unit", "mm"},
+            {"targets", plan.targets_mm},
+            {"approaches", plan.approaches},
+            {"parameters", parameters},
+            {"formula", bound_formula},
+            {"terms_um",
+             {{"sigma", sigma_um},
+              {"z", z},
+              {"material_scale", sys.material_scale},
+              {"material_step", sys.material_step},
+              {"air", sys.air},
+              {"formula", sys.formula},
+              {"first_order", sys.first_order},
+              {"counting", sys.counting},
+              {"drift", sys.drift},
+              {"fixed_point", sys.fixed_point}}}};
+}
+
+} // namespace axiscal::simulate

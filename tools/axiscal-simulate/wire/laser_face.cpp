@@ -1,0 +1,97 @@
+#include "wire/laser_face.hpp"
+
+#include <thread>
+
+namespace axiscal::simulate {
+
+namespace {
+/// A flooding counter sends each record this often: about 300 kB/s.
+constexpr int flood_factor = 10;
+} // namespace
+
+LaserFace::LaserFace(const Scenario& scenario,
+                     Pty pty,
+                     SimClock clock,
+                     std::function<double(double)> drive)
+    : Face{"laser"}
+    , scenario_{scenario}
+    , pty_{std::move(pty)}
+    , clock_{clock}
+    , drive_{std::move(drive)}
+    , machine_{scenario}
+    , counter_{scenario.laser} {
+    if (scenario.laser.kind == "umd0") pty_.write("\r\nMinimalist Homodyne Test:\r\n");
+    if (scenario.laser.partial_first_line) pty_.write("45 3 0 4097 0 0\r\n");
+}
+
+void LaserFace::write(const std::string& record) {
+    switch (behaviour()) {
+    case Behaviour::on: return pty_.write(record);
+    case Behaviour::off: return;
+    case Behaviour::garbage: return pty_.write(garbage_bytes(scenario_.seed, sample_));
+    case Behaviour::flood:
+        for (int i = 0; i < flood_factor; ++i)
+            pty_.write(record);
+    }
+}
+
+void LaserFace::step(double drive_mm) {
+    const std::lock_guard lock{mutex_};
+    const double seconds = static_cast<double>(sample_) / counter_.rate_hz();
+    slide_mm_ = machine_.slide_mm(drive_mm, seconds, sample_);
+    const UmdRecord record = counter_.next(machine_.cycles(slide_mm_, seconds));
+    ++sample_;
+    write(encode(record));
+}
+
+void LaserFace::run(std::stop_token stop) {
+    while (!stop.stop_requested()) {
+        const double due_s = static_cast<double>(sample_) / counter_.rate_hz();
+        std::this_thread::sleep_until(clock_.at(due_s));
+        step(drive_(due_s));
+    }
+}
+
+void LaserFace::feed(double drive_mm) {
+    step(drive_mm);
+}
+
+nlohmann::json LaserFace::place() const {
+    return {{"path", scenario_.laser.path}};
+}
+
+nlohmann::json LaserFace::status() const {
+    const std::lock_guard lock{mutex_};
+    return {{"path", scenario_.laser.path},
+            {"samples", sample_},
+            {"dropped", pty_.dropped()},
+            {"slide_mm", slide_mm_}};
+}
+
+void LaserFace::set_beam(bool on) {
+    const std::lock_guard lock{mutex_};
+    counter_.set_beam(on);
+}
+
+void LaserFace::restart_counter() {
+    const std::lock_guard lock{mutex_};
+    counter_.restart();
+    machine_.zero_counter();
+}
+
+void LaserFace::skip_records(int count) {
+    const std::lock_guard lock{mutex_};
+    counter_.skip(count);
+}
+
+void LaserFace::set_fields(int fields) {
+    const std::lock_guard lock{mutex_};
+    counter_.set_fields(fields);
+}
+
+void LaserFace::set_error_mask(int mask) {
+    const std::lock_guard lock{mutex_};
+    counter_.set_error_mask(mask);
+}
+
+} // namespace axiscal::simulate

@@ -1,0 +1,51 @@
+#pragma once
+// The laser on its pty: samples the simulated machine at the counter's rate and writes records.
+
+#include "sim_clock.hpp"
+#include "simulated_machine.hpp"
+#include "wire/face.hpp"
+#include "wire/pty.hpp"
+#include "wire/umd_counter.hpp"
+
+#include <functional>
+#include <mutex>
+
+namespace axiscal::simulate {
+
+class LaserFace final : public Face {
+public:
+    /// drive(seconds): where the drive is commanded; must be thread-safe.
+    LaserFace(const Scenario& scenario,
+              Pty pty,
+              SimClock clock,
+              std::function<double(double)> drive);
+
+    /// Free running: record k belongs to the instant k / rate, however late the thread wakes.
+    void run(std::stop_token stop) override;
+    /// Driven from outside instead of run(): the next sample of an external position stream.
+    void feed(double drive_mm);
+
+    [[nodiscard]] nlohmann::json place() const override;
+    [[nodiscard]] nlohmann::json status() const override;
+    void set_beam(bool on);
+    void restart_counter();
+    void skip_records(int count);
+    void set_fields(int fields);
+    void set_error_mask(int mask);
+
+private:
+    void step(double drive_mm);
+    void write(const std::string& record);
+
+    Scenario scenario_;
+    mutable std::mutex mutex_; ///< guards all below
+    Pty pty_;
+    SimClock clock_;
+    std::function<double(double)> drive_;
+    SimulatedMachine machine_;
+    UmdCounter counter_;
+    std::uint64_t sample_ = 0;
+    double slide_mm_ = 0;
+};
+
+} // namespace axiscal::simulate

@@ -1,0 +1,100 @@
+#include "wire/pty.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+#include <utility>
+
+namespace axiscal::simulate {
+
+namespace {
+
+std::error_code last_error() {
+    return {errno, std::generic_category()};
+}
+
+Result<void> link_to(const std::string& target, const std::string& path) {
+    std::error_code error;
+    const auto status = std::filesystem::symlink_status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_symlink(status))
+        return fail(Fault::refused, path + " exists and is no symlink; choose another path");
+    std::filesystem::remove(path, error);
+    std::filesystem::create_symlink(target, path, error);
+    if (error) return fail(Fault::io, "the symlink " + path + " can not be made", error);
+    return {};
+}
+
+} // namespace
+
+Result<Pty> Pty::open(const std::string& link_path) {
+    const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+    if (master < 0) return fail(Fault::io, "no pseudo terminal for " + link_path, last_error());
+    char name[128] = {};
+    const bool ready = ::grantpt(master) == 0 && ::unlockpt(master) == 0 &&
+                       ::ptsname_r(master, name, sizeof name) == 0;
+    const int slave = ready ? ::open(name, O_RDWR | O_NOCTTY | O_CLOEXEC) : -1;
+    Pty pty{master, slave, ""}; // closes both on the way out
+    termios mode{};
+    if (slave < 0 || ::tcgetattr(slave, &mode) != 0)
+        return fail(Fault::io, "no slave of the pseudo terminal for " + link_path, last_error());
+    ::cfmakeraw(&mode);
+    ::tcsetattr(slave, TCSANOW, &mode);
+    auto linked = link_to(name, link_path);
+    if (!linked) return tl::unexpected<Error>(linked.error());
+    pty.link_ = link_path;
+    return pty;
+}
+
+Pty::Pty(Pty&& other) noexcept
+    : master_{std::exchange(other.master_, -1)}
+    , slave_{std::exchange(other.slave_, -1)}
+    , link_{std::exchange(other.link_, "")}
+    , rest_{std::move(other.rest_)}
+    , dropped_{other.dropped_} {}
+
+Pty::~Pty() {
+    if (slave_ >= 0) ::close(slave_);
+    if (master_ >= 0) ::close(master_);
+    if (!link_.empty()) ::unlink(link_.c_str());
+}
+
+bool Pty::flush_rest() {
+    if (rest_.empty()) return true;
+    const ssize_t n = ::write(master_, rest_.data(), rest_.size());
+    if (n > 0) rest_.erase(0, static_cast<std::size_t>(n));
+    return rest_.empty();
+}
+
+void Pty::drop() {
+    ++dropped_;
+    const auto now = std::chrono::steady_clock::now();
+    if (!full_) full_since_ = now;
+    full_ = true;
+    if (now - full_since_ < std::chrono::milliseconds{500}) return;
+    ::tcflush(slave_, TCIFLUSH);
+    rest_.clear();
+    full_ = false;
+}
+
+void Pty::write(std::string_view record) {
+    if (!flush_rest()) return drop();
+    const ssize_t n = ::write(master_, record.data(), record.size());
+    if (n <= 0) return drop();
+    full_ = false;
+    rest_ = record.substr(static_cast<std::size_t>(n));
+}
+
+std::string Pty::read(std::chrono::milliseconds wait) {
+    pollfd poll{master_, POLLIN, 0};
+    if (::poll(&poll, 1, static_cast<int>(wait.count())) <= 0) return {};
+    std::string bytes(4096, '\0');
+    const ssize_t n = ::read(master_, bytes.data(), bytes.size());
+    bytes.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+    return bytes;
+}
+
+} // namespace axiscal::simulate

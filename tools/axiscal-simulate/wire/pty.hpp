@@ -1,0 +1,46 @@
+#pragma once
+// A pseudo terminal whose slave is found under a name of our choice: the simulated cable.
+// A reader that is slow or absent never blocks the writer. One thread.
+
+#include "analysis/quantity/result.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace axiscal::simulate {
+
+class Pty {
+public:
+    /// Makes the pty, raw, and a symlink to its slave; an older symlink is replaced.
+    /// @errors io; refused where something that is no symlink stands in the way.
+    static Result<Pty> open(const std::string& link_path);
+    Pty(Pty&& other) noexcept;
+    Pty& operator=(Pty&&) = delete;
+    ~Pty();
+
+    /// A whole record goes out or none: when the buffer is full the record is dropped and counted,
+    /// as the instruments' firmware does. A buffer that nobody empties for half a second is
+    /// emptied here, so that a late reader does not find an old hour.
+    void write(std::string_view record);
+    /// What has come in, up to 4096 bytes; waits at most this long.
+    std::string read(std::chrono::milliseconds wait);
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+
+private:
+    Pty(int master, int slave, std::string link)
+        : master_{master}
+        , slave_{slave}
+        , link_{std::move(link)} {}
+    bool flush_rest();
+    void drop();
+
+    int master_ = -1, slave_ = -1; ///< our own slave handle keeps the line raw between readers
+    std::string link_, rest_;
+    std::uint64_t dropped_ = 0;
+    std::chrono::steady_clock::time_point full_since_{};
+    bool full_ = false;
+};
+
+} // namespace axiscal::simulate

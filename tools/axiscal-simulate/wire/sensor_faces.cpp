@@ -1,0 +1,233 @@
+#include "wire/sensor_faces.hpp"
+
+#include "simulated_machine.hpp"
+
+#include <cmath>
+#include <thread>
+
+namespace axiscal::simulate {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+std::uint16_t tenths(double value) {
+    return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(value * 10.0)));
+}
+
+/// ICP DAS tM-TH8: channels at wire 0..7 in FC 3 and 4, engineering format, 0.1 C; channels
+/// without a sensor answer 0x7FFF.
+RegisterBank tm_th8(const Scenario& s, double seconds) {
+    RegisterBank bank;
+    for (int channel = 0; channel < 8; ++channel)
+        bank.input[channel] = 0x7FFF;
+    const double material = s.thermal.material.at(seconds);
+    for (std::size_t i = 0; i < s.thermal.sensor_difference_k.size() && i < 8; ++i)
+        bank.input[static_cast<int>(i)] = tenths(material + s.thermal.sensor_difference_k[i]);
+    bank.holding = bank.input;
+    for (int channel = 0; channel < 8; ++channel)
+        bank.holding[256 + channel] = 0x60; // type code of each channel
+    bank.coils[268] = true;                 // engineering format
+    for (int channel = 0; channel < 8; ++channel)
+        bank.discretes[128 + channel] = bank.input[channel] == 0x7FFF;
+    return bank;
+}
+
+/// XY-MD02: FC 4, wire 1 temperature s16 0.1 C, wire 2 humidity 0.1 %.
+RegisterBank xy_md02(const TrueAir& air, int unit) {
+    RegisterBank bank;
+    bank.functions = {3, 4, 6};
+    bank.input = {{1, tenths(air.temperature.in_celsius())}, {2, tenths(air.humidity.in(percent))}};
+    bank.holding = {
+        {0x101, static_cast<std::uint16_t>(unit)}, {0x102, 9600}, {0x103, 0}, {0x104, 0}};
+    return bank;
+}
+
+/// Comet T7510: FC 3 only; temperature, humidity, computed value, pressure in 0.1 hPa, dew point.
+RegisterBank comet(const TrueAir& air, int first) {
+    RegisterBank bank;
+    bank.functions = {3};
+    const double t = air.temperature.in_celsius();
+    // Dew point by the Magnus form; shown only, nobody computes from it.
+    const double h = std::log(air.humidity.si()) + 17.62 * t / (243.12 + t);
+    const double dew = 243.12 * h / (17.62 - h);
+    const std::uint16_t values[] = {tenths(t), tenths(air.humidity.in(percent)), tenths(dew),
+                                    tenths(air.pressure.in(hectopascal)), tenths(dew)};
+    for (int i = 0; i < 5; ++i)
+        bank.holding[first + i] = values[i];
+    bank.holding[first + 0x1004] = 0x0496; // serial number, BCD, high and low
+    bank.holding[first + 0x1005] = 0x0123;
+    return bank;
+}
+
+class DracalFace final : public Face {
+public:
+    DracalFace(const Scenario& scenario, const SensorScenario& sensor, SimClock clock, Pty pty)
+        : Face{sensor.name}
+        , scenario_{scenario}
+        , path_{sensor.path}
+        , clock_{clock}
+        , pty_{std::move(pty)} {
+        stick_.fraction_digits = sensor.fraction_digits;
+    }
+    void run(std::stop_token stop) override;
+    [[nodiscard]] nlohmann::json place() const override { return {{"path", path_}}; }
+
+private:
+    void take_commands();
+    void show();
+    Scenario scenario_;
+    std::string path_, typed_;
+    SimClock clock_;
+    Pty pty_;
+    DracalStick stick_;
+    std::uint64_t lines_ = 0;
+};
+
+void DracalFace::take_commands() {
+    typed_ += pty_.read(milliseconds{20});
+    for (auto end = typed_.find_first_of("\r\n"); end != std::string::npos;
+         end = typed_.find_first_of("\r\n")) {
+        const std::string command = typed_.substr(0, end);
+        typed_.erase(0, end + 1);
+        if (!command.empty() && behaviour() != Behaviour::off)
+            pty_.write(stick_.answer(command) + "\r\n");
+    }
+    if (typed_.size() > 256) typed_.clear();
+}
+
+void DracalFace::show() {
+    const TrueAir air = air_at(scenario_.air, clock_.now_s());
+    const std::string line = stick_.data_line(air.pressure.in(pascal), air.temperature.in_celsius(),
+                                              air.humidity.in(percent)) +
+                             "\r\n";
+    ++lines_;
+    if (behaviour() == Behaviour::garbage) return pty_.write(garbage_bytes(scenario_.seed, lines_));
+    if (behaviour() != Behaviour::off) pty_.write(line);
+}
+
+void DracalFace::run(std::stop_token stop) {
+    double next_s = clock_.now_s();
+    while (!stop.stop_requested()) {
+        take_commands();
+        if (behaviour() == Behaviour::flood) {
+            for (int i = 0; i < 100; ++i)
+                show();
+        } else if (stick_.poll_ms > 0 && clock_.now_s() >= next_s) {
+            show();
+            next_s = clock_.now_s() + stick_.poll_ms / 1000.0;
+        }
+    }
+}
+
+class RtuFace final : public Face {
+public:
+    RtuFace(const Scenario& scenario, const SensorScenario& sensor, SimClock clock, Pty pty)
+        : Face{sensor.name}
+        , scenario_{scenario}
+        , sensor_{sensor}
+        , clock_{clock}
+        , pty_{std::move(pty)} {}
+    void run(std::stop_token stop) override;
+    [[nodiscard]] nlohmann::json place() const override { return {{"path", sensor_.path}}; }
+
+private:
+    void answer(std::span<const std::uint8_t> frame);
+    void serve(Bytes& pending);
+    Scenario scenario_;
+    SensorScenario sensor_;
+    SimClock clock_;
+    Pty pty_;
+    std::uint64_t answers_ = 0;
+};
+
+void RtuFace::answer(std::span<const std::uint8_t> frame) {
+    if (!rtu_crc_right(frame) || frame[0] != sensor_.unit) return;
+    ++answers_;
+    if (behaviour() == Behaviour::off) return;
+    if (behaviour() == Behaviour::garbage)
+        return pty_.write(garbage_bytes(scenario_.seed, answers_));
+    RegisterBank bank = sensor_bank(scenario_, sensor_, clock_.now_s());
+    const Bytes reply =
+        rtu_frame(sensor_.unit, answer_pdu(bank, frame.subspan(1, frame.size() - 3)));
+    pty_.write({reinterpret_cast<const char*>(reply.data()), reply.size()});
+}
+
+void RtuFace::serve(Bytes& pending) {
+    while (const auto length = rtu_request_length(pending)) {
+        if (*length == 0) return pending.clear();
+        if (pending.size() < *length) return;
+        answer(std::span{pending}.first(*length));
+        pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(*length));
+    }
+}
+
+void RtuFace::run(std::stop_token stop) {
+    Bytes pending;
+    while (!stop.stop_requested()) {
+        const std::string bytes = pty_.read(milliseconds{20});
+        if (bytes.empty()) pending.clear(); // silence ends a frame
+        pending.insert(pending.end(), bytes.begin(), bytes.end());
+        serve(pending);
+        if (behaviour() == Behaviour::flood) pty_.write(garbage_bytes(scenario_.seed, ++answers_));
+    }
+}
+
+class TcpFace final : public Face {
+public:
+    TcpFace(const Scenario& scenario, const SensorScenario& sensor, SimClock clock)
+        : Face{sensor.name}
+        , scenario_{scenario}
+        , sensor_{sensor}
+        , clock_{clock} {}
+    Result<void> open() {
+        auto answer = [this](int, std::span<const std::uint8_t> pdu) { return reply(pdu); };
+        AXISCAL_TRY(slave_, TcpSlave::listen(sensor_.port, answer));
+        return {};
+    }
+    void run(std::stop_token stop) override { slave_->run(stop); }
+    [[nodiscard]] nlohmann::json place() const override { return {{"port", slave_->port()}}; }
+
+private:
+    Bytes reply(std::span<const std::uint8_t> pdu) {
+        ++answers_;
+        if (behaviour() == Behaviour::off) return {};
+        RegisterBank bank = sensor_bank(scenario_, sensor_, clock_.now_s());
+        if (behaviour() == Behaviour::on) return answer_pdu(bank, pdu);
+        const std::string noise = garbage_bytes(scenario_.seed, answers_);
+        return {noise.begin(), noise.end()};
+    }
+    Scenario scenario_;
+    SensorScenario sensor_;
+    SimClock clock_;
+    std::unique_ptr<TcpSlave> slave_;
+    std::uint64_t answers_ = 0;
+};
+
+} // namespace
+
+RegisterBank sensor_bank(const Scenario& scenario, const SensorScenario& sensor, double seconds) {
+    if (sensor.kind == "tm-th8") return tm_th8(scenario, seconds);
+    const TrueAir air = air_at(scenario.air, seconds);
+    return sensor.kind == "comet" ? comet(air, sensor.first_register) : xy_md02(air, sensor.unit);
+}
+
+double temperature_step_k(const SensorScenario& sensor) {
+    return sensor.kind == "dracal-vcp" ? std::pow(10.0, -sensor.fraction_digits) : 0.1;
+}
+
+Result<std::unique_ptr<Face>>
+open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+    if (sensor.path.empty()) {
+        auto face = std::make_unique<TcpFace>(scenario, sensor, clock);
+        auto opened = face->open();
+        if (!opened) return tl::unexpected<Error>(opened.error());
+        return face;
+    }
+    AXISCAL_TRY(Pty pty, Pty::open(sensor.path));
+    if (sensor.kind == "dracal-vcp")
+        return std::make_unique<DracalFace>(scenario, sensor, clock, std::move(pty));
+    return std::make_unique<RtuFace>(scenario, sensor, clock, std::move(pty));
+}
+
+} // namespace axiscal::simulate

@@ -1,0 +1,26 @@
+#pragma once
+// The sensors of air and material on their wires. Each shows the true environment at its own
+// resolution.
+
+#include "scenario.hpp"
+#include "sim_clock.hpp"
+#include "wire/dracal_line.hpp"
+#include "wire/face.hpp"
+#include "wire/pty.hpp"
+#include "wire/tcp_slave.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace axiscal::simulate {
+
+/// What a Modbus sensor of this kind holds in its registers at this time. Pure.
+RegisterBank sensor_bank(const Scenario& scenario, const SensorScenario& sensor, double seconds);
+/// Resolution of the sensor's temperature, K. tM-TH8, XY-MD02 and Comet: 0.1; Dracal: its digits.
+double temperature_step_k(const SensorScenario& sensor);
+
+/// Opens the wire of one sensor. @errors io, refused.
+Result<std::unique_ptr<Face>>
+open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock);
+
+} // namespace axiscal::simulate
