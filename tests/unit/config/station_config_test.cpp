@@ -181,32 +181,32 @@ TEST(StationConfig, WantsEitherAListOfTargetsOrAnInterval) {
 }
 
 TEST(StationConfig, WarnsOfASingleMaterialSensor) {
-    const Reading reading = read_changed("\"material/channel 0\", ", "");
+    const Reading reading = read_changed("\"material/contact 1\", ", "");
     EXPECT_EQ(reading.told, "");
     ASSERT_EQ(reading.config.warnings.size(), 1U);
     EXPECT_NE(reading.config.warnings[0].describe().find("at least two"), std::string::npos);
 }
 
 TEST(StationConfig, RefusesARunWithoutMaterialSensor) {
-    expect_refused_once(read_changed("\"material/channel 0\", \"material/channel 1\"", ""),
+    expect_refused_once(read_changed("\"material/contact 1\", \"material/contact 2\"", ""),
                         "axis.material.temperature: names no sensor");
 }
 
 TEST(StationConfig, RefusesAnAirChannelAsMaterial) {
-    expect_refused_once(read_changed("\"material/channel 0\"", "\"air/air temperature\""),
+    expect_refused_once(read_changed("\"material/contact 1\"", "\"air/air temperature\""),
                         "is a channel of medium air");
 }
 
 TEST(StationConfig, RefusesAMaterialChannelAsAir) {
     expect_refused_once(
         read_changed("temperature = \"air/air temperature\"",
-                     "temperature = \"material/channel 0\""),
-        "axis.air.temperature: \"material/channel 0\" is a channel of medium material");
+                     "temperature = \"material/contact 1\""),
+        "axis.air.temperature: \"material/contact 1\" is a channel of medium material");
 }
 
 TEST(StationConfig, RefusesTheSameSensorTwice) {
-    expect_refused_once(read_changed("\"material/channel 0\", \"material/channel 1\"",
-                                     "\"material/channel 0\", \"material/channel 0\""),
+    expect_refused_once(read_changed("\"material/contact 1\", \"material/contact 2\"",
+                                     "\"material/contact 1\", \"material/contact 1\""),
                         "stands there twice");
 }
 
