@@ -1,0 +1,114 @@
+#include "acquisition/run/first_targets.hpp"
+
+#include "acquisition/capture/wording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+struct KnownRatio {
+    double ratio;
+    std::string_view cause;
+};
+
+constexpr std::array known_ratios{
+    KnownRatio{25.4, "an inch is taken for a millimetre (unit of the part program)"},
+    KnownRatio{1 / 25.4, "a millimetre is taken for an inch (unit of the part program)"},
+    KnownRatio{2.0, "the optics are set to half of their passes or counts (optical fold), or the "
+                    "program counts radius where the control takes diameter"},
+    KnownRatio{0.5, "the optics are set to twice their passes or counts (optical fold), or the "
+                    "axis is programmed in diameter"},
+    KnownRatio{4.0, "the optics are set to a quarter of their passes or counts (optical fold, "
+                    "counts per cycle)"},
+    KnownRatio{0.25, "the optics are set to four times their passes or counts (optical fold, "
+                     "counts per cycle)"},
+};
+
+using Claims = std::span<const ClaimedTarget>;
+
+bool close(Length seen, Length predicted) {
+    return abs(seen - predicted) <= std::max(50.0_um, abs(predicted) * 0.005);
+}
+
+bool ratio_fits(Length datum, Claims claims, double ratio) {
+    return std::ranges::all_of(claims, [&](const ClaimedTarget& claim) {
+        return close(claim.measured - datum, (claim.target - datum) * ratio);
+    });
+}
+
+/// Two claims at least: with one, a shift cannot be told from a scale.
+bool shift_fits(Claims claims) {
+    const auto shift = claims.front().measured - claims.front().target;
+    return std::ranges::all_of(claims, [&](const ClaimedTarget& claim) {
+        return close(claim.measured - claim.target, shift);
+    });
+}
+
+std::string joined(const std::vector<std::string>& causes) {
+    std::string text;
+    for (const auto& cause : causes)
+        text += (text.empty() ? "" : "; or ") + cause;
+    return text;
+}
+
+/// Causes with a name of their own: no motion, turned sign, known ratios.
+std::vector<std::string> named_causes(Length datum, Claims claims, Fault& fault) {
+    std::vector<std::string> causes;
+    const auto add = [&](Fault of_cause, std::string cause) {
+        if (causes.empty()) fault = of_cause;
+        causes.push_back(std::move(cause));
+    };
+    if (ratio_fits(datum, claims, 0))
+        add(Fault::wrong_target, "the laser looks at another axis, or the axis does not move");
+    if (ratio_fits(datum, claims, -1))
+        add(Fault::wrong_direction, "the sign is turned (set sign of the laser to its opposite)");
+    for (const auto& known : known_ratios)
+        for (const double sign : {1.0, -1.0})
+            if (ratio_fits(datum, claims, sign * known.ratio))
+                add(sign > 0 ? Fault::outside_window : Fault::wrong_direction,
+                    std::string{known.cause} + (sign > 0 ? "" : ", and the sign is turned"));
+    return causes;
+}
+
+std::string scale_cause(double ratio) {
+    return "the scale is wrong by the factor " + plain_number(ratio, 4) +
+           " (optics, wavelength, unit or gear of the axis)";
+}
+
+std::string shift_cause(Length shift) {
+    return "the datum is shifted by " + in_mm(shift);
+}
+
+} // namespace
+
+Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims) {
+    if (claims.empty()) return {Fault::outside_window, "Nothing was measured yet.", {}, {}};
+    const auto& last = claims.back();
+    const auto claimed = last.target - datum, seen = last.measured - datum;
+    const auto shift = last.measured - last.target;
+    auto fault = Fault::outside_window;
+    auto causes = named_causes(datum, claims, fault);
+    if (claims.size() > 1) {
+        if (shift_fits(claims))
+            causes.push_back(shift_cause(shift));
+        else if (causes.empty() && ratio_fits(datum, claims, seen / claimed))
+            causes.push_back(scale_cause(seen / claimed));
+    } else {
+        if (causes.empty()) causes.push_back(scale_cause(seen / claimed));
+        // Nothing moved is no shift: a shift would have to equal the move by chance.
+        if (fault != Fault::wrong_target) causes.push_back(shift_cause(shift));
+    }
+    if (causes.empty()) causes.emplace_back("the axis stands at another place than the program");
+    return {fault,
+            "From the datum at " + in_mm(datum) + " the program claims a move of " +
+                in_mm(claimed) + ", the laser saw " + in_mm(seen) + ": " + joined(causes) + ".",
+            {},
+            {}};
+}
+
+} // namespace axiscal

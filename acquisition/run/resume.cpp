@@ -1,0 +1,179 @@
+#include "acquisition/run/resume.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/run/sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration shortest_rate_base = std::chrono::seconds{10};
+constexpr std::string_view skip_words = "Skipped: planned step ";
+
+void add_sightings(const std::vector<WindowSample>& samples, std::vector<CounterSighting>& out) {
+    for (const auto* sample : {&samples.front(), &samples.back()})
+        if (sample->device_count != 0)
+            out.push_back({sample->at, metre(sample->reading_m), sample->device_count});
+}
+
+/// First and last of every window, in time.
+std::vector<CounterSighting> sightings(const RunRecord& run) {
+    std::vector<CounterSighting> seen;
+    for (const auto& datum : run.datums)
+        if (datum.device_count != 0) seen.push_back({datum.at, datum.reading, datum.device_count});
+    for (const auto& point : run.points)
+        if (!point.samples.empty()) add_sightings(point.samples, seen);
+    std::ranges::stable_sort(seen, {}, &CounterSighting::at);
+    return seen;
+}
+
+ContinuityVerdict lost(std::string reason) {
+    return {false, "The datum is lost: " + std::move(reason)};
+}
+
+std::string serial_of_laser(const RunRecord& run) {
+    const auto laser =
+        std::ranges::find(run.instruments, run.laser.instrument, &InstrumentRecord::name);
+    return laser == run.instruments.end() ? std::string{} : laser->serial;
+}
+
+ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
+    const auto closing = [](std::string why) {
+        return ResumeVerdict{ResumeDecision::close_datum_lost, Fault::datum_lost, std::move(why)};
+    };
+    if (run.datums.empty()) return {};
+    if (now.boot_id != run.boot_id)
+        return closing("The datum is lost: the computer was restarted since.");
+    const auto before = last_sighting(run);
+    if (!before)
+        return closing("The datum is lost: the run kept no number of the laser's samples.");
+    if (!now.laser) return closing("The datum is lost: the laser gives no reading.");
+    auto limits = now.limits;
+    if (limits.rate_hz <= 0) limits.rate_hz = counting_rate_hz(run).value_or(0);
+    const auto verdict = datum_continues(*before, *now.laser, limits);
+    if (!verdict.continues) return closing(verdict.reason);
+    return {ResumeDecision::wait_for_request, Fault::none, verdict.reason};
+}
+
+} // namespace
+
+std::string skip_text(int step) {
+    return std::string{skip_words} + std::to_string(step);
+}
+
+std::vector<int> skipped_steps(const RunRecord& run) {
+    std::vector<int> steps;
+    for (const auto& event : run.events) {
+        if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words)) continue;
+        const int step = std::atoi(event.text.c_str() + skip_words.size());
+        if (step >= 0 && step < static_cast<int>(run.plan.points.size())) steps.push_back(step);
+    }
+    return steps;
+}
+
+std::optional<CounterSighting> last_sighting(const RunRecord& run) {
+    const auto seen = sightings(run);
+    return seen.empty() ? std::nullopt : std::optional{seen.back()};
+}
+
+std::optional<double> counting_rate_hz(const RunRecord& run) {
+    const auto seen = sightings(run);
+    if (seen.size() < 2) return std::nullopt;
+    const auto span = seen.back().at - seen.front().at;
+    if (span < shortest_rate_base || seen.back().device_count <= seen.front().device_count)
+        return std::nullopt;
+    return static_cast<double>(seen.back().device_count - seen.front().device_count) /
+           seconds_of(span);
+}
+
+ContinuityVerdict datum_continues(const CounterSighting& last_before,
+                                  const Sample& first_after,
+                                  const ContinuityLimits& limits) {
+    const auto reading = first_after.value();
+    if (!reading) return lost("the laser gives no good reading.");
+    if (last_before.device_count == 0 || first_after.device_count == 0 || limits.rate_hz <= 0)
+        return lost("this laser does not number its samples, so nothing proves that it ran on.");
+    const Duration elapsed = first_after.at - last_before.at;
+    if (elapsed < Duration{}) return lost("its reading is older than the run's last one.");
+    const double expected = seconds_of(elapsed) * limits.rate_hz;
+    const double tolerance =
+        limits.rate_share * expected + seconds_of(limits.stamp_slack) * limits.rate_hz;
+    const auto before = static_cast<double>(last_before.device_count);
+    if (limits.count_modulus == 0 && before <= 2 * tolerance)
+        return lost("the laser was switched on too shortly before to tell that it was not switched "
+                    "off again.");
+    double advance = static_cast<double>(first_after.device_count) - before;
+    if (limits.count_modulus > 0) {
+        const auto modulus = static_cast<double>(limits.count_modulus);
+        if (expected + tolerance >= modulus)
+            return lost("after " + in_seconds(elapsed) + " the laser's short number says nothing.");
+        if (advance < 0) advance += modulus;
+    }
+    const std::string numbers = "its number advanced by " + plain_number(advance, 0) + " in " +
+                                in_seconds(elapsed) + ", " + plain_number(expected, 0) +
+                                " were due";
+    if (std::abs(advance - expected) > tolerance) return lost(numbers + ".");
+    const auto jump = abs(metre(*reading) - last_before.reading);
+    const auto reach = metre(limits.fastest.si() * seconds_of(elapsed + limits.stamp_slack));
+    if (limits.fastest.si() > 0 && jump > reach)
+        return lost("the reading differs by " + in_mm(jump) + " after " + in_seconds(elapsed) +
+                    ", faster than the axis can move.");
+    return {true, "The laser counted on during the interruption: " + numbers + "; the reading is " +
+                      in_mm(jump) + " from the last one."};
+}
+
+std::uint16_t last_durable_sequence(const RunRecord& run) {
+    MonotonicTime newest{Duration::min()};
+    std::uint16_t sequence = 0;
+    const auto consider = [&](MonotonicTime at, std::uint16_t of) {
+        if (of != 0 && at >= newest) newest = at, sequence = of;
+    };
+    for (const auto& datum : run.datums)
+        consider(datum.at, datum.sequence);
+    for (const auto& event : run.events)
+        if (event.kind == EventKind::skipped) consider(event.at, event.sequence);
+    for (const auto& point : run.points)
+        consider(point.window_end, point.sequence);
+    return sequence;
+}
+
+ResumeVerdict judge_first_request(std::uint16_t last_durable,
+                                  std::optional<std::uint16_t> request) {
+    if (!request || (*request == 0 && last_durable == 0))
+        return {ResumeDecision::wait_for_request, Fault::none,
+                "The CNC has asked for nothing yet."};
+    if (*request == last_durable)
+        return {ResumeDecision::republish_done, Fault::none,
+                "Resumed: request " + std::to_string(*request) +
+                    " was durable before the interruption, done is published again."};
+    if (*request == next_sequence(last_durable))
+        return {ResumeDecision::capture_standing, Fault::none,
+                "Resumed: request " + std::to_string(*request) +
+                    " still stands and is captured; the way to it was not seen."};
+    return {ResumeDecision::close_sequence_lost, Fault::sequence_lost,
+            describe_disorder(*request, last_durable)};
+}
+
+ResumeVerdict
+decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now) {
+    if (now.config_hash != run.config_hash)
+        return {ResumeDecision::close_config_changed, Fault::bad_configuration,
+                "The station file was changed since the run was opened."};
+    const auto serial = serial_of_laser(run);
+    if (now.laser_serial != serial)
+        return {ResumeDecision::close_other_instrument, Fault::unknown_instrument,
+                "The laser has the serial number '" + now.laser_serial + "', the run's has '" +
+                    serial + "'."};
+    auto datum = judge_datum(run, now);
+    if (datum.fault != Fault::none) return datum;
+    auto verdict = judge_first_request(last_durable_sequence(run), request);
+    if (!datum.sentence.empty()) verdict.sentence += " " + datum.sentence;
+    return verdict;
+}
+
+} // namespace axiscal

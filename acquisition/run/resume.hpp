@@ -1,0 +1,91 @@
+#pragma once
+// May an open run go on after a restart of the daemon? Pure.
+
+#include "analysis/run_record.hpp"
+#include "drivers/sample.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+enum class ResumeDecision : std::uint8_t {
+    wait_for_request,     ///< resumable; the CNC has not spoken yet, or is idle before request 1
+    republish_done,       ///< request = last durable
+    capture_standing,     ///< request = last durable + 1
+    close_sequence_lost,  ///< any other request
+    close_config_changed, ///< the station file is not the run's
+    close_other_instrument,
+    close_datum_lost
+};
+
+struct ResumeVerdict {
+    ResumeDecision decision = ResumeDecision::wait_for_request;
+    Fault fault = Fault::none; ///< of the closing ones
+    std::string sentence;      ///< goes on the record either way
+};
+
+/// One reading of the laser with the laser's own number of it.
+struct CounterSighting {
+    MonotonicTime at;
+    Length reading;
+    std::uint64_t device_count = 0;
+};
+
+struct ContinuityLimits {
+    double rate_hz = 0;       ///< the laser's own; counting_rate_hz() or the driver's nominal
+    double rate_share = 0.01; ///< uncertainty of the rate
+    Duration stamp_slack = std::chrono::milliseconds{500}; ///< bytes that waited in the USB buffer
+    std::uint64_t count_modulus = 0; ///< 0: the number does not wrap (65536 for the 16-bit one)
+    Speed fastest;                   ///< of the axis; 0: the jump is not judged
+};
+
+struct ContinuityVerdict {
+    bool continues = false;
+    std::string reason; ///< one sentence, with the numbers
+};
+
+/// What the run file last saw of the laser: the datum or the newest sample of the last point.
+std::optional<CounterSighting> last_sighting(const RunRecord& run);
+
+/// Samples a second between the first and the last sighting; none when they are too near each
+/// other (10 s) to tell.
+std::optional<double> counting_rate_hz(const RunRecord& run);
+
+/// An interferometer is incremental: its zero survives a restart of the daemon only if its counter
+/// is proven to have run on. The laser's own number must have advanced by elapsed time x rate (a
+/// counter that was switched off starts from 1 again), and the axis cannot have moved faster than
+/// it can. Not provable (no number, number too young, wrapped) is lost. What can pass unseen: a
+/// beam that was broken while the daemon was away. A heterodyne counter then runs off by 0.5 mm
+/// each millisecond, which the near check of the next point finds; a homodyne one loses the travel
+/// made meanwhile, found only if it exceeds the near tolerance. The interruption is therefore
+/// recorded.
+ContinuityVerdict datum_continues(const CounterSighting& last_before,
+                                  const Sample& first_after,
+                                  const ContinuityLimits& limits);
+
+/// The station as it is after the restart.
+struct StationNow {
+    std::string config_hash, boot_id, laser_serial;
+    std::optional<Sample> laser; ///< first good sample; none: the laser is silent
+    ContinuityLimits limits;     ///< rate_hz 0: taken from the run
+};
+
+/// Sequence of the newest durable record (point, datum by prepare, skip); 0 when there is none.
+std::uint16_t last_durable_sequence(const RunRecord& run);
+
+/// A skipped step lives in the run file as an event with this text.
+std::string skip_text(int step);
+std::vector<int> skipped_steps(const RunRecord& run);
+
+/// The request alone, the rest being in order. `request` empty: nothing seen yet.
+ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);
+
+/// Everything: configuration, instrument, datum, then the request. A run without a datum has none
+/// to lose.
+ResumeVerdict
+decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now);
+
+} // namespace axiscal

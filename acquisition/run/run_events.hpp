@@ -1,0 +1,144 @@
+#pragma once
+// What goes into the state machine of a run, and what comes out. Plain values; every input carries
+// its own time. Pure data.
+
+#include "acquisition/capture/capture.hpp"
+#include "analysis/run_record.hpp"
+#include "drivers/trigger_port.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace axiscal {
+
+// --- inputs -----------------------------------------------------------------------------------
+
+/// A technician arms the run. With `tie_datum` the axis stands at the plan's datum now; without,
+/// the CNC's first command is `prepare`.
+struct Arm {
+    MonotonicTime at;
+    bool tie_datum = true;
+};
+/// The answer to OpenWindow. An answer to a window that is no longer open is counted and ignored.
+struct WindowResult {
+    std::uint64_t window = 0;
+    Result<Capture> capture;
+    MonotonicTime at;
+};
+/// A commit is on disk: the values of the JournalReceipt.
+struct Committed {
+    std::uint16_t sequence = 0;
+    int step = -1;
+    MonotonicTime at;
+};
+struct CommitFailed {
+    std::string reason;
+    MonotonicTime at;
+};
+/// Refractive index of air minus 1 from fresh readings, or why there is none
+/// (environment_stale). Until the first one the environment counts as stale.
+struct EnvironmentNow {
+    Result<double> refractive_index_minus_1;
+};
+/// The laser's driver says that something is wrong; datum_lost ends the run.
+struct LaserFault {
+    Fault fault = Fault::beam_lost;
+    std::string sentence;
+    MonotonicTime at;
+};
+/// A technician ends the run.
+struct Abort {
+    std::string reason;
+    MonotonicTime at;
+};
+struct Tick {
+    MonotonicTime now;
+};
+
+using RunInput = std::variant<Arm,
+                              TriggerEvent,
+                              WindowResult,
+                              Committed,
+                              CommitFailed,
+                              EnvironmentNow,
+                              LaserFault,
+                              Abort,
+                              Tick>;
+
+// --- actions, to be carried out in order
+// ----------------------------------------------------------
+
+/// A new run is open to the CNC: done = 0.
+struct PublishArmed {};
+/// Find a still window after `from`, until `deadline`; answer with WindowResult.
+struct OpenWindow {
+    std::uint64_t window = 0;
+    MonotonicTime from, deadline;
+    std::optional<ApproachClaim> approach; ///< none at the datum
+    Length expected;                       ///< coordinate
+};
+struct CloseWindow {
+    std::uint64_t window = 0;
+};
+/// Make durable; answer with Committed{point.sequence, point.step} or CommitFailed.
+struct CommitPoint {
+    PointRecord point;
+};
+/// Answer with Committed{datum.sequence, -1}.
+struct CommitDatum {
+    DatumRecord datum;
+};
+/// An event that is acknowledged (skip, end, abort). Answer with Committed{event.sequence, step}.
+struct CommitEvent {
+    EventRecord event;
+    int step = -1;
+};
+/// Publish done = sequence with the receipt that this Committed came from.
+struct Acknowledge {
+    std::uint16_t sequence = 0;
+    int step = -1;
+};
+/// Publish done = sequence again, with the receipt of the last durable record.
+struct RepublishDone {
+    std::uint16_t sequence = 0;
+};
+/// done stays. A refusal of a manual trigger is for the technician, not for the port. Sequence 0
+/// and origin manual: the arming itself was refused.
+struct Refuse {
+    std::uint16_t sequence = 0;
+    Fault fault = Fault::none;
+    std::string sentence;
+    TriggerOrigin origin = TriggerOrigin::cnc;
+};
+/// Not waited for. `utc_ns` is left to the one who has a clock.
+struct RecordEvent {
+    EventRecord event;
+};
+struct SetState {
+    PortState state = PortState::idle;
+};
+/// The last action of a run; Fault::none when complete or ended by a person.
+struct Close {
+    bool complete = false;
+    std::string reason;
+    Fault fault = Fault::none;
+};
+
+using RunAction = std::variant<PublishArmed,
+                               OpenWindow,
+                               CloseWindow,
+                               CommitPoint,
+                               CommitDatum,
+                               CommitEvent,
+                               Acknowledge,
+                               RepublishDone,
+                               Refuse,
+                               RecordEvent,
+                               SetState,
+                               Close>;
+using RunActions = std::vector<RunAction>;
+
+} // namespace axiscal

@@ -1,0 +1,368 @@
+#include "acquisition/run/run_machine.hpp"
+
+#include "acquisition/run/resume.hpp"
+#include "acquisition/run/sequence.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+// A window result that does not come is a broken promise of the station; the CNC must not wait for
+// ever because of it.
+constexpr Duration answer_grace = std::chrono::seconds{2};
+
+Error not_armed() {
+    return {Fault::no_run_armed, {}, {}, {}};
+}
+
+std::string number(std::uint16_t sequence) {
+    return std::to_string(sequence);
+}
+
+int count_of(const std::vector<bool>& flags) {
+    return static_cast<int>(std::count(flags.begin(), flags.end(), true));
+}
+
+} // namespace
+
+RunMachine::RunMachine(RunSetup setup)
+    : setup_{std::move(setup)}
+    , done_(setup_.plan.points.size())
+    , skipped_(setup_.plan.points.size()) {}
+
+RunMachine::RunMachine(RunSetup setup,
+                       const RunRecord& open_run,
+                       std::uint32_t epoch,
+                       MonotonicTime now)
+    : RunMachine{std::move(setup)} {
+    state_ = PortState::armed;
+    armed_ = first_request_after_resume_ = any_accepted_ = true;
+    last_durable_ = last_durable_sequence(open_run);
+    for (const auto& point : open_run.points)
+        if (const auto step = static_cast<std::size_t>(point.step); step < done_.size())
+            done_[step] = true;
+    for (const int step : skipped_steps(open_run))
+        skipped_[static_cast<std::size_t>(step)] = true;
+    if (!open_run.datums.empty()) {
+        datum_ = open_run.datums.back();
+        datum_epoch_ = epoch;
+        datum_count_ = static_cast<int>(open_run.datums.size());
+    }
+    approach_since_ = now;
+}
+
+RunActions RunMachine::handle(const RunInput& input) {
+    RunActions out;
+    std::visit([&](const auto& value) { on(value, out); }, input);
+    return out;
+}
+
+void RunMachine::on(const Arm& arm, RunActions& out) {
+    if (armed_ || closed_ || pending_) {
+        refuse(0, TriggerOrigin::manual, {Fault::busy, "This run was armed before.", {}, {}},
+               arm.at, out);
+        return;
+    }
+    if (arm.tie_datum) {
+        TriggerEvent tie;
+        tie.command = TriggerCommand::prepare;
+        tie.origin = TriggerOrigin::manual;
+        tie.at = arm.at;
+        start_datum(tie, out);
+        return;
+    }
+    armed_ = true;
+    out.push_back(PublishArmed{});
+    record(EventKind::armed, arm.at, "Armed; the CNC ties the datum.", Fault::none, 0, out);
+    set_state(PortState::armed, out);
+}
+
+void RunMachine::on(const TriggerEvent& event, RunActions& out) {
+    auto request = event;
+    if (event.origin == TriggerOrigin::cnc) {
+        if (answered_by_order(event, out)) return;
+    } else {
+        request.sequence = next_sequence(last_durable_);
+        if (closed_ || !armed_) return refuse(request, not_armed(), out);
+        if (stopped_) return refuse(request, {Fault::not_durable, {}, {}, {}}, out);
+        if (pending_ && event.origin == TriggerOrigin::dwell) {
+            ++counters_.doubled;
+            return;
+        }
+        if (pending_) return refuse(request, {Fault::busy, "A capture is under way.", {}, {}}, out);
+    }
+    start_command(request, out);
+}
+
+/// Everything that the number alone decides. True: nothing more is to be done.
+bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
+    const auto sequence = event.sequence;
+    const bool finished_before = sequence != 0 && sequence == last_durable_;
+    if (closed_ || !armed_) {
+        if (closed_ && finished_before)
+            out.push_back(RepublishDone{sequence});
+        else if (sequence != 0)
+            refuse(event, not_armed(), out);
+        return true;
+    }
+    if (first_request_after_resume_ && answered_after_resume(event, out)) return true;
+    if (sequence == 0) return true;
+    // What stands there when a run is armed belongs to another run: the baseline.
+    if (event.standing && !any_accepted_) return true;
+    if (finished_before) {
+        ++counters_.republished;
+        out.push_back(RepublishDone{sequence});
+        return true;
+    }
+    if (pending_ && pending_->sequence == sequence && event.command != TriggerCommand::abort) {
+        ++counters_.doubled;
+        return true;
+    }
+    if (event.command == TriggerCommand::abort &&
+        (pending_ || stopped_ || sequence != next_sequence(last_durable_))) {
+        on(Abort{"The CNC aborted the run with request " + number(sequence) + ".", event.at}, out);
+        return true;
+    }
+    if (stopped_) {
+        refuse(event, {Fault::not_durable, "The run acknowledges nothing more.", {}, {}}, out);
+        return true;
+    }
+    if (sequence == next_sequence(last_durable_)) return false;
+    ++counters_.out_of_order;
+    refuse(event, {Fault::out_of_order, describe_disorder(sequence, last_durable_), {}, {}}, out);
+    return true;
+}
+
+bool RunMachine::answered_after_resume(const TriggerEvent& event, RunActions& out) {
+    const auto verdict = judge_first_request(last_durable_, event.sequence);
+    if (verdict.decision == ResumeDecision::wait_for_request) return true;
+    first_request_after_resume_ = false;
+    if (verdict.decision == ResumeDecision::close_sequence_lost) {
+        refuse(event, {Fault::sequence_lost, verdict.sentence, {}, {}}, out);
+        close(false, verdict.sentence, Fault::sequence_lost, out);
+        return true;
+    }
+    approach_unseen_ = verdict.decision == ResumeDecision::capture_standing;
+    record(EventKind::resumed, event.at, verdict.sentence, Fault::none, event.sequence, out);
+    return false;
+}
+
+void RunMachine::start_command(const TriggerEvent& event, RunActions& out) {
+    any_accepted_ = true;
+    switch (event.command) {
+    case TriggerCommand::prepare: return start_datum(event, out);
+    case TriggerCommand::capture: return start_point(event, out);
+    case TriggerCommand::skip: return commit_event(event, Purpose::skip, out);
+    case TriggerCommand::abort:
+    case TriggerCommand::end: return commit_event(event, Purpose::end, out);
+    }
+}
+
+void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunActions& out) {
+    Pending pending;
+    pending.purpose = purpose;
+    pending.origin = event.origin;
+    pending.sequence = event.sequence;
+    pending.committing = true;
+    const auto next = next_point();
+    EventRecord note;
+    note.at = event.at;
+    note.sequence = event.sequence;
+    if (purpose == Purpose::skip) {
+        if (!next)
+            return refuse(event, {Fault::bad_command, "Nothing is left to skip.", {}, {}}, out);
+        pending.step = next->step;
+        note.kind = EventKind::skipped;
+        note.text = skip_text(next->step);
+    } else {
+        note.kind = EventKind::aborted;
+        note.text = event.command == TriggerCommand::end
+                        ? "The CNC ended the run before its last point."
+                        : "The CNC aborted the run.";
+    }
+    out.push_back(CommitEvent{note, pending.step});
+    pending_ = std::move(pending);
+}
+
+void RunMachine::on(const Committed& committed, RunActions& out) {
+    if (!pending_ || !pending_->committing || committed.sequence != pending_->sequence ||
+        committed.step != pending_->step) {
+        ++counters_.stray;
+        return;
+    }
+    const auto settled = std::move(*pending_);
+    pending_.reset();
+    last_refusal_.reset();
+    if (settled.sequence != 0) {
+        last_durable_ = settled.sequence;
+        out.push_back(Acknowledge{settled.sequence, settled.step});
+    }
+    settle_commit(settled, out);
+    if (closed_) return;
+    const bool all_settled = !next_point();
+    if (all_settled && count_of(skipped_) == 0)
+        close(true, "Every planned point is durable.", Fault::none, out);
+    else if (all_settled)
+        close(false, std::to_string(count_of(skipped_)) + " of the points were skipped.",
+              Fault::none, out);
+    else if (wanted_close_)
+        close(wanted_close_->complete, wanted_close_->reason, wanted_close_->fault, out);
+}
+
+void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
+    switch (settled.purpose) {
+    case Purpose::datum:
+        datum_ = settled.datum;
+        datum_epoch_ = settled.datum.epoch;
+        datum_broken_ = false;
+        approach_since_ = settled.datum.at;
+        if (!std::exchange(armed_, true)) {
+            out.push_back(PublishArmed{});
+            record(EventKind::armed, settled.datum.at, "Armed at the datum.", Fault::none, 0, out);
+        }
+        return set_state(PortState::armed, out);
+    case Purpose::point:
+        done_[static_cast<std::size_t>(settled.step)] = true;
+        approach_since_ = settled.point.window_end;
+        approach_unseen_ = false;
+        return set_state(PortState::captured, out);
+    case Purpose::skip:
+        skipped_[static_cast<std::size_t>(settled.step)] = true;
+        return set_state(PortState::armed, out);
+    case Purpose::end:
+        return close(false, "The CNC ended the run before its last point.", Fault::none, out);
+    }
+}
+
+void RunMachine::on(const CommitFailed& failed, RunActions& out) {
+    if (!pending_ || !pending_->committing) {
+        ++counters_.stray;
+        return;
+    }
+    const auto lost = std::move(*pending_);
+    pending_.reset();
+    stopped_ = true; // a failed sync is final: what is on disk now is not known
+    refuse(lost.sequence, lost.origin,
+           {Fault::not_durable, failed.reason + " The run acknowledges nothing more.", {}, {}},
+           failed.at, out);
+    set_state(PortState::error, out);
+    if (wanted_close_) close(false, wanted_close_->reason, wanted_close_->fault, out);
+}
+
+void RunMachine::on(const EnvironmentNow& environment, RunActions& /*out*/) {
+    air_ = environment.refractive_index_minus_1;
+}
+
+void RunMachine::on(const LaserFault& fault, RunActions& out) {
+    if (closed_) return;
+    record(EventKind::instrument, fault.at, fault.sentence, fault.fault, 0, out);
+    const bool counting_broke = breaks_counting(fault.fault);
+    if (pending_ && !pending_->committing && (counting_broke || fault.fault == Fault::overspeed))
+        refuse_pending({fault.fault, fault.sentence, {}, {}}, fault.at, out);
+    if (datum_ && counting_broke) datum_broken_ = true;
+    if (datum_ && fault.fault == Fault::datum_lost)
+        close_when_idle({false, fault.sentence, Fault::datum_lost}, fault.at, out);
+}
+
+void RunMachine::on(const Abort& abort, RunActions& out) {
+    if (closed_) return;
+    record(EventKind::aborted, abort.at, abort.reason, Fault::none, 0, out);
+    close_when_idle({false, abort.reason, Fault::none}, abort.at, out);
+}
+
+void RunMachine::on(const Tick& tick, RunActions& out) {
+    if (closed_) return;
+    if (!pending_ && armed_ && !next_point() && !setup_.plan.points.empty()) {
+        // Died between the last commit and the closing.
+        const int skipped = count_of(skipped_);
+        close(skipped == 0,
+              skipped == 0 ? "Every planned point is durable."
+                           : std::to_string(skipped) + " of the points were skipped.",
+              Fault::none, out);
+        return;
+    }
+    if (pending_ && !pending_->committing && tick.now > pending_->deadline + answer_grace)
+        refuse_pending({Fault::not_still, "The capture gave no answer in time.", {}, {}}, tick.now,
+                       out);
+}
+
+void RunMachine::close_when_idle(Close wanted, MonotonicTime at, RunActions& out) {
+    if (pending_ && pending_->committing) { // a point on its way to the disk is not thrown away
+        if (!wanted_close_) wanted_close_ = std::move(wanted);
+        return;
+    }
+    if (pending_) {
+        const auto fault = wanted.fault == Fault::none ? Fault::no_run_armed : wanted.fault;
+        refuse_pending({fault, wanted.reason, {}, {}}, at, out);
+    }
+    close(wanted.complete, wanted.reason, wanted.fault, out);
+}
+
+void RunMachine::close(bool complete, std::string reason, Fault fault, RunActions& out) {
+    if (closed_) return;
+    closed_ = true;
+    complete_ = complete;
+    set_state(fault == Fault::none ? PortState::idle : PortState::error, out);
+    out.push_back(Close{complete, std::move(reason), fault});
+}
+
+void RunMachine::refuse(std::uint16_t sequence,
+                        TriggerOrigin origin,
+                        const Error& error,
+                        MonotonicTime at,
+                        RunActions& out) {
+    ++counters_.refused;
+    Refuse refusal{sequence, error.fault, describe(error), origin};
+    const bool repeated = last_refusal_ && last_refusal_->sequence == sequence &&
+                          last_refusal_->fault == error.fault && last_refusal_->origin == origin;
+    // After Close the file is shut, and a request repeated at 200 Hz must not fill it before.
+    if (!repeated && !closed_)
+        record(EventKind::refused, at, refusal.sentence, error.fault, sequence, out);
+    last_refusal_ = refusal;
+    out.push_back(std::move(refusal));
+}
+
+void RunMachine::refuse(const TriggerEvent& event, const Error& error, RunActions& out) {
+    refuse(event.sequence, event.origin, error, event.at, out);
+}
+
+void RunMachine::record(EventKind kind,
+                        MonotonicTime at,
+                        std::string text,
+                        Fault fault,
+                        std::uint16_t sequence,
+                        RunActions& out) {
+    out.push_back(RecordEvent{EventRecord{kind, at, 0, std::move(text), fault, sequence}});
+}
+
+void RunMachine::set_state(PortState state, RunActions& out) {
+    if (std::exchange(state_, state) != state) out.push_back(SetState{state});
+}
+
+std::optional<PlannedPoint> RunMachine::next_point() const {
+    for (std::size_t step = 0; step < done_.size(); ++step)
+        if (!done_[step] && !skipped_[step]) return setup_.plan.points[step];
+    return std::nullopt;
+}
+
+RunView RunMachine::view() const {
+    RunView view;
+    view.state = state_;
+    view.closed = closed_;
+    view.complete = complete_;
+    view.stopped = stopped_;
+    view.last_durable = last_durable_;
+    view.next = next_point();
+    view.done = count_of(done_);
+    view.skipped = count_of(skipped_);
+    view.total = static_cast<int>(done_.size());
+    view.datum = datum_;
+    view.last_position = last_position_;
+    view.last_deviation = last_deviation_;
+    view.counters = counters_;
+    return view;
+}
+
+} // namespace axiscal

@@ -1,0 +1,145 @@
+#pragma once
+// The state machine of one run: the trigger contract (docs/trigger.md) and nothing else. No I/O,
+// no clock: an input goes in, actions come out.
+
+#include "acquisition/run/first_targets.hpp"
+#include "acquisition/run/run_events.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+struct RunSetup {
+    RunPlan plan;
+    LaserSetup laser;
+    std::string laser_serial; ///< for datum ids
+    Duration capture_timeout = std::chrono::seconds{10};
+};
+
+/// Counted, never silent.
+struct RunCounters {
+    int doubled = 0;      ///< the request under capture came again
+    int republished = 0;  ///< the last finished request came again
+    int out_of_order = 0; ///< missed, late, restarted
+    int refused = 0;      ///< every refusal, out-of-order ones included
+    int stray = 0;        ///< windows and commits nobody waited for
+};
+
+struct RunView {
+    PortState state = PortState::idle;
+    bool closed = false, complete = false, stopped = false;
+    std::uint16_t last_durable = 0;
+    std::optional<PlannedPoint> next; ///< none when every point is done or skipped
+    int done = 0, skipped = 0, total = 0;
+    std::optional<DatumRecord> datum;
+    std::optional<Length> last_position, last_deviation; ///< of the last accepted point, live
+    RunCounters counters;
+};
+
+/// Pure. Guarantees, whatever comes in: Acknowledge follows only a Committed that answers the
+/// outstanding commit, once; every planned point is committed at most once; after Close nothing is
+/// committed or acknowledged.
+class RunMachine {
+public:
+    /// A new run; it takes triggers after Arm.
+    explicit RunMachine(RunSetup setup);
+    /// An open run after a restart, found resumable (resume.hpp). `epoch`: of the laser's counter
+    /// now, proven to continue the datum's. The first request must be the last durable one or the
+    /// next; anything else closes the run (sequence_lost). The way to a standing request was not
+    /// seen: that one point is taken without it, and an event says so.
+    RunMachine(RunSetup setup, const RunRecord& open_run, std::uint32_t epoch, MonotonicTime now);
+
+    RunActions handle(const RunInput& input);
+    [[nodiscard]] RunView view() const;
+
+private:
+    enum class Purpose : std::uint8_t { datum, point, skip, end };
+    /// The one thing that is under way: a window, then its commit.
+    struct Pending {
+        Purpose purpose = Purpose::point;
+        TriggerOrigin origin = TriggerOrigin::cnc;
+        std::uint16_t sequence = 0;
+        int step = -1;
+        MonotonicTime triggered_at, deadline;
+        std::uint64_t window = 0;
+        bool committing = false;
+        PointRecord point;
+        DatumRecord datum;
+    };
+
+    void on(const Arm& arm, RunActions& out);
+    void on(const TriggerEvent& event, RunActions& out);
+    void on(const WindowResult& result, RunActions& out);
+    void on(const Committed& committed, RunActions& out);
+    void on(const CommitFailed& failed, RunActions& out);
+    void on(const EnvironmentNow& environment, RunActions& out);
+    void on(const LaserFault& fault, RunActions& out);
+    void on(const Abort& abort, RunActions& out);
+    void on(const Tick& tick, RunActions& out);
+
+    // run_machine.cpp: order of requests, commits, closing
+    bool answered_by_order(const TriggerEvent& event, RunActions& out);
+    bool answered_after_resume(const TriggerEvent& event, RunActions& out);
+    void start_command(const TriggerEvent& event, RunActions& out);
+    void commit_event(const TriggerEvent& event, Purpose purpose, RunActions& out);
+    void settle_commit(const Pending& settled, RunActions& out);
+    void close(bool complete, std::string reason, Fault fault, RunActions& out);
+    void close_when_idle(Close wanted, MonotonicTime at, RunActions& out);
+    void refuse(std::uint16_t sequence,
+                TriggerOrigin origin,
+                const Error& error,
+                MonotonicTime at,
+                RunActions& out);
+    void refuse(const TriggerEvent& event, const Error& error, RunActions& out);
+    void record(EventKind kind,
+                MonotonicTime at,
+                std::string text,
+                Fault fault,
+                std::uint16_t sequence,
+                RunActions& out);
+    void set_state(PortState state, RunActions& out);
+    [[nodiscard]] std::optional<PlannedPoint> next_point() const;
+
+    // run_machine_capture.cpp: what a request must fit, what a window must show
+    void start_datum(const TriggerEvent& event, RunActions& out);
+    void start_point(const TriggerEvent& event, RunActions& out);
+    [[nodiscard]] std::optional<Error> objection_to_claim(const TriggerEvent& event,
+                                                          const PlannedPoint& point) const;
+    void open_window(Pending pending,
+                     std::optional<ApproachClaim> approach,
+                     Length expected,
+                     RunActions& out);
+    void accept_datum(const Capture& capture, RunActions& out);
+    void accept_point(const Capture& capture, RunActions& out);
+    [[nodiscard]] std::optional<Error> objection_to_place(Length position, Length target) const;
+    [[nodiscard]] std::string place_in_words(Length position, Length target) const;
+    void refuse_pending(const Error& error, MonotonicTime at, RunActions& out);
+
+    RunSetup setup_;
+    PortState state_ = PortState::idle;
+    bool armed_ = false, closed_ = false, complete_ = false, stopped_ = false;
+    bool first_request_after_resume_ = false, approach_unseen_ = false, any_accepted_ = false;
+    std::uint16_t last_durable_ = 0;
+    std::vector<bool> done_, skipped_; ///< by step
+    std::optional<DatumRecord> datum_;
+    std::uint32_t datum_epoch_ = 0;
+    bool datum_broken_ = false; ///< counting was interrupted since: the next capture ends the run
+    int datum_count_ = 0;
+    MonotonicTime approach_since_{};
+    std::vector<ClaimedTarget> first_claims_; ///< the first accepted targets, at most two
+    Result<double> air_ = fail(Fault::environment_stale, "No environment reading has come yet.");
+    std::optional<Pending> pending_;
+    std::optional<Close> wanted_close_; ///< waits for the outstanding commit
+    std::uint64_t windows_ = 0;
+    std::optional<Refuse> last_refusal_; ///< an unchanged one is not recorded again
+    std::optional<Length> last_position_, last_deviation_;
+    RunCounters counters_;
+};
+
+/// Faults after which an incremental counter does not know its zero any more.
+bool breaks_counting(Fault fault);
+
+} // namespace axiscal

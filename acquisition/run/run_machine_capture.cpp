@@ -1,0 +1,232 @@
+// The half of RunMachine that deals with places: what a request claims, what a window shows.
+#include "acquisition/run/run_machine.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/run/live_position.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+constexpr std::size_t diagnosed_targets = 2;
+
+/// NOMINAL_POS of a target: 0.1 um, or 1e-5 degree on a rotary axis (1 mm stands for 1 degree).
+double counts_per_mm(AxisKind kind) {
+    return kind == AxisKind::rotary ? 1e5 : 1e4;
+}
+
+std::string in_words(const RunPlan& plan, const PlannedPoint& point) {
+    return "target index " + std::to_string(point.target_index) + " at " +
+           in_mm(plan.targets[static_cast<std::size_t>(point.target_index)]) + " from the " +
+           std::string{name_of(point.direction)} + " direction (point " +
+           std::to_string(point.step + 1) + " of " + std::to_string(plan.points.size()) + ")";
+}
+
+Error datum_lost_error(const std::string& why) {
+    return {Fault::datum_lost, why, {}, {}};
+}
+
+} // namespace
+
+bool breaks_counting(Fault fault) {
+    return fault == Fault::beam_lost || fault == Fault::implausible_jump ||
+           fault == Fault::datum_lost;
+}
+
+void RunMachine::open_window(Pending pending,
+                             std::optional<ApproachClaim> approach,
+                             Length expected,
+                             RunActions& out) {
+    pending.window = ++windows_;
+    pending.deadline = pending.triggered_at + setup_.capture_timeout;
+    set_state(PortState::settling, out);
+    out.push_back(
+        OpenWindow{pending.window, pending.triggered_at, pending.deadline, approach, expected});
+    pending_ = std::move(pending);
+}
+
+void RunMachine::start_datum(const TriggerEvent& event, RunActions& out) {
+    if (std::ranges::find(done_, true) != done_.end() ||
+        std::ranges::find(skipped_, true) != skipped_.end())
+        return refuse(event,
+                      {Fault::bad_command,
+                       "Points were taken under the datum: a new datum needs a "
+                       "new run.",
+                       {},
+                       {}},
+                      out);
+    if (!air_) return refuse(event, air_.error(), out);
+    Pending pending;
+    pending.purpose = Purpose::datum;
+    pending.origin = event.origin;
+    pending.sequence = event.sequence;
+    pending.triggered_at = event.at;
+    open_window(std::move(pending), std::nullopt, setup_.plan.datum, out);
+}
+
+/// Index, direction and nominal position as far as the CNC's shape carries them.
+std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event,
+                                                    const PlannedPoint& point) const {
+    const auto& plan = setup_.plan;
+    const std::string next = "; the plan's next point is " + in_words(plan, point) + ".";
+    if (event.target_index && *event.target_index != point.target_index)
+        return Error{Fault::wrong_target,
+                     "The CNC claims target index " + std::to_string(*event.target_index) + next,
+                     {},
+                     {}};
+    if (event.direction && *event.direction != point.direction)
+        return Error{Fault::wrong_direction,
+                     "The CNC claims the " + std::string{name_of(*event.direction)} + " direction" +
+                         next,
+                     {},
+                     {}};
+    if (!event.nominal_counts) return std::nullopt;
+    const auto target = plan.targets[static_cast<std::size_t>(point.target_index)];
+    const double counts = counts_per_mm(plan.axis_kind);
+    // One step of the plan (1 um, 0.001 degree) allows for a control that rounds.
+    if (std::abs(*event.nominal_counts - target.in(mm)*counts) <= 1e-3 * counts)
+        return std::nullopt;
+    return Error{Fault::wrong_target,
+                 "The CNC claims the position " + in_mm(mm(*event.nominal_counts / counts)) + next,
+                 {},
+                 {}};
+}
+
+void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
+    const auto point = next_point();
+    if (!point) return refuse(event, {Fault::bad_command, "No point is left.", {}, {}}, out);
+    if (!datum_)
+        return refuse(
+            event,
+            {Fault::no_run_armed,
+             "No datum is tied yet: send prepare at " + in_mm(setup_.plan.datum) + " first.",
+             {},
+             {}},
+            out);
+    if (datum_broken_) {
+        refuse(event, datum_lost_error("The laser's counting was interrupted since the datum."),
+               out);
+        return close(false, "The laser's counting was interrupted since the datum.",
+                     Fault::datum_lost, out);
+    }
+    if (const auto objection = objection_to_claim(event, *point))
+        return refuse(event, *objection, out);
+    if (!air_) return refuse(event, air_.error(), out);
+    Pending pending;
+    pending.origin = event.origin;
+    pending.sequence = event.sequence;
+    pending.step = point->step;
+    pending.triggered_at = event.at;
+    std::optional<ApproachClaim> approach;
+    if (!approach_unseen_)
+        approach = ApproachClaim{point->direction, setup_.laser.sign, setup_.plan.overrun,
+                                 approach_since_};
+    open_window(std::move(pending), approach,
+                setup_.plan.targets[static_cast<std::size_t>(point->target_index)], out);
+}
+
+void RunMachine::on(const WindowResult& result, RunActions& out) {
+    if (!pending_ || pending_->committing || pending_->window != result.window) {
+        ++counters_.stray;
+        return;
+    }
+    pending_->window = 0; // it has answered: nothing is left to be closed
+    if (!result.capture) {
+        const auto error = result.capture.error();
+        if (datum_ && breaks_counting(error.fault)) datum_broken_ = true;
+        refuse_pending(error, result.at, out);
+        if (datum_ && error.fault == Fault::datum_lost)
+            close(false, describe(error), Fault::datum_lost, out);
+    } else if (pending_->purpose == Purpose::datum) {
+        accept_datum(*result.capture, out);
+    } else {
+        accept_point(*result.capture, out);
+    }
+}
+
+void RunMachine::accept_datum(const Capture& capture, RunActions& out) {
+    auto& datum = pending_->datum;
+    datum.id = setup_.laser_serial + "/" + std::to_string(capture.epoch) + "/" +
+               std::to_string(++datum_count_);
+    datum.at = capture.end;
+    datum.coordinate = setup_.plan.datum;
+    datum.reading = capture.mean;
+    datum.epoch = capture.epoch;
+    datum.spread = capture.spread;
+    datum.slope_um_per_s = capture.slope_um_per_s;
+    datum.n = capture.n;
+    datum.sequence = pending_->sequence;
+    datum.device_count = capture.device_count;
+    pending_->committing = true;
+    out.push_back(CommitDatum{datum});
+}
+
+std::string RunMachine::place_in_words(Length position, Length target) const {
+    std::string text = "The axis stands at " + in_mm(position) + ", " +
+                       in_mm(abs(position - target)) + " from the target at " + in_mm(target) +
+                       "; " + in_mm(setup_.plan.near_tolerance) + " are allowed";
+    for (const auto other : setup_.plan.targets)
+        if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
+            text += "; it stands at the target at " + in_mm(other);
+    return text + ".";
+}
+
+std::optional<Error> RunMachine::objection_to_place(Length position, Length target) const {
+    if (abs(position - target) <= setup_.plan.near_tolerance) return std::nullopt;
+    if (static_cast<std::size_t>(view().done) >= diagnosed_targets)
+        return Error{Fault::outside_window, place_in_words(position, target), {}, {}};
+    auto claims = first_claims_;
+    claims.push_back({target, position});
+    return diagnose_first_targets(datum_->coordinate, claims);
+}
+
+void RunMachine::accept_point(const Capture& capture, RunActions& out) {
+    if (capture.epoch != datum_epoch_) {
+        refuse_pending(datum_lost_error("The counter was restarted since the datum."), capture.end,
+                       out);
+        return close(false, "The laser's counter was restarted since the datum.", Fault::datum_lost,
+                     out);
+    }
+    if (!air_) return refuse_pending(air_.error(), capture.end, out);
+    const auto planned = setup_.plan.points[static_cast<std::size_t>(pending_->step)];
+    const auto target = setup_.plan.targets[static_cast<std::size_t>(planned.target_index)];
+    const auto position = live_position(setup_.laser, *datum_, capture.mean, *air_);
+    if (const auto objection = objection_to_place(position, target))
+        return refuse_pending(*objection, capture.end, out);
+    if (!capture.approach_travel)
+        return refuse_pending(capture.approach_travel.error(), capture.end, out);
+    if (first_claims_.size() < diagnosed_targets) first_claims_.push_back({target, position});
+    auto& point = pending_->point;
+    point.step = planned.step;
+    point.sequence = pending_->sequence;
+    point.planned = planned;
+    point.origin = pending_->origin;
+    point.triggered_at = pending_->triggered_at;
+    point.window_begin = capture.begin;
+    point.window_end = capture.end;
+    point.reading = capture.mean;
+    point.spread = capture.spread;
+    point.slope_um_per_s = capture.slope_um_per_s;
+    point.n = capture.n;
+    point.approach_travel = *capture.approach_travel;
+    point.datum_id = datum_->id;
+    point.live_deviation = position - target;
+    point.samples = capture.samples;
+    last_position_ = position;
+    last_deviation_ = point.live_deviation;
+    pending_->committing = true;
+    out.push_back(CommitPoint{point});
+}
+
+void RunMachine::refuse_pending(const Error& error, MonotonicTime at, RunActions& out) {
+    const auto pending = std::move(*pending_);
+    pending_.reset();
+    if (pending.window != 0) out.push_back(CloseWindow{pending.window});
+    refuse(pending.sequence, pending.origin, error, at, out);
+    set_state(armed_ ? PortState::armed : PortState::idle, out);
+}
+
+} // namespace axiscal

@@ -1,0 +1,17 @@
+#pragma once
+// The numbering of requests: 0 is idle, 65535 is followed by 1. Pure.
+
+#include <cstdint>
+#include <string>
+
+namespace axiscal {
+
+constexpr std::uint16_t next_sequence(std::uint16_t sequence) {
+    return sequence == 65535 ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
+}
+
+/// One sentence for a request that is neither the last durable one nor the next: names it as
+/// missed, restarted or late, with the numbers. `last_durable` 0: nothing is durable yet.
+std::string describe_disorder(std::uint16_t came, std::uint16_t last_durable);
+
+} // namespace axiscal
