@@ -1,0 +1,75 @@
+#include "drivers/registry.hpp"
+#include "tests/support/made_instrument.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+const std::string umd_keys = "link = \"serial:/dev/ttyACM0\"\nwavelength = \"632.991 nm\"\n"
+                             "fold = \"corner cube\"\nfastest = \"30000 mm/min\"\n";
+
+std::string all_refusals(const testing::MadeInstrument& made) {
+    std::string text;
+    for (const Refusal& refusal : made.refusals)
+        text += refusal.describe() + "\n";
+    return text;
+}
+
+TEST(Registry, FindsEveryDriverByItsName) {
+    for (const InstrumentDriver& driver : instrument_drivers())
+        EXPECT_EQ(find_driver(driver.name).value(), &driver);
+}
+
+TEST(Registry, OffersTheNearestName) {
+    const auto missing = find_driver("dracal");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().fault, Fault::unknown_instrument);
+    EXPECT_NE(missing.error().detail.find("did you mean \"dracal-vcp\""), std::string::npos);
+    EXPECT_EQ(find_driver("spectrometer").error().detail.find("did you mean"), std::string::npos);
+}
+
+TEST(Registry, RefusesAnUnknownDriverInTheStationFile) {
+    const auto made = testing::make_instrument("umd2", "driver = \"umd2\"\n");
+    EXPECT_EQ(made.instrument, nullptr);
+    EXPECT_NE(all_refusals(made).find("did you mean \"umd\""), std::string::npos);
+}
+
+TEST(Registry, MakesALaserWithItsOptics) {
+    const auto made = testing::make_instrument("umd", umd_keys);
+    EXPECT_EQ(all_refusals(made), "");
+    ASSERT_TRUE(made.instrument->optics());
+    EXPECT_DOUBLE_EQ(made.instrument->optics()->vacuum_wavelength.in(nm), 632.991);
+    EXPECT_EQ(made.instrument->optics()->optical_fold, 2);
+    EXPECT_EQ(made.instrument->channels().front().name, "axis 1");
+}
+
+TEST(Registry, RefusesWrongDriverKeysAllAtOnce) {
+    const auto made = testing::make_instrument(
+        "umd", "link = \"usb:1\"\nwavelength = \"633\"\nfold = \"corner\"\naxis = 4\nspeed = 1\n");
+    const std::string text = all_refusals(made);
+    for (const char* key : {"link", "wavelength", "fold", "axis", "fastest", "speed"})
+        EXPECT_NE(text.find(key), std::string::npos) << key << "\n" << text;
+}
+
+TEST(Registry, RefusesAChannelThatTheInstrumentDoesNotHave) {
+    InstrumentConfig config;
+    config.channels.push_back({});
+    config.channels.back().channel = "axis 2";
+    const auto made = testing::make_instrument("umd", umd_keys, config);
+    EXPECT_NE(all_refusals(made).find("it has axis 1"), std::string::npos) << all_refusals(made);
+}
+
+TEST(Registry, RefusesAnAirChannelAsMaterial) {
+    InstrumentConfig config;
+    config.channels.push_back({});
+    config.channels.back().channel = "air temperature";
+    config.channels.back().medium = Medium::material;
+    const auto made =
+        testing::make_instrument("dracal-vcp", "link = \"serial:/dev/ttyACM1\"\n", config);
+    EXPECT_NE(all_refusals(made).find("measures air, not material"), std::string::npos)
+        << all_refusals(made);
+}
+
+} // namespace
+} // namespace axiscal

@@ -1,0 +1,125 @@
+// Every instrument's tape under virtual time, compared with its expectation to the last digit.
+#include "drivers/link/tape_link.hpp"
+#include "tests/support/made_instrument.hpp"
+#include "tests/support/sample_recorder.hpp"
+#include "tests/support/virtual_scheduler.hpp"
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace axiscal {
+namespace {
+
+struct TapeCase {
+    std::string tape, driver, keys;
+};
+std::ostream& operator<<(std::ostream& out, const TapeCase& which) {
+    return out << which.tape;
+}
+
+std::string file_text(const std::string& name) {
+    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/traces/" + name};
+    EXPECT_TRUE(file) << name;
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// What the supervisor does without its patience: opens again at once until the tape is at its end.
+Task<void> run_to_the_end(Instrument& instrument,
+                          InstrumentContext context,
+                          const TapePlayer& player,
+                          testing::SampleRecorder& sink) {
+    while (!player.at_end()) {
+        const auto ended = co_await instrument.run(context);
+        sink.lines.push_back("ended " + std::string{fault_name(ended.error().fault)});
+    }
+}
+
+class TapeReplay : public ::testing::TestWithParam<TapeCase> {};
+
+TEST_P(TapeReplay, GivesExactlyWhatIsExpected) {
+    const TapeCase& which = GetParam();
+    const auto tape = parse_tape(file_text(which.tape + ".tape"));
+    ASSERT_TRUE(tape) << describe(tape.error());
+    testing::VirtualScheduler scheduler;
+    TapePlayer player{scheduler, *tape};
+    testing::SampleRecorder sink{scheduler.now()};
+    const auto instrument = testing::instrument(which.driver, which.keys);
+    sink.name_channels(instrument->channels());
+    const InstrumentContext context{&scheduler, &player, &sink};
+    boost::asio::co_spawn(scheduler.executor(), run_to_the_end(*instrument, context, player, sink),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::minutes{1});
+    sink.lines.push_back(testing::text_of(instrument->counters()));
+    EXPECT_EQ(sink.text(), file_text(which.tape + ".expected"));
+}
+
+const std::string umd_keys = "link = \"serial:/dev/null\"\nwavelength = \"632.991354 nm\"\n"
+                             "fastest = \"0.5 m/s\"\n";
+const std::string corner_cube = umd_keys + "fold = \"corner cube\"\n";
+const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
+const std::string dracal_keys = "link = \"serial:/dev/null\"\n";
+
+INSTANTIATE_TEST_SUITE_P(Instruments,
+                         TapeReplay,
+                         ::testing::Values(TapeCase{"umd2-homodyne", "umd", corner_cube},
+                                           TapeCase{"umd1-heterodyne", "umd", corner_cube},
+                                           TapeCase{"umd0-homodyne", "umd", plane_mirror},
+                                           TapeCase{"umd2-sixteen-bit", "umd", corner_cube},
+                                           TapeCase{"dracal-vcp-pth450", "dracal-vcp", dracal_keys},
+                                           TapeCase{"dracal-vcp-faults", "dracal-vcp",
+                                                    dracal_keys}),
+                         [](const auto& which) {
+                             std::string name = which.param.tape;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST(Tape, IsRefusedWithTheLineThatIsWrong) {
+    const std::string header = "origin = simulator\n";
+    for (const auto& [text, word] :
+         {std::pair{"what = x\n< 0 00\n", "origin"}, std::pair{"origin = hearsay\n", "origin"},
+          std::pair{"origin = simulator\n< 5 00\n< 4 00\n", "line 3"},
+          std::pair{"origin = simulator\n< 5 0g\n", "line 2"},
+          std::pair{"origin = simulator\n< 5 000\n", "half"},
+          std::pair{"origin = simulator\nhello\n", "line 2"}}) {
+        const auto tape = parse_tape(text);
+        ASSERT_FALSE(tape) << text;
+        EXPECT_NE(tape.error().detail.find(word), std::string::npos) << tape.error().detail;
+    }
+    EXPECT_TRUE(parse_tape(header + "# remark\n\n< 0 00ff\n! 7\n"));
+}
+
+Task<void> play(TapePlayer& player, Scheduler& scheduler, std::ostream& copy) {
+    const MonotonicTime begin = scheduler.now();
+    const LinkSettings nowhere;
+    auto opened = co_await player.open(nowhere, begin + std::chrono::seconds{1});
+    TapeRecorderLink link{*std::move(opened), scheduler, copy, begin};
+    std::vector<std::byte> question{std::byte{0x3f}};
+    co_await link.write_all(std::move(question), begin + std::chrono::seconds{1});
+    while (true) {
+        const auto arrived = co_await link.read_some(scheduler.now() + std::chrono::seconds{1});
+        if (!arrived && arrived.error().fault == Fault::link_closed) co_return;
+    }
+}
+
+TEST(Tape, IsRecordedAsItWasPlayed) {
+    const std::string transfers = "> 0 3f\n< 1000 00ff41\n< 2000000000 42\n! 2000000001\n";
+    const auto tape = parse_tape("origin = simulator\n" + transfers);
+    ASSERT_TRUE(tape);
+    testing::VirtualScheduler scheduler;
+    TapePlayer player{scheduler, *tape};
+    std::stringstream copy;
+    boost::asio::co_spawn(scheduler.executor(), play(player, scheduler, copy),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::seconds{10});
+    EXPECT_EQ(copy.str(), transfers);
+}
+
+} // namespace
+} // namespace axiscal
