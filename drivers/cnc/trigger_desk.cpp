@@ -23,10 +23,6 @@ void TriggerDesk::deliver(MapNews news) {
         context_.sink->on_trigger(event);
 }
 
-void TriggerDesk::silent(bool silent) {
-    if (context_.sink) context_.sink->on_cnc_silent(silent);
-}
-
 void TriggerDesk::note(Fault fault, std::string sentence) {
     if (context_.sink) context_.sink->on_port_note(fault, std::move(sentence));
 }

@@ -33,7 +33,6 @@ public:
     /// Stamped with the moment.
     [[nodiscard]] RegisterImage image(MonotonicTime now) const;
     void write(const ModbusRequest& request, MonotonicTime at);
-    void silent(bool silent);
     void note(Fault fault, std::string sentence);
     void arm();
     void acknowledge(const JournalReceipt& receipt);

@@ -1,0 +1,30 @@
+#include "drivers/cnc/trigger_ports.hpp"
+
+#include "drivers/cnc/dwell_trigger_port.hpp"
+#include "drivers/cnc/mirrored_port.hpp"
+#include "drivers/cnc/modbus_rtu_port.hpp"
+#include "drivers/cnc/modbus_tcp_port.hpp"
+
+namespace axiscal {
+
+std::unique_ptr<TriggerPort> make_trigger_port(const TriggerConfig& config) {
+    auto map = make_register_map(config);
+    if (!map) return std::make_unique<DwellTriggerPort>(config);
+    switch (config.transport) {
+    case TriggerTransport::rtu_server:
+        return std::make_unique<ModbusRtuPort>(std::move(map), config);
+    case TriggerTransport::tcp_client:
+        return std::make_unique<MirroredPort>(std::move(map), config);
+    case TriggerTransport::tcp_server:
+    case TriggerTransport::none: break;
+    }
+    return std::make_unique<ModbusTcpPort>(std::move(map), config, ClientPatience{});
+}
+
+std::optional<int> bound_tcp_port(const TriggerPort& port) {
+    const auto* listening = dynamic_cast<const ModbusTcpPort*>(&port);
+    if (!listening || listening->bound_port() == 0) return std::nullopt;
+    return listening->bound_port();
+}
+
+} // namespace axiscal
