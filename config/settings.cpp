@@ -62,7 +62,7 @@ void Settings::Impl::refuse_kind(std::string_view key,
 Settings::Settings(std::shared_ptr<Impl> impl)
     : impl_{std::move(impl)} {}
 
-std::string Settings::text(std::string_view key, std::optional<std::string> fallback) {
+std::string Settings::text(std::string_view key, const std::optional<std::string>& fallback) {
     const TomlNode* value = impl_->ask(key);
     if (!value && !fallback) impl_->refuse_missing(key, "\"...\"");
     if (!value) return fallback.value_or("");
@@ -73,8 +73,8 @@ std::string Settings::text(std::string_view key, std::optional<std::string> fall
 
 std::string Settings::choice(std::string_view key,
                              const std::vector<std::string>& allowed,
-                             std::optional<std::string> fallback) {
-    const std::string first = fallback.value_or(allowed.empty() ? "" : allowed.front());
+                             const std::optional<std::string>& fallback) {
+    std::string first = fallback.value_or(allowed.empty() ? "" : allowed.front());
     const TomlNode* value = impl_->ask(key);
     if (!value && fallback) return *fallback;
     if (!value) return impl_->refuse(key, "is missing: say one of " + joined(allowed)), first;
@@ -133,7 +133,7 @@ bool Settings::flag(std::string_view key, std::optional<bool> fallback) {
     return fallback.value_or(false);
 }
 
-std::string Settings::date(std::string_view key, std::optional<std::string> fallback) {
+std::string Settings::date(std::string_view key, const std::optional<std::string>& fallback) {
     const std::string example = "\"2026-11-21\"";
     const TomlNode* value = impl_->ask(key);
     if (!value && !fallback) impl_->refuse_missing(key, example);
@@ -147,7 +147,7 @@ std::string Settings::date(std::string_view key, std::optional<std::string> fall
 }
 
 std::vector<std::string> Settings::texts(std::string_view key,
-                                         std::optional<std::vector<std::string>> fallback) {
+                                         const std::optional<std::vector<std::string>>& fallback) {
     const std::string example = "[\"...\"]";
     const TomlNode* value = impl_->ask(key);
     if (!value && !fallback) impl_->refuse_missing(key, example);

@@ -39,11 +39,11 @@ struct ChannelCorrection {
 /// list.
 class Settings {
 public:
-    std::string text(std::string_view key, std::optional<std::string> fallback = {});
+    std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
     /// One of `allowed`; a near match is offered.
     std::string choice(std::string_view key,
                        const std::vector<std::string>& allowed,
-                       std::optional<std::string> fallback = {});
+                       const std::optional<std::string>& fallback = {});
     std::int64_t integer(std::string_view key,
                          std::int64_t low,
                          std::int64_t high,
@@ -61,7 +61,7 @@ public:
     std::vector<Length> rotary_lengths(std::string_view key,
                                        Length low,
                                        Length high,
-                                       std::optional<std::vector<Length>> fallback = {});
+                                       const std::optional<std::vector<Length>>& fallback = {});
     Speed
     rotary_speed(std::string_view key, Speed low, Speed high, std::optional<Speed> fallback = {});
     Speed speed(std::string_view key, Speed low, Speed high, std::optional<Speed> fallback = {});
@@ -90,13 +90,13 @@ public:
     /// Additive correction of a channel, at most `limit` in stored units; none when missing.
     ChannelCorrection correction(std::string_view key, double limit);
     /// ISO date "2026-11-21"; a TOML local date is accepted too.
-    std::string date(std::string_view key, std::optional<std::string> fallback = {});
+    std::string date(std::string_view key, const std::optional<std::string>& fallback = {});
     std::vector<std::string> texts(std::string_view key,
-                                   std::optional<std::vector<std::string>> fallback = {});
+                                   const std::optional<std::vector<std::string>>& fallback = {});
     std::vector<Length> lengths(std::string_view key,
                                 Length low,
                                 Length high,
-                                std::optional<std::vector<Length>> fallback = {});
+                                const std::optional<std::vector<Length>>& fallback = {});
 
     [[nodiscard]] bool has(std::string_view key) const;
     /// Sub-table; a missing one reads as empty (its required keys are then refused).

@@ -56,10 +56,11 @@ double Settings::Impl::measured(std::string_view key,
     return stand_in;
 }
 
-std::vector<Length> Settings::Impl::measured_list(std::string_view key,
-                                                  const Measure& measure,
-                                                  Range range,
-                                                  std::optional<std::vector<Length>> fallback) {
+std::vector<Length>
+Settings::Impl::measured_list(std::string_view key,
+                              const Measure& measure,
+                              Range range,
+                              const std::optional<std::vector<Length>>& fallback) {
     const std::string example = "[" + quoted(example_of(measure, range.low, range.high)) + "]";
     const TomlNode* value = ask(key);
     if (!value && !fallback) refuse_missing(key, example);
@@ -133,14 +134,14 @@ Expansion Settings::expansion(std::string_view key,
 std::vector<Length> Settings::lengths(std::string_view key,
                                       Length low,
                                       Length high,
-                                      std::optional<std::vector<Length>> f) {
-    return impl_->measured_list(key, length_measure, {low.si(), high.si()}, std::move(f));
+                                      const std::optional<std::vector<Length>>& f) {
+    return impl_->measured_list(key, length_measure, {low.si(), high.si()}, f);
 }
 std::vector<Length> Settings::rotary_lengths(std::string_view key,
                                              Length low,
                                              Length high,
-                                             std::optional<std::vector<Length>> f) {
-    return impl_->measured_list(key, rotary_measure, {low.si(), high.si()}, std::move(f));
+                                             const std::optional<std::vector<Length>>& f) {
+    return impl_->measured_list(key, rotary_measure, {low.si(), high.si()}, f);
 }
 
 ChannelCorrection Settings::correction(std::string_view key, double limit) {

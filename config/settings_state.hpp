@@ -61,7 +61,7 @@ struct Settings::Impl {
     std::vector<Length> measured_list(std::string_view key,
                                       const Measure& measure,
                                       Range range,
-                                      std::optional<std::vector<Length>> fallback);
+                                      const std::optional<std::vector<Length>>& fallback);
 };
 
 } // namespace axiscal

@@ -73,8 +73,8 @@ std::string AxisUnits::write_speed(Speed speed) const {
 }
 
 std::string
-read_address(Settings& table, std::string_view key, std::optional<std::string> fallback) {
-    std::string host = table.text(key, std::move(fallback));
+read_address(Settings& table, std::string_view key, const std::optional<std::string>& fallback) {
+    std::string host = table.text(key, fallback);
     in6_addr buffer{};
     const bool known = inet_pton(AF_INET, host.c_str(), &buffer) == 1 ||
                        inet_pton(AF_INET6, host.c_str(), &buffer) == 1;
@@ -85,9 +85,10 @@ read_address(Settings& table, std::string_view key, std::optional<std::string> f
     return host;
 }
 
-std::string
-read_absolute_path(Settings& table, std::string_view key, std::optional<std::string> fallback) {
-    std::string path = table.text(key, std::move(fallback));
+std::string read_absolute_path(Settings& table,
+                               std::string_view key,
+                               const std::optional<std::string>& fallback) {
+    std::string path = table.text(key, fallback);
     if (!path.starts_with('/') && !table.refused(key))
         table.refuse(key, "\"" + path + "\" is no whole path: begin it with /");
     return path;

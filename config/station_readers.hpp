@@ -49,10 +49,12 @@ void read_trigger(Settings trigger, AxisUnits units, TriggerConfig& config);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.
-std::string
-read_address(Settings& table, std::string_view key, std::optional<std::string> fallback = {});
+std::string read_address(Settings& table,
+                         std::string_view key,
+                         const std::optional<std::string>& fallback = {});
 /// "/run/..."; refuses a path that depends on where the daemon was started.
-std::string
-read_absolute_path(Settings& table, std::string_view key, std::optional<std::string> fallback = {});
+std::string read_absolute_path(Settings& table,
+                               std::string_view key,
+                               const std::optional<std::string>& fallback = {});
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <new>
 #include <toml++/toml.h>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -27,7 +28,7 @@ TomlNode copy_table(const toml::table& table) {
         TomlNode entry = copy(value);
         // An implicit table ("[a.b]" without "[a]") has no place of its own.
         if (entry.line == 0) entry.line = static_cast<int>(key.source().begin.line);
-        entries.emplace_back(std::string{key.str()}, std::move(entry));
+        entries.push_back({std::string{key.str()}, std::move(entry)});
     }
     return {std::move(entries), line_of(table)};
 }

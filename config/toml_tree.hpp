@@ -7,16 +7,16 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace axiscal {
 
 struct TomlNode;
+struct TomlEntry;
 using TomlArray = std::vector<TomlNode>;
 /// In the order of the library's map; the line of each node tells the order in the file.
-using TomlTable = std::vector<std::pair<std::string, TomlNode>>;
+using TomlTable = std::vector<TomlEntry>;
 /// A local date, written "2026-11-21".
 struct TomlDate {
     std::string iso;
@@ -28,6 +28,11 @@ struct TomlNode {
     std::variant<std::string, std::int64_t, double, bool, TomlDate, TomlOther, TomlArray, TomlTable>
         value;
     int line = 0; ///< 1-based; of a table: its header, or its first key
+};
+
+struct TomlEntry {
+    std::string key;
+    TomlNode node;
 };
 
 /// "a text", "a whole number", ...: what a value of the file is, for messages.
