@@ -28,8 +28,9 @@ constexpr std::array standards{Standard{"ISO 230-2:2014", 2}, Standard{"ISO 230-
 // ---- keys -----------------------------------------------------------------------------------
 
 /// Keys that carry words only and can change no figure.
-constexpr std::array<std::string_view, 6> remark_keys{"comment", "description", "id",
-                                                      "note",    "source",      "title"};
+constexpr std::array<std::string_view, 14> remark_keys{
+    "comment", "customer", "date",     "description", "id",  "instrument", "machine",
+    "name",    "note",     "operator", "place",       "run", "source",     "title"};
 
 /// Letters to insert, delete or replace to turn one word into the other, case aside.
 std::size_t edit_distance(const std::string& a, const std::string& b) {

@@ -25,8 +25,9 @@ struct CaseAnswer {
 ///   forward    m rows of n >= 1 finite numbers
 ///   backward   the same; absent for a unidirectional test
 ///   compensation  "already_at_20C"; that is what a case is taken for anyway
-/// Remarks may stand under "comment", "description", "id", "note", "source" and "title"; any other
-/// key is refused, because a misspelt "backward" must not turn a test into a unidirectional one.
+/// Remarks may stand under "comment", "customer", "date", "description", "id", "instrument",
+/// "machine", "name", "note", "operator", "place", "run", "source" and "title"; any other key is
+/// refused, because a misspelt "backward" must not turn a test into a unidirectional one.
 /// Refused are wrong types (also numbers as text), NaN, infinities, magnitudes above 1e12 and
 /// repeated keys.
 CaseAnswer analyze_cases(std::string_view json_text);

@@ -1,0 +1,36 @@
+// The same run gives the same bits on every compiler, optimisation and preset. The digest below is
+// no known answer (those are in tests/unit/analysis): it only ties the presets to each other. It
+// may change only together with a formula, and then the commit says why.
+
+#include "acquisition/publish/result_digest.hpp"
+#include "analysis/certificate.hpp"
+#include "tests/unit/analysis/simulated_run.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+/// No number here comes from a mathematics library: its last bits differ between systems.
+RunRecord run_of_plain_arithmetic() {
+    test::Truth truth;
+    truth.material_C = [](double s) { return 21 + 3 * s / 2300; };
+    truth.air_C = [](double s) { return 20 + 2 * s / 2300; };
+    RunRecord run = test::simulated_run(truth);
+    for (PointRecord& point : run.points) {
+        const auto target = static_cast<std::size_t>(point.planned.target_index);
+        const int scatter_nm = point.planned.step * 7919 % 1000;
+        point.reading = run.plan.targets[target] * 1.0003 + nm(scatter_nm);
+    }
+    return run;
+}
+
+TEST(ResultBits, AreTheSameOnEveryPreset) {
+    const auto certificate = make_certificate(run_of_plain_arithmetic(), "");
+    ASSERT_TRUE(certificate.has_value());
+    EXPECT_EQ(result_digest(certificate->result),
+              "4e3a6b01cc48de0a8abbdbbaf61199ab8d2ccd3d86a123d51ee28ab610f4cd64");
+}
+
+} // namespace
+} // namespace axiscal
