@@ -93,6 +93,9 @@ bool CncClient::read_answer(Line& line) {
         std::uint8_t bit = 0;
         if (modbus_read_input_bits(line.context, 0, 1, &bit) < 0) return false;
         answer.acknowledged = bit != 0;
+        std::uint16_t done = 0;
+        if (modbus_read_input_registers(line.context, 0, 1, &done) < 0) return false;
+        answer.done = done;
     } else if (cnc_.shape == "single-register") {
         std::uint16_t echo = 0;
         if (modbus_read_input_registers(line.context, cnc_.base_address, 1, &echo) < 0)

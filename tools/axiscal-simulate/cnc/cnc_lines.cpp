@@ -114,9 +114,10 @@ void CncLines::set_digital(int output, bool on, double now_s) {
 
 bool CncLines::input(int input) const {
     const std::lock_guard lock{mutex_};
-    if (input != 0) return false;
+    const bool coil = cnc_.shape == "coil-and-index";
+    if (input != 0 && !(coil && input == 1)) return false;
     if (deaf_) return true;
-    if (cnc_.shape == "coil-and-index") return answer_.acknowledged;
+    if (coil && input == 0) return answer_.acknowledged;
     return answer_.done && *answer_.done == clip(analog_[0]);
 }
 

@@ -36,7 +36,8 @@ public:
     /// Output 0 is the sequence (or index): a change makes a request of outputs 1..5 as they stand.
     void set_analog(int output, double value, double now_s);
     void set_digital(int output, bool on, double now_s);
-    /// Input 0: done equals the sequence, or the discrete input for coil-and-index.
+    /// Input 0: done equals the sequence; for coil-and-index the discrete input, and input 1 the
+    /// comparison.
     [[nodiscard]] bool input(int input) const;
 
     // the exchange's side

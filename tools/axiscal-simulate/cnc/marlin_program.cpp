@@ -52,7 +52,7 @@ Result<void> MarlinProgram::add_line(const std::string& line, int number, char a
     if (command == "G21" || command == "G90" || command == "M400") return only(words, "", number);
     if (command == "M84") { // S0: motors stay on
         return words['S'] == 0 ? only(words, "S", number)
-                                  : at_line(number, "M84 takes the motors off the axis");
+                               : at_line(number, "M84 takes the motors off the axis");
     }
     if (command == "G4") {
         const double seconds = words.contains('S') ? words['S'] : words['P'] / 1000.0;

@@ -1,7 +1,7 @@
 #pragma once
 // A part program in Marlin's dialect, for printers that move and dwell and know no inputs:
-// G0 G1 with one axis letter and F, G4 P milliseconds or S seconds, G21, G90, M84 S0, M117 text, M400,
-// comments after ';'. Any other word is refused with its line number before anything moves.
+// G0 G1 with one axis letter and F, G4 P milliseconds or S seconds, G21, G90, M84 S0, M117 text,
+// M400, comments after ';'. Any other word is refused with its line number before anything moves.
 
 #include "analysis/quantity/result.hpp"
 #include "cnc/machine_actions.hpp"

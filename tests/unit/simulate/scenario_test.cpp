@@ -1,0 +1,48 @@
+#include "scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace axiscal::simulate {
+namespace {
+
+std::string refusal(const std::string& toml) {
+    const auto scenario = parse_scenario(toml, true);
+    return scenario ? "" : scenario.error().detail;
+}
+
+TEST(Scenario, EveryShippedFileIsRead) {
+    int read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             AXISCAL_SOURCE_DIR "/tools/axiscal-simulate/scenarios")) {
+        const auto scenario = read_scenario(entry.path().string());
+        EXPECT_TRUE(scenario) << entry.path() << (scenario ? "" : scenario.error().detail);
+        ++read;
+    }
+    EXPECT_GE(read, 4);
+}
+
+TEST(Scenario, ReadsTomlAndJsonAlike) {
+    const auto toml = parse_scenario("seed = 7\n[errors]\nreversal_um = -3.5\n", true);
+    const auto json = parse_scenario(R"({"seed":7,"errors":{"reversal_um":-3.5}})", false);
+    ASSERT_TRUE(toml && json);
+    EXPECT_EQ(toml->seed, json->seed);
+    EXPECT_EQ(toml->errors.reversal_um, json->errors.reversal_um);
+}
+
+TEST(Scenario, RefusesAllAtOnceByName) {
+    const std::string reasons = refusal("[errors]\nreversal = 3\nnoise_um = \"much\"\n"
+                                        "[laser]\nkind = \"xl\"\n[[sensor]]\nkind = \"comet\"\n");
+    for (const char* part :
+         {"errors.reversal is not a known key", "errors.noise_um has the wrong type",
+          "laser.kind is one of", "sensor[0].name is missing"})
+        EXPECT_NE(reasons.find(part), std::string::npos) << part << " in " << reasons;
+}
+
+TEST(Scenario, RefusesTextThatIsNoToml) {
+    EXPECT_NE(refusal("[errors\n"), "");
+}
+
+} // namespace
+} // namespace axiscal::simulate

@@ -1,0 +1,122 @@
+#include "truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace axiscal::simulate {
+namespace {
+
+double value(const nlohmann::json& truth, const std::string& key) {
+    return truth["parameters"][key]["value"].get<double>();
+}
+
+Scenario injected() {
+    Scenario s;
+    s.errors.linear_um_per_m = 10;
+    s.errors.reversal_um = -3;
+    s.errors.approach_noise_um = 0.2;
+    s.truth.draws = 500;
+    return s;
+}
+
+const TruthPlan plan{{0, 250, 500, 750, 1000}, 5, true};
+
+TEST(Truth, ParametersOfAStraightLineWithLostMotion) {
+    const auto truth = truth_of(injected(), plan);
+    EXPECT_NEAR(value(truth, "E_forward"), 0.010, 1e-12);
+    EXPECT_NEAR(value(truth, "M"), 0.010, 1e-12);
+    EXPECT_NEAR(value(truth, "E"), 0.013, 1e-12); // the line and the reversal
+    EXPECT_NEAR(value(truth, "B"), 0.003, 1e-12);
+    EXPECT_NEAR(value(truth, "B_mean"), -0.003, 1e-12);
+}
+
+TEST(Truth, ReversalChangesSignWithItsInjection) {
+    Scenario s = injected();
+    s.errors.reversal_um = 3;
+    EXPECT_NEAR(value(truth_of(s, plan), "B_mean"), 0.003, 1e-12);
+    EXPECT_NEAR(value(truth_of(s, plan), "E"), 0.013, 1e-12);
+}
+
+TEST(Truth, ScatterGivesAnIntervalAroundTheMedian) {
+    const auto truth = truth_of(injected(), plan);
+    for (const char* key : {"A", "R", "R_forward"}) {
+        const auto p = truth["parameters"][key];
+        EXPECT_LE(p["low"], p["value"]) << key;
+        EXPECT_LE(p["value"], p["high"]) << key;
+    }
+    // s of 5 readings: chi with 4 degrees, median 0.916 sigma; the largest of 5 targets is above
+    EXPECT_GT(value(truth, "R_forward"), 4 * 0.2e-3 * 0.916);
+    EXPECT_GT(value(truth, "A"), value(truth, "E"));
+}
+
+TEST(Truth, WithoutNoiseScatterVanishes) {
+    Scenario s = injected();
+    s.errors.approach_noise_um = 0;
+    const auto truth = truth_of(s, plan);
+    EXPECT_NEAR(value(truth, "R_forward"), 0, 1e-12);
+    EXPECT_NEAR(value(truth, "A"), 0.013, 1e-12);
+    EXPECT_NEAR(value(truth, "R"), 0.003, 1e-12);
+}
+
+TEST(Truth, OneApproachHasNoScatterParameters) {
+    const auto truth = truth_of(injected(), TruthPlan{plan.targets_mm, 1, true});
+    EXPECT_FALSE(truth["parameters"].contains("R"));
+    EXPECT_FALSE(truth["parameters"].contains("A"));
+    EXPECT_TRUE(truth["parameters"].contains("E"));
+}
+
+TEST(Truth, SameSeedSameBits) {
+    EXPECT_EQ(truth_of(injected(), plan).dump(), truth_of(injected(), plan).dump());
+}
+
+TEST(Truth, CoarseMaterialSensorWidensTheBound) {
+    Scenario s = injected();
+    s.thermal.material.start = 23.04; // shown as 23.0: 0.04 K * 11.7 um/m/K * 1 m = 0.468 um
+    const double without = truth_of(s, plan)["parameters"]["E"]["bound"];
+    s.sensors.push_back({"material", "tm-th8"});
+    const auto truth = truth_of(s, plan);
+    EXPECT_NEAR(truth["terms_um"]["material_scale"], 0.468, 1e-9);
+    EXPECT_NEAR(truth["parameters"]["E"]["bound"].get<double>() - without, 0.468e-3, 1e-9);
+}
+
+TEST(Evaluation, TakesTheLargestOfTheThreeForms) {
+    // One target: forward {1,-1} s = sqrt 2, backward {0,0}: 2s + |B| = 2 sqrt 2 < 4s = 4 sqrt 2
+    const auto p = evaluate_truth({{1, -1}}, {{0, 0}});
+    EXPECT_NEAR(p.at("R"), 4 * std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(p.at("A"), 4 * std::sqrt(2.0), 1e-12);
+}
+
+TEST(TruthPlan, ComesFromTheProgramsRequests) {
+    std::string text = "G21 G90\nF1000\nG1 X-5\nM68 E0 Q0\nM66 P0 L3 Q9\n";
+    int sequence = 0;
+    for (int run = 0; run < 2; ++run)
+        for (const auto& pass :
+             {std::vector<double>{10, 20, 30}, std::vector<double>{30, 20, 10}}) {
+            text += pass[0] < 20 ? "G1 X5\n" : "G1 X35\n";
+            for (const double target : pass)
+                text += "G1 X" + std::to_string(target) + "\nG4 P1\nM68 E0 Q" +
+                        std::to_string(++sequence) + "\nM66 P0 L3 Q9\n";
+        }
+    const auto found = plan_of_program(text, false, Scenario{});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->targets_mm, (std::vector<double>{10, 20, 30}));
+    EXPECT_EQ(found->approaches, 2);
+    EXPECT_TRUE(found->bidirectional);
+}
+
+TEST(TruthPlan, ComesFromTheDwellsWhereNothingIsRequested) {
+    const std::string text = "G1 X0 F100\nG4 P9\nG1 X10\nG4 P500\nG1 X20\nG4 P500\nG1 X25\n"
+                             "G1 X20\nG4 P500\nG1 X10\nG4 P500\n";
+    const auto found = plan_of_program(text, true, Scenario{});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->targets_mm, (std::vector<double>{10, 20}));
+    EXPECT_EQ(found->approaches, 1);
+}
+
+TEST(TruthPlan, NeedsACapture) {
+    EXPECT_FALSE(plan_of_program("G0 X1\n", false, Scenario{}));
+}
+
+} // namespace
+} // namespace axiscal::simulate
