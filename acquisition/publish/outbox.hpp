@@ -1,0 +1,48 @@
+#pragma once
+// Finished results wait in <state>/outbox/<run-id>/ until the publisher has a receipt for them.
+// Functions on files, no state; a name without a dot in front appears only with all its content,
+// synced. Flat: an entry holds files, no folders.
+
+#include "analysis/quantity/result.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+inline constexpr std::string_view receipt_file_name = "receipt.json";
+
+struct OutboxEntry {
+    std::string run_id;
+    std::string folder;             ///< <outbox>/<run-id>
+    std::vector<std::string> files; ///< names to be published, sorted; without the receipt
+    bool has_receipt = false;
+};
+
+/// Makes an empty folder of a temporary name (also anew after a crash) to be filled by the caller,
+/// perhaps in another process. The outbox itself is made where it is missing.
+/// @errors Fault::bad_request for a run id that is no plain file name; Fault::io.
+Result<std::string> begin_entry(const std::string& outbox, const std::string& run_id);
+/// Syncs every file and the folder and gives it its name; returns the entry's folder.
+/// @errors Fault::refused when an entry of that name waits already; Fault::io.
+Result<std::string> finish_entry(const std::string& outbox, const std::string& run_id);
+
+struct OutboxFile {
+    std::string name, content;
+};
+/// Both in one for results that are in memory.
+Result<std::string> stage_entry(const std::string& outbox,
+                                const std::string& run_id,
+                                const std::vector<OutboxFile>& files);
+
+/// Waiting entries by name. Empty when there is no outbox yet.
+std::vector<OutboxEntry> list_entries(const std::string& outbox);
+/// @errors Fault::not_found when that entry is gone; Fault::refused for what is no plain file.
+Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run_id);
+
+/// Moves an entry that has its receipt to <outbox>/../published/<run-id>; returns where it lies.
+/// Where the name is taken a number is added. @errors Fault::refused without a receipt.
+Result<std::string> archive_entry(const OutboxEntry& entry);
+
+} // namespace axiscal

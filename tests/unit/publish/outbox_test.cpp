@@ -1,0 +1,90 @@
+#include "acquisition/publish/outbox.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+using testing::read_bytes;
+using testing::ScratchFolder;
+using testing::write_bytes;
+
+std::string outbox_in(const ScratchFolder& scratch) {
+    return scratch.file("outbox");
+}
+
+TEST(Outbox, ShowsAnEntryOnlyOnceItIsFinished) {
+    const ScratchFolder scratch;
+    const auto staging = begin_entry(outbox_in(scratch), "run-1").value();
+    write_bytes(staging + "/certificate.json", "{}");
+    write_bytes(staging + "/certificate.csv", "a;b");
+    EXPECT_TRUE(list_entries(outbox_in(scratch)).empty());
+    const auto folder = finish_entry(outbox_in(scratch), "run-1").value();
+    const auto entries = list_entries(outbox_in(scratch));
+    ASSERT_EQ(entries.size(), 1U);
+    EXPECT_EQ(entries[0].run_id, "run-1");
+    EXPECT_EQ(entries[0].folder, folder);
+    EXPECT_EQ(entries[0].files, (std::vector<std::string>{"certificate.csv", "certificate.json"}));
+    EXPECT_EQ(read_bytes(folder + "/certificate.json"), "{}");
+}
+
+TEST(Outbox, StartsAnewAfterACrashWhileStaging) {
+    const ScratchFolder scratch;
+    write_bytes(begin_entry(outbox_in(scratch), "run-1").value() + "/half", "x");
+    const auto folder = stage_entry(outbox_in(scratch), "run-1", {{"whole", "y"}}).value();
+    EXPECT_FALSE(std::filesystem::exists(folder + "/half"));
+    EXPECT_EQ(read_bytes(folder + "/whole"), "y");
+}
+
+TEST(Outbox, NeverReplacesAWaitingEntry) {
+    const ScratchFolder scratch;
+    const auto folder = stage_entry(outbox_in(scratch), "run-1", {{"a", "first"}}).value();
+    const auto again = stage_entry(outbox_in(scratch), "run-1", {{"a", "second"}});
+    EXPECT_EQ(again.error().fault, Fault::refused);
+    EXPECT_EQ(read_bytes(folder + "/a"), "first");
+}
+
+TEST(Outbox, RefusesNamesThatLeaveTheFolder) {
+    const ScratchFolder scratch;
+    for (const std::string name : {"", "..", "../x", "a/b", ".hidden", "a b", "a\nb"})
+        EXPECT_EQ(begin_entry(outbox_in(scratch), name).error().fault, Fault::bad_request) << name;
+}
+
+TEST(Outbox, RefusesLinksAndFoldersInAnEntry) {
+    const ScratchFolder scratch;
+    const auto staging = begin_entry(outbox_in(scratch), "run-1").value();
+    std::filesystem::create_symlink("/etc/passwd", staging + "/certificate.json");
+    EXPECT_EQ(finish_entry(outbox_in(scratch), "run-1").error().fault, Fault::refused);
+    std::filesystem::remove(staging + "/certificate.json");
+    std::filesystem::create_directory(staging + "/more");
+    EXPECT_EQ(finish_entry(outbox_in(scratch), "run-1").error().fault, Fault::refused);
+}
+
+TEST(Outbox, LetsNothingGoWithoutAReceipt) {
+    const ScratchFolder scratch;
+    const auto folder = stage_entry(outbox_in(scratch), "run-1", {{"a", "x"}}).value();
+    const auto before = read_entry(outbox_in(scratch), "run-1").value();
+    EXPECT_EQ(archive_entry(before).error().fault, Fault::refused);
+    write_bytes(folder + "/receipt.json", "{}");
+    const auto after = read_entry(outbox_in(scratch), "run-1").value();
+    EXPECT_TRUE(after.has_receipt);
+    EXPECT_EQ(after.files, std::vector<std::string>{"a"});
+    EXPECT_EQ(archive_entry(after).value(), scratch.file("published/run-1"));
+    EXPECT_TRUE(list_entries(outbox_in(scratch)).empty());
+}
+
+TEST(Outbox, ArchivesASecondEntryOfTheSameNameBesideTheFirst) {
+    const ScratchFolder scratch;
+    for (const std::string place : {"published/run-1", "published/run-1-2"}) {
+        stage_entry(outbox_in(scratch), "run-1", {{"a", "x"}, {"receipt.json", "{}"}}).value();
+        const auto entry = read_entry(outbox_in(scratch), "run-1").value();
+        EXPECT_EQ(archive_entry(entry).value(), scratch.file(place));
+    }
+}
+
+} // namespace
+} // namespace axiscal

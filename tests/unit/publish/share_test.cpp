@@ -1,0 +1,135 @@
+#include "acquisition/publish/share.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+using testing::read_bytes;
+using testing::ScratchFolder;
+using testing::write_bytes;
+
+constexpr std::int64_t published_at = 1'795'255'200'000'000'000; // 2026-11-21T10:00:00Z
+
+std::string random_bytes(std::size_t size, unsigned seed) {
+    std::mt19937 random{seed};
+    std::string bytes(size, '\0');
+    for (auto& byte : bytes)
+        byte = static_cast<char>(random());
+    return bytes;
+}
+
+struct Share {
+    ScratchFolder scratch;
+    std::string outbox = scratch.file("outbox"), destination = scratch.file("share");
+    Share() { std::filesystem::create_directory(destination); }
+    OutboxEntry entry(const std::vector<OutboxFile>& files) const {
+        EXPECT_TRUE(stage_entry(outbox, "run-1", files));
+        return read_entry(outbox, "run-1").value();
+    }
+    [[nodiscard]] Result<PublishReceipt> copy(const OutboxEntry& entry) const {
+        return copy_entry(entry, destination, published_at);
+    }
+    [[nodiscard]] std::string at(const std::string& name) const { return destination + "/" + name; }
+};
+
+TEST(Share, ReceivesEveryFileUnderItsRun) {
+    const Share share;
+    const auto big = random_bytes(700'000, 1);
+    const auto receipt = share.copy(share.entry({{"a.json", "{}"}, {"b.pdf", big}})).value();
+    EXPECT_EQ(receipt.folder, share.at("run-1"));
+    EXPECT_EQ(receipt.published_utc, "2026-11-21T10:00:00Z");
+    EXPECT_EQ(read_bytes(share.at("run-1/b.pdf")), big);
+    const auto json = nlohmann::json::parse(receipt_json(receipt));
+    EXPECT_EQ(json["files"][1]["sha256"], sha256_hex(big));
+    EXPECT_EQ(json["files"][1]["bytes"], 700'000);
+    const std::filesystem::directory_iterator all{share.at("run-1")};
+    EXPECT_EQ(std::distance(begin(all), end(all)), 2); // no .part left
+}
+
+TEST(Share, TakesTheSameContentAgainAsPublished) {
+    const Share share;
+    const auto entry = share.entry({{"a", "same"}});
+    EXPECT_EQ(share.copy(entry)->folder, share.at("run-1"));
+    EXPECT_EQ(share.copy(entry)->folder, share.at("run-1"));
+    EXPECT_FALSE(std::filesystem::exists(share.at("run-1-2")));
+}
+
+TEST(Share, KeepsOtherContentAndTakesAnotherName) {
+    const Share share;
+    for (const std::string taken : {"run-1", "run-1-2"}) {
+        std::filesystem::create_directory(share.at(taken));
+        write_bytes(share.at(taken + "/a"), "somebody else's " + taken);
+    }
+    EXPECT_EQ(share.copy(share.entry({{"a", "ours"}}))->folder, share.at("run-1-3"));
+    EXPECT_EQ(read_bytes(share.at("run-1/a")), "somebody else's run-1");
+    EXPECT_EQ(read_bytes(share.at("run-1-2/a")), "somebody else's run-1-2");
+    EXPECT_EQ(read_bytes(share.at("run-1-3/a")), "ours");
+}
+
+TEST(Share, GoesAroundAFileThatBearsTheRunsName) {
+    const Share share;
+    write_bytes(share.at("run-1"), "a file");
+    EXPECT_EQ(share.copy(share.entry({{"a", "ours"}}))->folder, share.at("run-1-2"));
+}
+
+TEST(Share, IsNotMadeWhereItIsMissing) {
+    const Share share;
+    const auto entry = share.entry({{"a", "x"}});
+    std::filesystem::remove(share.destination);
+    const auto copied = share.copy(entry);
+    EXPECT_EQ(copied.error().fault, Fault::io);
+    EXPECT_NE(copied.error().detail.find(share.destination), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(share.destination));
+}
+
+/// Copies in a child that kills itself at the given progress call; false when it came to the end.
+bool killed_while_copying(const Share& share, const OutboxEntry& entry, int kill_at) {
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+        int calls = 0;
+        const auto copied = copy_entry(entry, share.destination, published_at, [&] {
+            if (++calls == kill_at) ::kill(::getpid(), SIGKILL);
+        });
+        ::_exit(copied ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) || status == 0);
+    return WIFSIGNALED(status);
+}
+
+TEST(Share, NeverShowsAHalfFileWhereverTheCopyIsKilled) {
+    const Share share;
+    const std::vector<OutboxFile> files{
+        {"a", random_bytes(600'000, 2)}, {"b", random_bytes(1'200'000, 3)}, {"c", "short"}};
+    const auto entry = share.entry(files);
+    int kills = 0;
+    for (bool killed = true; killed; ++kills) {
+        std::filesystem::remove_all(share.at("run-1"));
+        killed = killed_while_copying(share, entry, kills + 1);
+        for (const auto& [name, content] : files)
+            if (const auto path = share.at("run-1/" + name); std::filesystem::exists(path)) {
+                EXPECT_TRUE(read_bytes(path) == content) << name << " after kill " << kills;
+            }
+        EXPECT_EQ(share.copy(entry)->folder, share.at("run-1")); // and it goes on from there
+        for (const auto& [name, content] : files) {
+            EXPECT_TRUE(read_bytes(share.at("run-1/" + name)) == content);
+            EXPECT_FALSE(std::filesystem::exists(share.at("run-1/." + name + ".part")));
+        }
+    }
+    EXPECT_GT(kills, 10); // the copy has that many places to die
+}
+
+} // namespace
+} // namespace axiscal
