@@ -224,6 +224,13 @@ Task<Result<JournalReceipt>> Journal::commit(DatumRecord datum) {
     co_return co_await commit(std::move(batch), sequence, -1);
 }
 
+Task<Result<JournalReceipt>> Journal::commit(EventRecord event, int step) {
+    const auto sequence = event.sequence;
+    RunBatch batch;
+    batch.events.push_back(std::move(event));
+    co_return co_await commit(std::move(batch), sequence, step);
+}
+
 Task<Result<JournalReceipt>> Journal::receipt_for(int step) {
     Worker* worker = worker_.get();
     std::function<Result<std::uint16_t>()> work = [worker, step]() -> Result<std::uint16_t> {

@@ -44,6 +44,8 @@ public:
     Task<Result<JournalReceipt>> commit(PointRecord point);
     /// The receipt's step is -1.
     Task<Result<JournalReceipt>> commit(DatumRecord datum);
+    /// An event that the CNC waits for (skip, end, abort); the receipt bears `step`.
+    Task<Result<JournalReceipt>> commit(EventRecord event, int step);
     /// For what is durable already, read back from disk: a point by its step, the last datum by -1.
     /// @errors Fault::not_found.
     Task<Result<JournalReceipt>> receipt_for(int step);

@@ -66,14 +66,12 @@ std::string skip_text(int step) {
     return std::string{skip_words} + std::to_string(step);
 }
 
-std::vector<int> skipped_steps(const RunRecord& run) {
-    std::vector<int> steps;
-    for (const auto& event : run.events) {
-        if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words)) continue;
-        const int step = std::atoi(event.text.c_str() + skip_words.size());
-        if (step >= 0 && step < static_cast<int>(run.plan.points.size())) steps.push_back(step);
-    }
-    return steps;
+std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event) {
+    if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words))
+        return std::nullopt;
+    const int step = std::atoi(event.text.c_str() + skip_words.size());
+    const bool planned = step >= 0 && step < static_cast<int>(run.plan.points.size());
+    return planned ? std::optional{step} : std::nullopt;
 }
 
 std::optional<CounterSighting> last_sighting(const RunRecord& run) {
@@ -112,7 +110,7 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
         const auto modulus = static_cast<double>(limits.count_modulus);
         if (expected + tolerance >= modulus)
             return lost("after " + in_seconds(elapsed) + " the laser's short number says nothing.");
-        if (advance < 0) advance += modulus;
+        advance = std::fmod(std::fmod(advance, modulus) + modulus, modulus);
     }
     const std::string numbers = "its number advanced by " + plain_number(advance, 0) + " in " +
                                 in_seconds(elapsed) + ", " + plain_number(expected, 0) +
@@ -127,19 +125,19 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
                       in_mm(jump) + " from the last one."};
 }
 
-std::uint16_t last_durable_sequence(const RunRecord& run) {
+DurableRequest last_durable_request(const RunRecord& run) {
     MonotonicTime newest{Duration::min()};
-    std::uint16_t sequence = 0;
-    const auto consider = [&](MonotonicTime at, std::uint16_t of) {
-        if (of != 0 && at >= newest) newest = at, sequence = of;
+    DurableRequest last;
+    const auto consider = [&](MonotonicTime at, DurableRequest request) {
+        if (request.sequence != 0 && at >= newest) newest = at, last = request;
     };
     for (const auto& datum : run.datums)
-        consider(datum.at, datum.sequence);
+        consider(datum.at, {datum.sequence, -1});
     for (const auto& event : run.events)
-        if (event.kind == EventKind::skipped) consider(event.at, event.sequence);
+        if (const auto step = skipped_step(run, event)) consider(event.at, {event.sequence, *step});
     for (const auto& point : run.points)
-        consider(point.window_end, point.sequence);
-    return sequence;
+        consider(point.window_end, {point.sequence, point.step});
+    return last;
 }
 
 ResumeVerdict judge_first_request(std::uint16_t last_durable,
@@ -171,7 +169,7 @@ decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const 
                     serial + "'."};
     auto datum = judge_datum(run, now);
     if (datum.fault != Fault::none) return datum;
-    auto verdict = judge_first_request(last_durable_sequence(run), request);
+    auto verdict = judge_first_request(last_durable_request(run).sequence, request);
     if (!datum.sentence.empty()) verdict.sentence += " " + datum.sentence;
     return verdict;
 }

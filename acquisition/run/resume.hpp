@@ -73,12 +73,17 @@ struct StationNow {
     ContinuityLimits limits;     ///< rate_hz 0: taken from the run
 };
 
-/// Sequence of the newest durable record (point, datum by prepare, skip); 0 when there is none.
-std::uint16_t last_durable_sequence(const RunRecord& run);
+/// The newest record that a request of the CNC made durable: point, datum by prepare (step -1),
+/// skip. Sequence 0: there is none.
+struct DurableRequest {
+    std::uint16_t sequence = 0;
+    int step = -1;
+};
+DurableRequest last_durable_request(const RunRecord& run);
 
 /// A skipped step lives in the run file as an event with this text.
 std::string skip_text(int step);
-std::vector<int> skipped_steps(const RunRecord& run);
+std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event);
 
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);

@@ -101,9 +101,11 @@ struct Acknowledge {
     std::uint16_t sequence = 0;
     int step = -1;
 };
-/// Publish done = sequence again, with the receipt of the last durable record.
+/// Publish done = sequence again, with the receipt of the last durable record: kept from its
+/// commit, or after a restart Journal::receipt_for(step).
 struct RepublishDone {
     std::uint16_t sequence = 0;
+    int step = -1;
 };
 /// done stays. A refusal of a manual trigger is for the technician, not for the port. Sequence 0
 /// and origin manual: the arming itself was refused.

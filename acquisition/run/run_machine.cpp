@@ -39,12 +39,15 @@ RunMachine::RunMachine(RunSetup setup,
     : RunMachine{std::move(setup)} {
     state_ = PortState::armed;
     armed_ = first_request_after_resume_ = any_accepted_ = true;
-    last_durable_ = last_durable_sequence(open_run);
+    const auto durable = last_durable_request(open_run);
+    last_durable_ = durable.sequence;
+    last_durable_step_ = durable.step;
     for (const auto& point : open_run.points)
         if (const auto step = static_cast<std::size_t>(point.step); step < done_.size())
             done_[step] = true;
-    for (const int step : skipped_steps(open_run))
-        skipped_[static_cast<std::size_t>(step)] = true;
+    for (const auto& event : open_run.events)
+        if (const auto step = skipped_step(open_run, event))
+            skipped_[static_cast<std::size_t>(*step)] = true;
     if (!open_run.datums.empty()) {
         datum_ = open_run.datums.back();
         datum_epoch_ = epoch;
@@ -102,7 +105,7 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
     const bool finished_before = sequence != 0 && sequence == last_durable_;
     if (closed_ || !armed_) {
         if (closed_ && finished_before)
-            out.push_back(RepublishDone{sequence});
+            out.push_back(RepublishDone{sequence, last_durable_step_});
         else if (sequence != 0)
             refuse(event, not_armed(), out);
         return true;
@@ -113,7 +116,7 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
     if (event.standing && !any_accepted_) return true;
     if (finished_before) {
         ++counters_.republished;
-        out.push_back(RepublishDone{sequence});
+        out.push_back(RepublishDone{sequence, last_durable_step_});
         return true;
     }
     if (pending_ && pending_->sequence == sequence && event.command != TriggerCommand::abort) {
@@ -197,6 +200,7 @@ void RunMachine::on(const Committed& committed, RunActions& out) {
     last_refusal_.reset();
     if (settled.sequence != 0) {
         last_durable_ = settled.sequence;
+        last_durable_step_ = settled.step;
         out.push_back(Acknowledge{settled.sequence, settled.step});
     }
     settle_commit(settled, out);

@@ -123,6 +123,7 @@ private:
     bool armed_ = false, closed_ = false, complete_ = false, stopped_ = false;
     bool first_request_after_resume_ = false, approach_unseen_ = false, any_accepted_ = false;
     std::uint16_t last_durable_ = 0;
+    int last_durable_step_ = -1;
     std::vector<bool> done_, skipped_; ///< by step
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0;

@@ -1,0 +1,270 @@
+#include "acquisition/run/resume.hpp"
+
+#include "bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace axiscal {
+namespace {
+
+using testing::at_s;
+using testing::Bench;
+
+/// Counts 1000 samples a second from 0 at t = 0.
+constexpr double rate_hz = 1000;
+std::uint64_t count_at(double seconds) {
+    return static_cast<std::uint64_t>(seconds * rate_hz);
+}
+
+RunRecord run_with_points(int points) {
+    RunRecord run;
+    run.plan = testing::small_plan();
+    run.config_hash = "abc";
+    run.boot_id = "boot-1";
+    run.laser.instrument = "laser";
+    InstrumentRecord laser;
+    laser.name = "laser";
+    laser.serial = "UMD-17";
+    run.instruments.push_back(laser);
+    DatumRecord datum;
+    datum.at = at_s(100);
+    datum.reading = 1.0_mm;
+    datum.device_count = count_at(100);
+    run.datums.push_back(datum);
+    for (int i = 0; i < points; ++i) {
+        PointRecord point;
+        point.step = i;
+        point.sequence = static_cast<std::uint16_t>(i + 1);
+        const double at = 120 + 20 * i;
+        point.window_begin = at_s(at);
+        point.window_end = at_s(at + 0.5);
+        point.samples = {{at_s(at), 0.02, count_at(at)},
+                         {at_s(at + 0.5), 0.02, count_at(at + 0.5)}};
+        run.points.push_back(point);
+    }
+    return run;
+}
+
+StationNow same_station(double seconds) {
+    StationNow now;
+    now.config_hash = "abc";
+    now.boot_id = "boot-1";
+    now.laser_serial = "UMD-17";
+    now.laser = Sample{0, at_s(seconds), 0.02, count_at(seconds), 0};
+    now.limits.fastest = metre_per_second(1);
+    return now;
+}
+
+TEST(FirstRequest, LastDurableIsPublishedAgainNextIsCapturedAllElseIsLost) {
+    const auto decide = [](std::uint16_t durable, std::uint16_t request) {
+        return judge_first_request(durable, request).decision;
+    };
+    EXPECT_EQ(decide(5, 5), ResumeDecision::republish_done);
+    EXPECT_EQ(decide(5, 6), ResumeDecision::capture_standing);
+    EXPECT_EQ(decide(65535, 1), ResumeDecision::capture_standing);
+    EXPECT_EQ(decide(0, 1), ResumeDecision::capture_standing);
+    EXPECT_EQ(decide(0, 0), ResumeDecision::wait_for_request);
+    for (const std::uint16_t request : std::initializer_list<std::uint16_t>{0, 1, 4, 7, 65535})
+        EXPECT_EQ(decide(5, request), ResumeDecision::close_sequence_lost) << request;
+    EXPECT_EQ(judge_first_request(5, std::nullopt).decision, ResumeDecision::wait_for_request);
+}
+
+TEST(Resume, NeedsTheSameStationFileInstrumentAndBoot) {
+    const auto run = run_with_points(3);
+    EXPECT_EQ(decide_resume(run, 4, same_station(200)).decision, ResumeDecision::capture_standing);
+    EXPECT_EQ(decide_resume(run, 3, same_station(200)).decision, ResumeDecision::republish_done);
+    EXPECT_EQ(decide_resume(run, 9, same_station(200)).decision,
+              ResumeDecision::close_sequence_lost);
+    auto now = same_station(200);
+    now.config_hash = "other";
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_config_changed);
+    now = same_station(200);
+    now.laser_serial = "UMD-18";
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_other_instrument);
+    now = same_station(200);
+    now.boot_id = "boot-2";
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_datum_lost);
+    now = same_station(200);
+    now.laser.reset();
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_datum_lost);
+}
+
+TEST(Resume, TellsHowTheDatumWasProven) {
+    const auto verdict = decide_resume(run_with_points(3), 4, same_station(200.5));
+    EXPECT_NE(verdict.sentence.find("its number advanced by 40000 in 40 s, 40000 were due"),
+              std::string::npos)
+        << verdict.sentence;
+}
+
+TEST(Resume, ARunWithoutADatumHasNoneToLose) {
+    auto run = run_with_points(0);
+    run.datums.clear();
+    auto now = same_station(200);
+    now.laser.reset();
+    EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::capture_standing);
+}
+
+TEST(Resume, FindsTheNewestDurableRequest) {
+    EXPECT_EQ(last_durable_request(run_with_points(0)).sequence, 0);
+    auto run = run_with_points(3);
+    EXPECT_EQ(last_durable_request(run).sequence, 3);
+    EXPECT_EQ(last_durable_request(run).step, 2);
+    run.events.push_back({EventKind::skipped, at_s(500), 0, skip_text(3), Fault::none, 4});
+    EXPECT_EQ(last_durable_request(run).sequence, 4);
+    EXPECT_EQ(last_durable_request(run).step, 3);
+    run = run_with_points(0);
+    run.datums[0].sequence = 1;
+    EXPECT_EQ(last_durable_request(run).sequence, 1);
+    EXPECT_EQ(last_durable_request(run).step, -1);
+    run = run_with_points(3);
+    run.points[1].sequence = 65535, run.points[2].sequence = 1;
+    EXPECT_EQ(last_durable_request(run).sequence, 1) << "newest by time, not by number";
+}
+
+TEST(Resume, MeasuresTheLasersRateFromTheRun) {
+    EXPECT_FALSE(counting_rate_hz(run_with_points(0)));
+    EXPECT_NEAR(*counting_rate_hz(run_with_points(5)), rate_hz, 0.1);
+}
+
+CounterSighting before_at(double seconds) {
+    return {at_s(seconds), 20.0_mm, count_at(seconds)};
+}
+ContinuityLimits limits() {
+    ContinuityLimits limits;
+    limits.rate_hz = rate_hz;
+    limits.fastest = metre_per_second(1);
+    return limits;
+}
+
+TEST(DatumContinues, WhenTheNumberAdvancedWithTime) {
+    const Sample after{0, at_s(160), 0.02, count_at(160)};
+    EXPECT_TRUE(datum_continues(before_at(100), after, limits()).continues);
+}
+
+TEST(DatumContinues, NotAfterThePowerWasOff) {
+    const Sample after{0, at_s(160), 0.0, count_at(20)}; // switched on 20 s ago
+    const auto verdict = datum_continues(before_at(100), after, limits());
+    EXPECT_FALSE(verdict.continues);
+    EXPECT_NE(verdict.reason.find("advanced by -80000 in 60 s, 60000 were due"), std::string::npos)
+        << verdict.reason;
+}
+
+TEST(DatumContinues, NotWhenTheLaserWasTooYoungToTell) {
+    const Sample after{0, at_s(160), 0.02, count_at(160)};
+    EXPECT_FALSE(datum_continues({at_s(100), 20.0_mm, 900}, after, limits()).continues);
+}
+
+TEST(DatumContinues, NotWithoutANumberARateOrAReading) {
+    const Sample after{0, at_s(160), 0.02, count_at(160)};
+    EXPECT_FALSE(datum_continues({at_s(100), 20.0_mm, 0}, after, limits()).continues);
+    EXPECT_FALSE(datum_continues(before_at(100), Sample{0, at_s(160), 0.02}, limits()).continues);
+    EXPECT_FALSE(datum_continues(before_at(100),
+                                 Sample::bad(0, at_s(160), Quality::beam_lost, count_at(160)),
+                                 limits())
+                     .continues);
+    auto no_rate = limits();
+    no_rate.rate_hz = 0;
+    EXPECT_FALSE(datum_continues(before_at(100), after, no_rate).continues);
+}
+
+TEST(DatumContinues, NotWhenTheAxisCannotHaveGoneThatFar) {
+    // 0.52 m/s is how a heterodyne counter runs off without its beam: 1.6 MHz of 316 nm.
+    auto slow = limits();
+    slow.fastest = metre_per_second(0.1);
+    const Sample after{0, at_s(160), 0.02 + 0.52 * 60, count_at(160)};
+    EXPECT_FALSE(datum_continues(before_at(100), after, slow).continues);
+}
+
+TEST(DatumContinues, AShortNumberProvesOnlyShortInterruptions) {
+    auto short_number = limits();
+    short_number.rate_hz = 244.14; // 16 bits wrap after 268 s
+    short_number.count_modulus = 65536;
+    const auto wrapped = [&](double seconds) {
+        const auto count = static_cast<std::uint64_t>(seconds * short_number.rate_hz) % 65536;
+        return Sample{0, at_s(seconds), 0.02, count};
+    };
+    const CounterSighting before{at_s(1000), 20.0_mm,
+                                 static_cast<std::uint64_t>(1000 * short_number.rate_hz)};
+    EXPECT_TRUE(datum_continues(before, wrapped(1100), short_number).continues);
+    EXPECT_FALSE(datum_continues(before, wrapped(1300), short_number).continues);
+    EXPECT_FALSE(datum_continues(before, Sample{0, at_s(1100), 0.02, 500}, short_number).continues);
+}
+
+TEST(DatumContinues, LawNoRestartedCounterPasses) {
+    std::mt19937_64 random{9};
+    const auto pick = [&](double high) {
+        return high * static_cast<double>(random() % 10'001) / 1e4;
+    };
+    for (int round = 0; round < 5000; ++round) {
+        const double on_before = 1 + pick(3600), away = 1 + pick(600);
+        const CounterSighting before{at_s(5000), 20.0_mm, count_at(on_before)};
+        const Sample ran_on{0, at_s(5000 + away), 0.02, count_at(on_before + away)};
+        const double off_for = pick(away); // power came back this long after the last sighting
+        const Sample restarted{0, at_s(5000 + away), 0.02, 1 + count_at(away - off_for)};
+        EXPECT_FALSE(datum_continues(before, restarted, limits()).continues);
+        const bool old_enough = on_before * rate_hz > 2 * (0.01 * away * rate_hz + 500);
+        EXPECT_EQ(datum_continues(before, ran_on, limits()).continues, old_enough);
+    }
+}
+
+TEST(ResumedRun, PublishesDoneAgainAndGoesOn) {
+    const auto run = run_with_points(3);
+    Bench bench;
+    bench.machine = RunMachine{bench.setup, run, 1, at_s(200)};
+    bench.give(EnvironmentNow{testing::air_index_minus_1});
+    bench.trigger(3);
+    EXPECT_EQ(bench.the<RepublishDone>().sequence, 3);
+    EXPECT_EQ(bench.the<RepublishDone>().step, 2);
+    EXPECT_TRUE(bench.trigger(4).saw<OpenWindow>());
+    EXPECT_TRUE(bench.open_window.approach) << "this way is seen again";
+}
+
+TEST(ResumedRun, CapturesAStandingRequestWhoseWayWasNotSeen) {
+    const auto run = run_with_points(3);
+    Bench bench;
+    bench.machine = RunMachine{bench.setup, run, 1, at_s(200)};
+    bench.give(EnvironmentNow{testing::air_index_minus_1});
+    auto standing = Bench::request(4);
+    standing.standing = true;
+    bench.trigger(standing);
+    ASSERT_TRUE(bench.saw<OpenWindow>());
+    EXPECT_FALSE(bench.open_window.approach);
+    EXPECT_EQ(bench.the<RecordEvent>().event.kind, EventKind::resumed);
+    EXPECT_NE(bench.the<RecordEvent>().event.text.find("the way to it was not seen"),
+              std::string::npos);
+}
+
+TEST(ResumedRun, StopsWithSequenceLost) {
+    for (const std::uint16_t request : std::initializer_list<std::uint16_t>{0, 1, 2, 5, 900}) {
+        const auto run = run_with_points(3);
+        Bench bench;
+        bench.machine = RunMachine{bench.setup, run, 1, at_s(200)};
+        bench.trigger(request);
+        ASSERT_TRUE(bench.saw<Close>()) << request;
+        EXPECT_EQ(bench.the<Close>().fault, Fault::sequence_lost);
+        EXPECT_FALSE(bench.the<Close>().complete);
+    }
+}
+
+TEST(ResumedRun, ClosesAtOnceWhenOnlyTheClosingWasMissing) {
+    const auto run = run_with_points(10);
+    Bench bench;
+    bench.machine = RunMachine{bench.setup, run, 1, at_s(2000)};
+    bench.give(Tick{at_s(2000)});
+    EXPECT_TRUE(bench.the<Close>().complete);
+}
+
+TEST(ResumedRun, KeepsSkippedPointsSkipped) {
+    auto run = run_with_points(3);
+    run.events.push_back({EventKind::skipped, at_s(500), 0, skip_text(3), Fault::none, 4});
+    Bench bench;
+    bench.machine = RunMachine{bench.setup, run, 1, at_s(600)};
+    EXPECT_EQ(bench.machine.view().next->step, 4);
+    EXPECT_EQ(bench.machine.view().skipped, 1);
+    EXPECT_EQ(bench.machine.view().last_durable, 4);
+}
+
+} // namespace
+} // namespace axiscal
