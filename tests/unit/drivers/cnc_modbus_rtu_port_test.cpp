@@ -1,0 +1,172 @@
+#include "drivers/asio_scheduler.hpp"
+#include "drivers/cnc/modbus_rtu_port.hpp"
+#include "tests/support/cnc_map_bench.hpp"
+#include "tests/support/port_bench.hpp"
+#include "tests/support/pty_line.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <random>
+
+namespace axiscal {
+namespace {
+
+using namespace testing;
+using namespace std::chrono_literals;
+using Bytes = std::vector<std::uint8_t>;
+
+/// Modbus over serial line V1.02, section 6.2.2: CRC-16, polynomial A001 reflected, low byte first.
+Bytes with_crc(Bytes frame) {
+    std::uint16_t crc = 0xFFFF;
+    for (const auto byte : frame) {
+        crc = static_cast<std::uint16_t>(crc ^ byte);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = static_cast<std::uint16_t>((crc & 1) != 0 ? (crc >> 1) ^ 0xA001 : crc >> 1);
+    }
+    frame.push_back(static_cast<std::uint8_t>(crc));
+    frame.push_back(static_cast<std::uint8_t>(crc >> 8));
+    return frame;
+}
+
+/// The line has a thread and real time: waiting ends as soon as the awaited thing happens, the
+/// bound on turns only ends a failing test.
+class ModbusRtu : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder = std::filesystem::temp_directory_path() /
+                 ("axiscal-rtu-" + std::to_string(std::random_device{}()));
+        std::filesystem::create_directory(folder);
+        plug_in();
+        TriggerConfig config;
+        config.transport = TriggerTransport::rtu_server;
+        config.serial_path = folder / "tty";
+        config.unit_id = 17;
+        port = std::make_unique<ModbusRtuPort>(
+            std::make_unique<Acknowledging<SequenceBlockMap>>(false, false), config);
+        running = std::make_unique<RunningPort>(*port, scheduler);
+    }
+    void TearDown() override {
+        running->cancel();
+        pump_until([&] { return running->result.has_value(); });
+        EXPECT_FALSE(running->threw);
+        std::filesystem::remove_all(folder);
+    }
+    void plug_in() {
+        line = std::make_unique<PtyLine>();
+        std::filesystem::remove(folder / "tty");
+        std::filesystem::create_symlink(line->path(), folder / "tty");
+    }
+    bool pump_until(const std::function<bool()>& done, int turns = 5000) {
+        for (int turn = 0; turn < turns; ++turn) {
+            loop.restart();
+            loop.run_for(2ms);
+            if (done()) return true;
+        }
+        return false;
+    }
+    void send(const Bytes& bytes) {
+        ASSERT_EQ(::write(line->master(), bytes.data(), bytes.size()),
+                  static_cast<ssize_t>(bytes.size()));
+    }
+    bool receives(std::size_t size, int turns = 5000) {
+        return pump_until(
+            [&] {
+                std::array<std::uint8_t, 256> buffer{};
+                const auto length = ::read(line->master(), buffer.data(), buffer.size());
+                if (length > 0)
+                    received.insert(received.end(), buffer.begin(), buffer.begin() + length);
+                return received.size() >= size;
+            },
+            turns);
+    }
+    Bytes ask(const Bytes& request, std::size_t size) {
+        received.clear();
+        send(with_crc(request));
+        EXPECT_TRUE(receives(size));
+        return received;
+    }
+    /// The thread opens the line in its own time: asks until it answers.
+    void reach() {
+        for (int attempt = 0; attempt < 50; ++attempt) {
+            received.clear();
+            send(with_crc({17, 3, 0, 18, 0, 1}));
+            if (receives(7, 100)) return;
+        }
+        FAIL() << "the line never answered";
+    }
+
+    std::filesystem::path folder;
+    std::unique_ptr<PtyLine> line;
+    boost::asio::io_context loop;
+    AsioScheduler scheduler{loop};
+    std::unique_ptr<ModbusRtuPort> port;
+    std::unique_ptr<RunningPort> running;
+    Bytes received;
+};
+
+TEST(RtuChecksum, OfTheTestIsTheOneOfTheStandard) {
+    // Modbus over serial line V1.02, appendix B: 02 07 has the CRC 41 12
+    EXPECT_EQ(with_crc({0x02, 0x07}), (Bytes{0x02, 0x07, 0x41, 0x12}));
+}
+
+TEST_F(ModbusRtu, CarriesOneRequestFromBlockWriteToAcknowledge) {
+    reach();
+    EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8), with_crc({17, 16, 0, 1, 0, 2}));
+    EXPECT_EQ(running->sink.events.size(), 1U) << "an answer comes only when the loop knows";
+    EXPECT_EQ(ask({17, 3, 0, 18, 0, 2}, 9), with_crc({17, 3, 4, 0, 1, 0, 0}));
+    EXPECT_EQ(ask({17, 4, 0, 18, 0, 1}, 7), with_crc({17, 4, 2, 0, 1}));
+}
+
+TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
+    reach();
+    EXPECT_EQ(ask({17, 3, 0, 40, 0, 1}, 5), with_crc({17, 0x83, 2}));
+    EXPECT_EQ(ask({17, 6, 0, 18, 0, 1}, 5), with_crc({17, 0x86, 2}));
+    EXPECT_EQ(ask({17, 1, 0, 0, 0, 1}, 5), with_crc({17, 0x81, 1}));
+    EXPECT_TRUE(running->sink.events.empty());
+}
+
+TEST_F(ModbusRtu, IsDeafToOthersAndToDamagedFrames) {
+    reach();
+    received.clear();
+    send(with_crc({18, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1})); // another slave
+    pump_until([] { return false; }, 100);               // silence divides the frames
+    send(with_crc({0, 16, 0, 1, 0, 2, 4, 0, 2, 0, 2}));  // to everybody
+    pump_until([] { return false; }, 100);
+    send({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 3, 0xBA, 0xD0}); // wrong checksum
+    pump_until([] { return false; }, 100);
+    send({17, 16, 0}); // torn off
+    pump_until([] { return false; }, 100);
+    EXPECT_TRUE(received.empty());
+    reach();
+    EXPECT_EQ(ask({17, 3, 0, 18, 0, 1}, 7), with_crc({17, 3, 2, 0, 0}));
+    EXPECT_TRUE(running->sink.events.empty());
+}
+
+TEST_F(ModbusRtu, OpensTheLineAgainAfterItWasPulled) {
+    reach();
+    EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8).size(), 8U);
+    line.reset();
+    ASSERT_TRUE(pump_until([&] { return !running->sink.notes.empty(); }));
+    EXPECT_EQ(running->sink.notes[0].first, Fault::link_closed);
+    plug_in();
+    ASSERT_TRUE(pump_until([&] { return port->counters().reconnects == 1; }));
+    reach();
+    EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 2}, 8).size(), 8U);
+    ASSERT_EQ(running->sink.events.size(), 2U);
+    EXPECT_EQ(running->sink.events[1].sequence, 2);
+}
+
+TEST(RtuMailbox, GivesNoImageOlderThanThePostedWrites) {
+    RtuMailbox mailbox;
+    EXPECT_TRUE(mailbox.image_after(0, 0ms));
+    EXPECT_FALSE(mailbox.image_after(1, 0ms));
+    mailbox.count_write();
+    EXPECT_TRUE(mailbox.image_after(1, 0ms));
+    mailbox.stop();
+    EXPECT_FALSE(mailbox.image_after(1, 0ms));
+}
+
+} // namespace
+} // namespace axiscal
