@@ -117,6 +117,8 @@ TEST_F(ModbusRtu, CarriesOneRequestFromBlockWriteToAcknowledge) {
     EXPECT_EQ(running->sink.events.size(), 1U) << "an answer comes only when the loop knows";
     EXPECT_EQ(ask({17, 3, 0, 18, 0, 2}, 9), with_crc({17, 3, 4, 0, 1, 0, 0}));
     EXPECT_EQ(ask({17, 4, 0, 18, 0, 1}, 7), with_crc({17, 4, 2, 0, 1}));
+    EXPECT_EQ(ask({17, 23, 0, 18, 0, 2, 0, 2, 0, 1, 2, 0, 2}, 9),
+              with_crc({17, 23, 4, 0, 2, 0, 0}));
 }
 
 TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
