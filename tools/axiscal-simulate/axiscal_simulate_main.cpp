@@ -6,9 +6,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <iostream>
+#include <unistd.h>
 
 namespace {
 
@@ -75,10 +78,11 @@ int live(const Options& options, Simulator& world) {
         const auto answer = world.command("run");
         if (!answer["ok"].get<bool>()) return std::cerr << answer.dump() << "\n", is_refused;
     }
-    if (options.positions == "-") world.feed_positions(std::cin, options.positions_field);
-    if (!options.positions.empty() && options.positions != "-") {
-        std::ifstream file{options.positions};
-        world.feed_positions(file, options.positions_field);
+    if (!options.positions.empty()) {
+        const bool standard = options.positions == "-";
+        const int stream = standard ? STDIN_FILENO : ::open(options.positions.c_str(), O_RDONLY);
+        if (stream >= 0) world.feed_positions(stream, options.positions_field);
+        if (stream > STDIN_FILENO) ::close(stream);
     }
     while (!world.ended() && asked_to_end == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds{50});
@@ -104,7 +108,7 @@ int open_and_live(const Options& options) {
 int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     struct sigaction action {};
-    action.sa_handler = on_signal; // no SA_RESTART: a read of positions ends too
+    action.sa_handler = on_signal; // no SA_RESTART: a wait for positions ends too
     sigaction(SIGTERM, &action, nullptr);
     sigaction(SIGINT, &action, nullptr);
 

@@ -3,8 +3,11 @@
 #include "truth.hpp"
 #include "wire/sensor_faces.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <poll.h>
 #include <sstream>
+#include <unistd.h>
 
 namespace axiscal::simulate {
 
@@ -43,7 +46,12 @@ Result<void> Simulator::open_faces() {
         AXISCAL_TRY(exchange_, CncServer::open(*scenario_.cnc, lines_, clock_));
         return {};
     }
-    auto client = std::make_unique<CncClient>(*scenario_.cnc, lines_, clock_);
+    CncScenario cnc = *scenario_.cnc;
+    if (cnc.transport == "rtu" && !std::filesystem::is_character_file(cnc.path)) {
+        AXISCAL_TRY(cable_, SerialCable::open(cnc.path, cnc.path + ".cnc"));
+        cnc.path += ".cnc";
+    }
+    auto client = std::make_unique<CncClient>(cnc, lines_, clock_);
     client_ = client.get();
     exchange_ = std::move(client);
     return {};
@@ -57,14 +65,31 @@ void Simulator::start(bool external_positions) {
     if (exchange_) threads_.emplace_back([this](std::stop_token stop) { exchange_->run(stop); });
 }
 
-void Simulator::feed_positions(std::istream& lines, int field) {
-    for (std::string line; !ended_ && laser_ && std::getline(lines, line);) {
-        std::istringstream fields{line};
+std::string Simulator::feed_lines(const std::string& text, int field) {
+    std::size_t begin = 0;
+    for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+        std::istringstream fields{text.substr(begin, end - begin)};
+        begin = end + 1;
         double number = 0, position_mm = 0;
         fields >> number; // the CNC's own count of servo cycles
         for (int i = 0; i < field; ++i)
             fields >> position_mm;
-        if (fields) laser_->feed(position_mm); // "overrun" and the like are no samples
+        if (fields && laser_) laser_->feed(position_mm); // "overrun" and the like are no samples
+    }
+    return text.substr(begin);
+}
+
+void Simulator::feed_positions(int descriptor, int field) {
+    std::string rest;
+    char chunk[4096];
+    while (!ended_) {
+        pollfd wait{descriptor, POLLIN, 0};
+        const int ready = ::poll(&wait, 1, 50);
+        if (ready < 0) return; // a signal: the caller decides
+        if (ready == 0) continue;
+        const ssize_t n = ::read(descriptor, chunk, sizeof chunk);
+        if (n <= 0) return;
+        rest = feed_lines(rest.append(chunk, static_cast<std::size_t>(n)), field);
     }
 }
 
@@ -83,6 +108,7 @@ nlohmann::json Simulator::places() const {
     for (const auto& sensor : sensors_)
         places["sensors"][sensor->name()] = sensor->place();
     if (exchange_) places["cnc"] = {{"port", exchange_->port()}};
+    if (cable_) places["cnc"] = {{"path", scenario_.cnc->path}};
     return places;
 }
 

@@ -4,9 +4,9 @@
 #include "cnc/cnc_exchange.hpp"
 #include "cnc/cnc_runner.hpp"
 #include "wire/laser_face.hpp"
+#include "wire/serial_cable.hpp"
 
 #include <condition_variable>
-#include <istream>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -24,8 +24,11 @@ public:
 
     /// Starts the threads; with external positions the laser waits for feed_positions().
     void start(bool external_positions);
-    /// Reads lines `n x y z ...` of a 1 kHz stream until its end; `field` counts from 1 (x).
-    void feed_positions(std::istream& lines, int field);
+    /// Reads lines `n x y z ...` of a 1 kHz stream until its end or quit; `field` counts from 1
+    /// (x).
+    void feed_positions(int descriptor, int field);
+    /// The same for what has come in so far; returns the unfinished rest of a line.
+    std::string feed_lines(const std::string& text, int field);
     /// The program that `run` without a file, and `truth`, use.
     void set_program(std::string path) { program_ = std::move(path); }
     Result<void> write_truth(const std::string& path);
@@ -52,6 +55,7 @@ private:
     CncLines lines_;
     std::unique_ptr<LaserFace> laser_;
     std::vector<std::unique_ptr<Face>> sensors_;
+    std::unique_ptr<SerialCable> cable_; ///< RTU: between the daemon's port and the CNC's
     std::unique_ptr<CncExchange> exchange_;
     CncClient* client_ = nullptr; ///< exchange_, where it is a client
     std::unique_ptr<CncRunner> runner_;

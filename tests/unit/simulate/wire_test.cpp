@@ -1,6 +1,6 @@
 // The wires themselves: a pty that nobody reads, and a CNC against a Modbus server.
 #include "cnc/cnc_exchange.hpp"
-#include "wire/pty.hpp"
+#include "wire/serial_cable.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <modbus.h>
+#include <poll.h>
 #include <thread>
 #include <unistd.h>
 
@@ -103,6 +104,48 @@ TEST(CncClient, WritesItsBlockAndHearsTheAcknowledge) {
     std::unique_lock lock{station.mutex};
     EXPECT_TRUE(
         station.news.wait_for(lock, std::chrono::seconds{20}, [&] { return lines.input(0); }));
+}
+
+/// Answers RTU requests at the station's end of the cable.
+void serve_rtu(std::stop_token stop, const std::string& path, Station& station) {
+    const int line = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    Bytes pending;
+    while (!stop.stop_requested()) {
+        pollfd wait{line, POLLIN, 0};
+        std::uint8_t chunk[256];
+        if (::poll(&wait, 1, 20) <= 0) continue;
+        const ssize_t n = ::read(line, chunk, sizeof chunk);
+        if (n > 0) pending.insert(pending.end(), chunk, chunk + n);
+        const auto length = rtu_request_length(pending);
+        if (!length || pending.size() < *length) continue;
+        const std::lock_guard lock{station.mutex};
+        const auto pdu = std::span{pending}.subspan(1, *length - 3);
+        const Bytes reply = rtu_frame(pending[0], answer_pdu(station.bank, pdu));
+        EXPECT_EQ(::write(line, reply.data(), reply.size()), std::ssize(reply));
+        pending.clear();
+        station.news.notify_all();
+    }
+    ::close(line);
+}
+
+TEST(CncClient, SpeaksRtuOverTheCable) {
+    const ScratchFolder scratch;
+    const std::string ours = (scratch.path / "cnc").string();
+    const std::string theirs = (scratch.path / "station").string();
+    auto cable = SerialCable::open(theirs, ours);
+    ASSERT_TRUE(cable);
+    Station station;
+    CncScenario scenario;
+    scenario.transport = "rtu";
+    scenario.path = ours;
+    CncLines lines{scenario};
+    const SimClock clock;
+    CncClient client{scenario, lines, clock};
+    std::jthread carry{[&](std::stop_token stop) { (*cable)->run(stop); }};
+    std::jthread serve{[&](std::stop_token stop) { serve_rtu(stop, theirs, station); }};
+    std::jthread exchange{[&](std::stop_token stop) { client.run(stop); }};
+    lines.set_analog(0, 6, 0);
+    EXPECT_TRUE(station.wait_for_sequence(6));
 }
 
 TEST(CncServer, IsTheMirroredBlockForAClient) {

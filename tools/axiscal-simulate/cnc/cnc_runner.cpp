@@ -56,6 +56,7 @@ Result<void> CncRunner::start(const std::string& path) {
     state_ = "running";
     message_.clear();
     stop_ = false;
+    left_travel_ = false;
     line_ = 0;
     thread_ = std::thread{[this, text = std::move(text), marlin = is_marlin(path)] {
         finish(run_program(text, marlin, scenario_.axis.letter, *this));
@@ -65,7 +66,7 @@ Result<void> CncRunner::start(const std::string& path) {
 
 void CncRunner::finish(const Result<void>& outcome) {
     const std::lock_guard lock{mutex_};
-    state_ = !outcome ? "failed" : stop_ ? "stopped" : "done";
+    state_ = !outcome || left_travel_ ? "failed" : stop_ ? "stopped" : "done";
     if (!outcome) message_ = outcome.error().detail;
 }
 
@@ -115,8 +116,9 @@ double CncRunner::physical_mm(double programmed_mm) const {
 void CncRunner::move(double target_mm, double feed_mm_per_min) {
     const AxisScenario& axis = scenario_.axis;
     if (target_mm < axis.travel_low_mm || target_mm > axis.travel_high_mm) {
-        stop();
-        return message("the move to " + std::to_string(target_mm) + " mm leaves the travel");
+        message("the move to " + std::to_string(target_mm) + " mm leaves the travel");
+        left_travel_ = true;
+        return stop();
     }
     const double fastest = axis.rapid_mm_per_min;
     const double feed = feed_mm_per_min > 0 ? std::min(feed_mm_per_min, fastest) : fastest;

@@ -7,6 +7,7 @@
 #include "cnc/machine_actions.hpp"
 #include "sim_clock.hpp"
 
+#include <atomic>
 #include <condition_variable>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -56,6 +57,7 @@ private:
     std::string state_ = "idle", message_, motion_fault_;
     int line_ = 0;
     bool stop_ = false;
+    std::atomic<bool> left_travel_{false};
     std::thread thread_;
 };
 
