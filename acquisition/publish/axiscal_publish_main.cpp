@@ -2,7 +2,6 @@
 
 #include "acquisition/publish/publisher.hpp"
 #include "config/station_config.hpp"
-#include "drivers/asio_scheduler.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -60,9 +59,9 @@ private:
     bool json_;
 };
 
-std::int64_t utc_now_ns() {
+std::int64_t clock_ns(clockid_t clock) {
     timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
+    ::clock_gettime(clock, &now);
     return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
@@ -120,7 +119,8 @@ int serve(const PublisherSettings& settings, const Options& options) {
     ::sd_notify(0, "READY=1");
     std::size_t waiting = 0, last = std::string::npos;
     do {
-        waiting = publisher.pass(monotonic_now(), utc_now_ns());
+        waiting =
+            publisher.pass(monotonic_from_ns(clock_ns(CLOCK_MONOTONIC)), clock_ns(CLOCK_REALTIME));
         report_status(waiting, last);
     } while (!options.once && !stopped_within_a_look(stop));
     ::sd_notify(0, "STOPPING=1");
