@@ -200,7 +200,8 @@ Task<Result<JournalReceipt>> Journal::commit(RunBatch batch, std::uint16_t seque
     std::function<Result<void>()> work = [worker, shared]() -> Result<void> {
         if (!worker->writer) return fail(Fault::no_run_armed, "no run file is open");
         RunBatch notes = worker->take_notes();
-        shared->events = std::move(notes.events);
+        // What was noted before comes first: the chain tells the order.
+        shared->events.insert(shared->events.begin(), notes.events.begin(), notes.events.end());
         shared->environment = std::move(notes.environment);
         return worker->write(*shared);
     };

@@ -59,7 +59,7 @@ TEST(SampleHistory, WindowIncludesBothItsEnds) {
 
 TEST(SampleHistory, KnowsGapsInTheDevicesOwnNumbering) {
     SampleHistory history;
-    for (const std::uint64_t count : {10, 11, 12, 15, 16, 18})
+    for (const std::uint64_t count : std::initializer_list<std::uint64_t>{10, 11, 12, 15, 16, 18})
         history.push(Sample{0, at_s(static_cast<double>(count)), 1.0, count});
     EXPECT_EQ(history.gaps(), 2u);
 }

@@ -95,6 +95,19 @@ TEST_P(JournalOnEitherThread, GivesAReceiptForWhatIsOnDisk) {
     }
 }
 
+TEST_P(JournalOnEitherThread, GivesAReceiptForAnEventThatTheCncWaitsFor) {
+    const ScratchFolder scratch;
+    Station station{GetParam()};
+    RandomRun random{2};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord run = random.header();
+    ASSERT_TRUE(station.run(station.journal.open(path, run)));
+    run.events.push_back(random.event());
+    const auto receipt = station.receipt(station.journal.commit(run.events[0], 3));
+    EXPECT_EQ(receipt.value(), Receipt(run.events[0].sequence, 3));
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+}
+
 TEST_P(JournalOnEitherThread, ClosesAndOpensTheNextRun) {
     const ScratchFolder scratch;
     Station station{GetParam()};
