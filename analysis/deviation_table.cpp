@@ -66,7 +66,7 @@ Result<void> check_rows(const std::vector<std::vector<double>>& rows,
 
 } // namespace
 
-Result<RunAt20C> declare_at_20C(DeviationTable table, std::string reason) {
+Result<RunAt20C> declare_at_20C(DeviationTable table, const std::string& reason) {
     if (reason.empty())
         return refuse(Fault::bad_case, "compensation", "says not why the data stand for 20 degC");
     if (auto good = check_targets(table.targets); !good) return tl::unexpected(good.error());

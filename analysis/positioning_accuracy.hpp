@@ -42,7 +42,7 @@ struct DeviationTable {
 
 /// Data that came corrected (or were measured at 20 degC): the reason is kept and printed.
 /// @errors Fault::bad_case with the field ("forward[2][1]") for shape errors, NaN or infinities.
-Result<RunAt20C> declare_at_20C(DeviationTable table, std::string reason);
+Result<RunAt20C> declare_at_20C(DeviationTable table, const std::string& reason);
 
 struct PositionRow {
     double target = 0;
