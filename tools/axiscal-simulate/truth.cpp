@@ -203,8 +203,8 @@ std::map<std::string, Quantiles> draw(const Scenario& s, const TruthPlan& plan, 
     std::map<std::string, Quantiles> quantiles;
     for (auto& [key, values] : drawn) {
         std::sort(values.begin(), values.end());
-        const auto at = [&](double share) {
-            return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+        const auto at = [&sorted = values](double share) {
+            return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
         };
         quantiles[key] = {at(0.0005), at(0.5), at(0.9995)};
     }

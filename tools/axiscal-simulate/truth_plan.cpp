@@ -68,7 +68,8 @@ private:
 
 Result<TruthPlan> plan_of_program(const std::string& text, bool marlin, const Scenario& scenario) {
     PaperMachine machine;
-    auto ran = run_program(text, marlin, scenario.axis.letter, machine);
+    AXISCAL_TRY(const auto run, parse_program(text, marlin, scenario.axis.letter));
+    const auto ran = run(machine);
     if (!ran) return tl::unexpected<Error>(ran.error());
     TruthPlan plan;
     bool down = false;

@@ -26,14 +26,15 @@ bool is_marlin(const std::string& path) {
     return path.ends_with(".gcode") || path.ends_with(".marlin");
 }
 
-Result<void>
-run_program(const std::string& text, bool marlin, char letter, MachineActions& machine) {
+Result<ProgramRun> parse_program(const std::string& text, bool marlin, char letter) {
     if (marlin) {
-        AXISCAL_TRY(const auto program, MarlinProgram::parse(text, letter));
-        return program.run(machine);
+        AXISCAL_TRY(auto program, MarlinProgram::parse(text, letter));
+        return [program = std::move(program)](MachineActions& machine) {
+            return program.run(machine);
+        };
     }
-    AXISCAL_TRY(const auto program, LinuxcncProgram::parse(text, letter));
-    return program.run(machine);
+    AXISCAL_TRY(auto program, LinuxcncProgram::parse(text, letter));
+    return [program = std::move(program)](MachineActions& machine) { return program.run(machine); };
 }
 
 CncRunner::CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock)
@@ -49,7 +50,8 @@ CncRunner::~CncRunner() {
 }
 
 Result<void> CncRunner::start(const std::string& path) {
-    AXISCAL_TRY(std::string text, read_program(path));
+    AXISCAL_TRY(const std::string text, read_program(path));
+    AXISCAL_TRY(auto program, parse_program(text, is_marlin(path), scenario_.axis.letter));
     const std::lock_guard lock{mutex_};
     if (state_ == "running") return fail(Fault::busy, "a part program is running");
     if (thread_.joinable()) thread_.join();
@@ -58,9 +60,7 @@ Result<void> CncRunner::start(const std::string& path) {
     stop_ = false;
     left_travel_ = false;
     line_ = 0;
-    thread_ = std::thread{[this, text = std::move(text), marlin = is_marlin(path)] {
-        finish(run_program(text, marlin, scenario_.axis.letter, *this));
-    }};
+    thread_ = std::thread{[this, run = std::move(program)] { finish(run(*this)); }};
     return {};
 }
 

@@ -9,15 +9,16 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 namespace axiscal::simulate {
 
-/// Marlin's programs end in .gcode or say so; all others are LinuxCNC's.
-/// Parses and runs one to its end. @errors bad_request with the line number.
-Result<void>
-run_program(const std::string& text, bool marlin, char letter, MachineActions& machine);
+/// A program that was understood; runs to its end. @errors refused where it aborts.
+using ProgramRun = std::function<Result<void>(MachineActions&)>;
+/// @errors bad_request with the number of the line that is not understood.
+Result<ProgramRun> parse_program(const std::string& text, bool marlin, char letter);
 Result<std::string> read_program(const std::string& path);
 /// Told by the name of the file: .gcode and .marlin are Marlin's.
 bool is_marlin(const std::string& path);
@@ -26,7 +27,7 @@ class CncRunner final : private MachineActions {
 public:
     CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock);
     ~CncRunner() override;
-    /// @errors busy; not_found; the program is parsed on the way.
+    /// @errors busy; not_found; bad_request for a program that is not understood.
     Result<void> start(const std::string& path);
     void stop();
     [[nodiscard]] nlohmann::json status() const;
