@@ -1,0 +1,24 @@
+#pragma once
+// certificate.csv: every deviation in one row, for spreadsheets. Pure.
+
+#include "analysis/certificate.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// Head lines begin with '#', then comes one table. Line ends are CR LF (RFC 4180).
+///   # axiscal.certificate-csv/1
+///   # <key>,<value>             run, certificate_number, machine, machine_serial, axis, started,
+///                               finished, standard, sign, run_file_sha256, software_version
+///   # parameter,<key>,<value>,<unit>,U not evaluated      the contract's keys and result unit
+///   # not_evaluated,<key>,<reason>
+///   run,direction,target_mm,measured_mm,deviation_um,t_air_degC,p_Pa,rh_percent,t_mat_degC,time
+/// `run` counts the approaches from 1, `direction` is "forward" or "backward", `measured` is
+/// target + deviation at 20 °C, `time` is UTC of the middle of the window. Rows stand in the order
+/// of measuring. A rotary axis has target_deg, measured_deg, deviation_arcsec. Numbers are the
+/// shortest decimals that read back as the same double; what is not known is empty. Fields with
+/// commas or quotes are quoted.
+std::string certificate_csv(const Certificate& certificate);
+
+} // namespace axiscal

@@ -1,0 +1,226 @@
+#include "acquisition/publish/certificate_json.hpp"
+
+#include "acquisition/publish/result_json.hpp"
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Empty means that nobody said it.
+Json stated(const std::string& text) {
+    return text.empty() ? Json{} : Json{text};
+}
+
+template <class T> Json stated(const std::optional<T>& value) {
+    return value ? Json{*value} : Json{};
+}
+
+Json statements_of(const Certificate& certificate) {
+    const Statements& said = certificate.run.statements;
+    Json object;
+    object["certificate_number"] = stated(said.certificate_number);
+    object["laboratory"] = stated(said.laboratory);
+    object["customer"] = stated(said.customer);
+    object["place"] = stated(said.place);
+    object["machine"] = stated(said.machine);
+    object["machine_maker"] = stated(said.machine_maker);
+    object["machine_serial"] = stated(said.machine_serial);
+    object["axis"] = stated(said.axis);
+    object["operator"] = stated(said.operator_name);
+    object["approver"] = stated(said.approver);
+    object["procedure"] = stated(said.procedure);
+    object["state"] = stated(said.state);
+    object["control_compensation"] = stated(said.control_compensation);
+    object["feed"] = stated(said.feed);
+    object["dwell"] = stated(said.dwell);
+    object["warm_up"] = stated(said.warm_up);
+    object["offsets"] = stated(said.offsets);
+    object["idle_axes"] = stated(said.idle_axes);
+    object["sensor_note"] = stated(said.sensor_note);
+    return object;
+}
+
+Json plan_of(const Certificate& certificate) {
+    const RunPlan& plan = certificate.run.plan;
+    Json object;
+    object["axis_kind"] = name_of(plan.axis_kind);
+    object["cycle"] = name_of(plan.cycle);
+    object["pass"] = plan.pass;
+    object["remark"] = stated(plan.remark);
+    object["targets"] = certificate.deviations.targets();
+    object["target_rule"] = plan.seed ? "P_i = (i-1) p + r" : "given list";
+    object["interval_mm"] = plan.interval.in(mm);
+    object["seed"] = stated(plan.seed);
+    object["approaches"] = plan.approaches;
+    object["bidirectional"] = plan.bidirectional;
+    object["overrun_mm"] = plan.overrun.in(mm);
+    object["near_tolerance_mm"] = plan.near_tolerance.in(mm);
+    object["datum_mm"] = plan.datum.in(mm);
+    return object;
+}
+
+Json setup_of(const RunRecord& run) {
+    Json object;
+    object["laser"]["instrument"] = stated(run.laser.instrument);
+    object["laser"]["vacuum_wavelength_nm"] = run.laser.vacuum_wavelength.in(nm);
+    object["laser"]["optical_fold"] = run.laser.optical_fold;
+    object["laser"]["sign"] = run.laser.sign;
+    object["laser"]["dead_path_mm"] = run.laser.dead_path.in(mm);
+    object["laser"]["beam_walk_mm"] = run.laser.beam_walk.in(mm);
+    object["laser"]["beam_walk_travel_mm"] = run.laser.beam_walk_travel.in(mm);
+    object["material"]["expansion_per_K"] = run.material.coefficient.si();
+    object["material"]["standard_uncertainty_per_K"] =
+        run.material.standard_uncertainty ? Json{run.material.standard_uncertainty->si()} : Json{};
+    object["material"]["feedback"] = stated(run.material.feedback);
+    object["material"]["form"] = name_of(run.material.form);
+    object["air"]["formula"] = name_of(run.air.formula);
+    object["air"]["co2_ppm"] = run.air.co2_ppm;
+    object["air"]["oldest_s"] = seconds_of(run.air.oldest);
+    return object;
+}
+
+Json instruments_of(const RunRecord& run) {
+    Json list = Json::array();
+    for (const InstrumentRecord& instrument : run.instruments) {
+        Json object;
+        object["name"] = instrument.name;
+        object["driver"] = stated(instrument.driver);
+        object["maker"] = stated(instrument.maker);
+        object["model"] = stated(instrument.model);
+        object["serial"] = stated(instrument.serial);
+        object["firmware"] = stated(instrument.firmware);
+        object["certificate_number"] = stated(instrument.certificate_number);
+        object["calibrated_on"] = stated(instrument.calibrated_on);
+        object["due_on"] = stated(instrument.due_on);
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+Json datums_of(const RunRecord& run) {
+    Json list = Json::array();
+    for (const DatumRecord& datum : run.datums) {
+        Json object;
+        object["id"] = datum.id;
+        object["coordinate_mm"] = datum.coordinate.in(mm);
+        object["reading_mm"] = datum.reading.in(mm);
+        object["spread_um"] = datum.spread.in(um);
+        object["slope_um_per_s"] = datum.slope_um_per_s;
+        object["readings"] = datum.n;
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+Json events_of(const RunRecord& run) {
+    Json list = Json::array();
+    for (const EventRecord& event : run.events) {
+        Json object;
+        object["kind"] = name_of(event.kind);
+        object["time"] = iso8601_utc(event.utc_ns ? event.utc_ns : run.opened.utc_ns_at(event.at));
+        object["text"] = stated(event.text);
+        if (event.fault != Fault::none) object["fault"] = fault_name(event.fault);
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+Json run_of(const Certificate& certificate) {
+    const RunRecord& run = certificate.run;
+    Json object;
+    object["id"] = stated(run.run_id);
+    object["station"] = stated(run.station);
+    object["started"] = stated(certificate.started_utc);
+    object["finished"] = stated(certificate.finished_utc);
+    object["issued_on"] = stated(certificate.issued_on);
+    object["next_calibration_due"] = stated(certificate.next_due);
+    object["software_version"] = stated(run.software_version);
+    object["run_file_sha256"] = stated(certificate.run_file_sha256);
+    object["config_sha256"] = stated(run.config_hash);
+    object["result_digest"] = stated(certificate.result_digest);
+    object["statements"] = statements_of(certificate);
+    object["plan"] = plan_of(certificate);
+    object.update(setup_of(run));
+    object["instruments"] = instruments_of(run);
+    object["datums"] = datums_of(run);
+    object["deviations"]["sign"] = "actual minus target";
+    object["deviations"]["forward"] = certificate.deviations.forward();
+    if (!certificate.deviations.backward().empty())
+        object["deviations"]["backward"] = certificate.deviations.backward();
+    object["events"] = events_of(run);
+    object["remarks"] = certificate.remarks;
+    return object;
+}
+
+Json environment_of(const Certificate& certificate) {
+    Json list = Json::array();
+    for (const EnvironmentSummary& summary : certificate.environment) {
+        Json object;
+        object["channel"] = summary.channel;
+        object["place"] = stated(summary.place);
+        object["quantity"] = name_of(summary.kind);
+        object["medium"] = name_of(summary.medium);
+        object["unit"] = stored_unit_of(summary.kind);
+        for (const ChannelRecord& channel : certificate.run.channels)
+            if (channel.name == summary.channel && channel.kind == summary.kind)
+                object["correction"] = channel.correction;
+        object["readings"] = summary.readings;
+        const bool read = summary.readings > 0;
+        object["first"] = read ? Json{summary.first} : Json{};
+        object["last"] = read ? Json{summary.last} : Json{};
+        object["minimum"] = read ? Json{summary.minimum} : Json{};
+        object["maximum"] = read ? Json{summary.maximum} : Json{};
+        list.push_back(std::move(object));
+    }
+    return Json{{"channels", std::move(list)}};
+}
+
+Json compensation_of(const Certificate& certificate) {
+    const CompensationSummary& done = certificate.compensation;
+    const std::string& provenance = certificate.result.provenance;
+    Json object;
+    object["state"] = provenance.substr(0, provenance.find(':'));
+    object["reference_temperature_degC"] = reference_temperature.in_celsius();
+    object["air_formula"] = done.air_formula;
+    object["vacuum_wavelength_nm"] = done.vacuum_wavelength_nm;
+    object["refractive_index_minus_1_first"] = done.refractive_index_minus_1_first;
+    object["refractive_index_minus_1_last"] = done.refractive_index_minus_1_last;
+    object["expansion_form"] = done.expansion_form;
+    object["expansion_per_K"] = done.expansion_per_K;
+    object["expansion_standard_uncertainty_per_K"] =
+        stated(done.expansion_standard_uncertainty_per_K);
+    object["material_first_degC"] = done.material_first_degC;
+    object["material_last_degC"] = done.material_last_degC;
+    object["dead_path_mm"] = done.dead_path_mm;
+    object["cosine_factor"] = done.cosine_factor;
+    object["largest_air_correction"] = done.largest_air_correction;
+    object["largest_material_correction"] = done.largest_material_correction;
+    object["before"] = done.before;
+    object["after"] = done.after;
+    object["remarks"] = done.remarks;
+    return object;
+}
+
+} // namespace
+
+Json certificate_to_json(const Certificate& certificate) {
+    Json document = result_to_json(certificate.result);
+    document["compensation"] = compensation_of(certificate);
+    document["preliminary"] = certificate.preliminary;
+    if (certificate.preliminary)
+        for (const auto& [key, value] : document["parameters"].items())
+            document["expanded_uncertainty"][key] = "not evaluated";
+    document["run"] = run_of(certificate);
+    document["environment"] = environment_of(certificate);
+    return document;
+}
+
+std::string certificate_json_text(const Certificate& certificate) {
+    constexpr int indent = 1;
+    return certificate_to_json(certificate)
+               .dump(indent, ' ', false, Json::error_handler_t::replace) +
+           "\n";
+}
+
+} // namespace axiscal

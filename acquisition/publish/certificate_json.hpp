@@ -1,0 +1,27 @@
+#pragma once
+// certificate.json: the result document with where it came from. Pure.
+
+#include "analysis/certificate.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace axiscal {
+
+/// The document of result_to_json() with
+/// - "compensation" replaced by an object (formulas, coefficients, largest corrections; deviations
+///   before and after in plan order, in `unit`),
+/// - "environment": every channel with place, correction and first, last, least, greatest,
+/// - "run": who, what, when; plan, laser, material, air, instruments, datums, deviations, events,
+///   remarks, software version, SHA-256 of the run file and digest of the result,
+/// - "preliminary" and, for each parameter, "expanded_uncertainty": "not evaluated" while there is
+///   no uncertainty budget. `parameters` and `positions` are those of the result, unchanged.
+/// What a person left empty is null. Lengths are in mm unless the key says otherwise. Every double
+/// survives dump() and parse() exactly.
+nlohmann::ordered_json certificate_to_json(const Certificate& certificate);
+
+/// The text of certificate.json: indented, one line feed at the end, always valid UTF-8.
+std::string certificate_json_text(const Certificate& certificate);
+
+} // namespace axiscal
