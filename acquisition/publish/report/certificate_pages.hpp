@@ -1,0 +1,26 @@
+#pragma once
+// The pages of a linear positioning certificate, in the order in which they are bound.
+
+#include "acquisition/publish/report/sheet.hpp"
+#include "acquisition/publish/report/wording.hpp"
+
+namespace axiscal {
+
+/// Page 1: who, what, with what, the parameters, the deviation plot, the signatures.
+/// @returns stated fields that did not fit and must be printed in full by the condition pages.
+std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certificate);
+
+/// Per target: means, s, B_i, R_i; then every single deviation. As many pages as it takes.
+void draw_target_pages(Sheet& sheet, const Certificate& certificate);
+
+/// Environment, compensation to 20 °C, cycle, sensor places, remarks and events.
+/// @param shortened  what the front page could not print in full.
+void draw_condition_pages(Sheet& sheet,
+                          const Certificate& certificate,
+                          const std::vector<StatedField>& shortened);
+
+/// Columns and rows of the instrument table. Pure.
+std::vector<TableColumn> instrument_columns();
+TableRow instrument_row(const InstrumentRecord& instrument);
+
+} // namespace axiscal

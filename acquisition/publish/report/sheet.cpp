@@ -1,0 +1,67 @@
+#include "acquisition/publish/report/sheet.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+
+Sheet::Sheet(PdfDocument& document, PageFrame frame, int total_pages)
+    : document_{document}
+    , frame_{std::move(frame)}
+    , total_pages_{total_pages} {
+    begin_page();
+}
+
+void Sheet::begin_page() {
+    const std::string page =
+        "page " + std::to_string(document_.pages() + 1) + " of " + std::to_string(total_pages_);
+    const TextStyle small{7.5, false, grey};
+    const double page_room = canvas().width_of(page, {7.5, true}) + 12;
+    canvas().text({right, top + 8}, page, {7.5, true}, Align::right);
+    canvas().paragraph({left, top}, width * 0.5, frame_.laboratory, {7.5, true}, 1);
+    canvas().paragraph({left + width * 0.52, top}, width * 0.48 - page_room,
+                       "Certificate No. " + frame_.certificate_number, {7.5}, 1);
+    canvas().paragraph({left, top + 11}, width * 0.5, frame_.subject, small, 1);
+    if (!frame_.preliminary.empty())
+        canvas().paragraph({left + width * 0.52, top + 11}, width * 0.48, frame_.preliminary,
+                           {7.5, true, backward_vermilion}, 1);
+    canvas().line({left, top + 25}, {right, top + 25}, {ink, 0.6});
+    canvas().line({left, bottom - 11}, {right, bottom - 11}, {pale, 0.6});
+    canvas().paragraph({left, bottom - 9}, width, frame_.foot, {6.5, false, grey}, 1);
+    y_ = content_top;
+}
+
+void Sheet::end_page() {
+    document_.end_page();
+}
+
+void Sheet::finish() {
+    end_page();
+}
+
+void Sheet::new_page() {
+    end_page();
+    begin_page();
+}
+
+void Sheet::require(double height) {
+    if (remaining() < height && y_ > content_top) new_page();
+}
+
+void Sheet::rule() {
+    canvas().line({left, y_}, {right, y_}, {pale, 0.6});
+    y_ += 5;
+}
+
+void Sheet::heading(std::string_view words, double with) {
+    require(with + 20);
+    y_ += y_ > content_top ? 9 : 0;
+    canvas().text({left, y_ + 10}, words, {10, true});
+    y_ += 17;
+}
+
+void Sheet::text(std::string_view words, TextStyle style) {
+    require(canvas().measure_paragraph(width, words, style).height);
+    y_ += canvas().paragraph({left, y_}, width, words, style).height + 2;
+}
+
+} // namespace axiscal

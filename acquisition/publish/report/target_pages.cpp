@@ -1,0 +1,98 @@
+#include "acquisition/publish/report/certificate_pages.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+constexpr std::size_t deviations_in_a_row = 12;
+
+void draw_statistics(Sheet& sheet, const Certificate& certificate) {
+    const PaperUnits units = paper_units_of(certificate);
+    const bool backward = !certificate.deviations.backward().empty();
+    const bool spread = certificate.result.approaches > 1;
+    const std::string& unit = units.deviation;
+    std::vector<TableColumn> columns{
+        {"i", ""}, {"Target P\u1d62", units.position}, {"mean ↑", unit}};
+    if (backward) {
+        columns.push_back({"mean ↓", unit});
+        columns.push_back({"mean", unit});
+        columns.push_back({"B\u1d62", unit});
+    }
+    if (spread)
+        for (const char* head : {"s ↑", "s ↓", "R\u1d62 ↑", "R\u1d62 ↓", "R\u1d62"})
+            if (backward || std::string_view{head}.ends_with("↑")) columns.push_back({head, unit});
+    std::vector<TableRow> rows;
+    for (const PositionRow& row : certificate.result.positions) {
+        TableRow cells{std::to_string(rows.size() + 1), units.of_position(row.target),
+                       units.of_deviation(row.mean_forward)};
+        if (backward)
+            for (const auto& value : {row.mean_backward, row.mean, row.reversal})
+                cells.push_back(units.of_deviation(value));
+        if (spread && backward)
+            for (const auto& value : {row.s_forward, row.s_backward, row.repeatability_forward,
+                                      row.repeatability_backward, row.repeatability})
+                cells.push_back(units.of_deviation(value));
+        if (spread && !backward)
+            for (const auto& value : {row.s_forward, row.repeatability_forward})
+                cells.push_back(units.of_deviation(value));
+        rows.push_back(std::move(cells));
+    }
+    sheet.heading("Result per target");
+    sheet.table(columns, rows);
+}
+
+/// One column of the table of single deviations.
+struct ApproachColumn {
+    const std::vector<std::vector<double>>* rows;
+    std::size_t approach;
+    std::string head;
+};
+
+void append_approaches(std::vector<ApproachColumn>& columns,
+                       const std::vector<std::vector<double>>& rows,
+                       const char* arrow) {
+    if (rows.empty()) return;
+    for (std::size_t j = 0; j < rows.front().size(); ++j)
+        columns.push_back({&rows, j, arrow + std::string{" "} + std::to_string(j + 1)});
+}
+
+void draw_block(Sheet& sheet,
+                const std::vector<ApproachColumn>& approaches,
+                std::size_t first,
+                std::size_t last,
+                const Certificate& certificate) {
+    const PaperUnits units = paper_units_of(certificate);
+    std::vector<TableColumn> columns{{"i", ""}, {"Target P\u1d62", units.position}};
+    for (std::size_t c = first; c < last; ++c)
+        columns.push_back({approaches[c].head, units.deviation});
+    const auto& targets = certificate.deviations.targets();
+    std::vector<TableRow> rows;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        TableRow cells{std::to_string(i + 1), units.of_position(targets[i])};
+        for (std::size_t c = first; c < last; ++c)
+            cells.push_back(units.of_deviation((*approaches[c].rows)[i][approaches[c].approach]));
+        rows.push_back(std::move(cells));
+    }
+    sheet.table(columns, rows);
+}
+
+} // namespace
+
+void draw_target_pages(Sheet& sheet, const Certificate& certificate) {
+    sheet.new_page();
+    draw_statistics(sheet, certificate);
+    sheet.text("mean = (mean ↑ + mean ↓) / 2;  B\u1d62 = mean ↑ − mean ↓;  s: standard deviation "
+               "of the n approaches (n − 1);  R\u1d62 ↑ = 2k s ↑;  R\u1d62 = largest of k s ↑ + "
+               "k s ↓ + |B\u1d62|, R\u1d62 ↑ and R\u1d62 ↓.",
+               {7, false, grey});
+    sheet.heading("Every deviation x\u1d62\u2c7c (target i, approach j)");
+    std::vector<ApproachColumn> approaches;
+    append_approaches(approaches, certificate.deviations.forward(), "↑");
+    append_approaches(approaches, certificate.deviations.backward(), "↓");
+    for (std::size_t first = 0; first < approaches.size(); first += deviations_in_a_row)
+        draw_block(sheet, approaches, first,
+                   std::min(first + deviations_in_a_row, approaches.size()), certificate);
+}
+
+} // namespace axiscal

@@ -1,0 +1,147 @@
+#include "acquisition/publish/report/wording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <map>
+
+namespace axiscal {
+namespace {
+
+/// Largest minus smallest deviation; 0 without data.
+double span_of(const RunAt20C& run) {
+    double low = 0, high = 0;
+    bool any = false;
+    for (const auto* table : {&run.forward(), &run.backward()})
+        for (const auto& row : *table)
+            for (const double value : row) {
+                low = any ? std::min(low, value) : value;
+                high = any ? std::max(high, value) : value;
+                any = true;
+            }
+    return high - low;
+}
+
+int decimals_for(const std::vector<double>& positions) {
+    constexpr int fewest = 3, most = 6;
+    const auto exact_with = [&](int decimals) {
+        const double scale = std::pow(10.0, decimals);
+        return std::ranges::all_of(positions, [&](double position) {
+            return std::abs(position * scale - std::round(position * scale)) < 1e-3;
+        });
+    };
+    int decimals = fewest;
+    while (decimals < most && !exact_with(decimals))
+        ++decimals;
+    return decimals;
+}
+
+} // namespace
+
+std::string fixed(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value));
+    const std::string digits{text};
+    const bool negative = value < 0 && digits.find_first_of("123456789") != std::string::npos;
+    return (negative ? "\u2212" : "") + digits;
+}
+
+std::string stated(const std::string& text) {
+    const bool empty = text.find_first_not_of(" \t\r\n") == std::string::npos;
+    return empty ? "not stated" : text;
+}
+
+std::string readable_instant(const std::string& iso8601) {
+    const bool instant = iso8601.size() == 20 && iso8601[10] == 'T' && iso8601.back() == 'Z';
+    if (!instant) return stated(iso8601);
+    return iso8601.substr(0, 10) + " " + iso8601.substr(11, 8) + " UTC";
+}
+
+std::string PaperUnits::of_deviation(double in_result_unit) const {
+    return fixed(in_result_unit * deviation_factor, deviation_decimals);
+}
+std::string PaperUnits::of_deviation(const std::optional<double>& in_result_unit) const {
+    return in_result_unit ? of_deviation(*in_result_unit) : "–";
+}
+std::string PaperUnits::of_position(double in_result_unit) const {
+    return fixed(in_result_unit, position_decimals);
+}
+
+PaperUnits paper_units_of(const Certificate& certificate) {
+    PaperUnits units;
+    if (certificate.run.plan.axis_kind == AxisKind::rotary) {
+        units.position = "°";
+        units.deviation = "″";
+        units.deviation_factor = 3600;
+    }
+    const double span = span_of(certificate.deviations) * units.deviation_factor;
+    units.deviation_decimals = span < 2 ? 2 : 1;
+    units.position_decimals = decimals_for(certificate.deviations.targets());
+    return units;
+}
+
+std::vector<ParameterLine> parameters_of_both_directions(const PositioningParameters& p) {
+    return {{"A", "A", "Accuracy, both directions", p.A},
+            {"E", "E", "Systematic error, both directions", p.E},
+            {"M", "M", "Range of the mean error", p.M},
+            {"R", "R", "Repeatability, both directions", p.R},
+            {"B", "B", "Largest reversal", p.B},
+            {"B_mean", "B\u0304", "Mean reversal, signed", p.B_mean}};
+}
+
+std::vector<ParameterLine> parameters_of_one_direction(const PositioningParameters& p) {
+    return {{"A_forward", "A↑", "Accuracy, forward", p.A_forward},
+            {"A_backward", "A↓", "Accuracy, backward", p.A_backward},
+            {"E_forward", "E↑", "Systematic error, forward", p.E_forward},
+            {"E_backward", "E↓", "Systematic error, backward", p.E_backward},
+            {"R_forward", "R↑", "Repeatability, forward", p.R_forward},
+            {"R_backward", "R↓", "Repeatability, backward", p.R_backward}};
+}
+
+std::vector<std::string> reasons_not_evaluated(const PositioningResult& result) {
+    std::vector<ParameterLine> lines = parameters_of_both_directions(result.parameters);
+    std::ranges::copy(parameters_of_one_direction(result.parameters), std::back_inserter(lines));
+    std::vector<std::pair<std::string, std::string>> groups; // reason, symbols
+    for (const ParameterLine& line : lines) {
+        const auto reason = result.not_evaluated.find(std::string{line.key});
+        if (reason == result.not_evaluated.end()) continue;
+        const auto group =
+            std::ranges::find(groups, reason->second, &std::pair<std::string, std::string>::first);
+        if (group == groups.end())
+            groups.emplace_back(reason->second, line.symbol);
+        else
+            group->second += ", " + std::string{line.symbol};
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [reason, symbols] : groups)
+        sentences.push_back("Not evaluated: " + symbols + ": " + reason);
+    return sentences;
+}
+
+ChannelPaper paper_of(ChannelKind kind, Medium medium) {
+    switch (kind) {
+    case ChannelKind::temperature:
+        return {medium == Medium::material ? "Material temperature" : "Air temperature", "°C", 1, 2,
+                0.2};
+    case ChannelKind::pressure: return {"Air pressure", "hPa", 0.01, 2, 1};
+    case ChannelKind::humidity: return {"Relative humidity", "%", 1, 1, 2};
+    case ChannelKind::carbon_dioxide: return {"Carbon dioxide", "ppm", 1, 0, 50};
+    case ChannelKind::strength: return {"Beam strength", "%", 1, 0, 10};
+    case ChannelKind::displacement: return {"Displacement", "mm", 1000, 4, 0.001};
+    }
+    return {};
+}
+
+std::string air_formula_words(const std::string& name) {
+    if (name == "ciddor") return "Ciddor (1996)";
+    if (name == "edlen") return "Edlén, modified by Birch and Downs (1994)";
+    return stated(name);
+}
+
+std::string expansion_form_words(const std::string& name) {
+    if (name == "first_order") return "first order";
+    return stated(name);
+}
+
+} // namespace axiscal

@@ -1,0 +1,56 @@
+#pragma once
+// How numbers and empty fields are written on the certificate. Pure.
+
+#include "analysis/certificate.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+/// Fixed decimals, true minus U+2212, never "−0.0".
+std::string fixed(double value, int decimals);
+/// The text, or "not stated" when a person left it empty.
+std::string stated(const std::string& text);
+/// "2026-01-02T08:15:03Z" becomes "2026-01-02 08:15:03 UTC"; other texts stay as they are.
+std::string readable_instant(const std::string& iso8601);
+
+/// Units of paper: lengths in mm with deviations in µm, angles in ° with deviations in ″.
+struct PaperUnits {
+    std::string position = "mm", deviation = "µm";
+    double deviation_factor = 1000; ///< result unit to deviation unit
+    int deviation_decimals = 1;     ///< 2 where the whole span is below 2 deviation units
+    int position_decimals = 3;      ///< as many as the targets need, 3 to 6
+
+    [[nodiscard]] std::string of_deviation(double in_result_unit) const;
+    [[nodiscard]] std::string of_deviation(const std::optional<double>& in_result_unit) const;
+    [[nodiscard]] std::string of_position(double in_result_unit) const;
+};
+PaperUnits paper_units_of(const Certificate& certificate);
+
+/// One line of the parameter table. `key` is the contract's name.
+struct ParameterLine {
+    std::string_view key, symbol, words;
+    std::optional<double> value; ///< result unit
+};
+/// In the order in which they print: both directions first, then one way.
+std::vector<ParameterLine> parameters_of_both_directions(const PositioningParameters& parameters);
+std::vector<ParameterLine> parameters_of_one_direction(const PositioningParameters& parameters);
+
+/// "A, A↑: reason" for each reason of `not_evaluated`, symbols in printing order.
+std::vector<std::string> reasons_not_evaluated(const PositioningResult& result);
+
+/// Paper name, unit and decimals of an environment channel: Pa prints as hPa.
+struct ChannelPaper {
+    std::string quantity, unit;
+    double factor = 1;
+    int decimals = 1;
+    double least_span = 1; ///< the plot never magnifies beyond this span, paper unit
+};
+ChannelPaper paper_of(ChannelKind kind, Medium medium);
+
+std::string air_formula_words(const std::string& name);
+std::string expansion_form_words(const std::string& name);
+
+} // namespace axiscal

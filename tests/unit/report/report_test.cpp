@@ -1,0 +1,256 @@
+#include "acquisition/publish/report/report.hpp"
+#include "acquisition/publish/report/wording.hpp"
+#include "pdf_tools.hpp"
+#include "synthetic_certificate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::ScratchFolder;
+
+constexpr int least_margin = 28; // points; the narrowest a copier and a hole punch leave
+
+int count(const std::string& text, const std::string& words) {
+    int found = 0;
+    for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
+        ++found;
+    return found;
+}
+
+RunRecord run_without_words() {
+    RunRecord run = test::synthetic_run();
+    run.statements = {};
+    run.material.feedback.clear();
+    for (ChannelRecord& channel : run.channels)
+        channel.place.clear();
+    for (InstrumentRecord& instrument : run.instruments)
+        instrument = {instrument.name, "", "", "", "", "", "", "", ""};
+    return run;
+}
+
+/// 101 targets, 8 instruments, 8 material sensors and texts as long as people write them.
+RunRecord run_that_overflows() {
+    RunRecord run = test::synthetic_run();
+    const std::string tale = "a long text that somebody typed into the station file because it "
+                             "could be done, with every detail of the name and the address";
+    run.statements.machine = run.statements.customer = run.statements.laboratory =
+        run.statements.offsets = run.statements.state = run.statements.operator_name = tale;
+    run.statements.certificate_number = std::string(90, '7');
+    for (int i = 0; i < 5; ++i) {
+        run.instruments.push_back(run.instruments[1]);
+        run.instruments.back().model = tale;
+        run.instruments.back().serial = std::string(40, '8');
+    }
+    run.plan.targets.clear();
+    run.plan.points.clear();
+    run.points.clear();
+    for (int i = 0; i < 101; ++i)
+        run.plan.targets.push_back(mm(i * 10 + 0.137 * (i % 7)));
+    for (const Direction direction : {Direction::positive, Direction::negative})
+        for (int approach = 0; approach < 5; ++approach)
+            for (int i = 0; i < 101; ++i)
+                run.plan.points.push_back(
+                    {static_cast<int>(run.plan.points.size()), i, direction, approach});
+    run.environment.clear();
+    for (int i = 6; i < 12; ++i)
+        run.channels.push_back(
+            {i, "column " + tale, "mat", tale, ChannelKind::temperature, Medium::material, 0.02});
+    const test::Truth truth = test::synthetic_truth(3);
+    for (double s = 0; s < 21000; s += 60)
+        for (const ChannelRecord& channel : run.channels)
+            run.environment.push_back({channel.id, test::at_seconds(s),
+                                       channel.kind == ChannelKind::pressure ? truth.pressure_Pa(s)
+                                       : channel.kind == ChannelKind::humidity
+                                           ? truth.humidity_percent(s)
+                                           : truth.material_C(s)});
+    test::add_points(run, truth);
+    for (int i = 0; i < 60; ++i)
+        run.events.push_back(
+            {EventKind::refused, test::at_seconds(100 + i * 30), 0, tale, Fault::not_still, 0});
+    return run;
+}
+
+/// As many approaches as wanted, one direction or both.
+RunRecord run_of(int approaches, bool bidirectional) {
+    RunRecord run = test::synthetic_run();
+    run.plan.approaches = approaches;
+    run.plan.bidirectional = bidirectional;
+    run.plan.points.clear();
+    for (int approach = 0; approach < approaches; ++approach)
+        for (const Direction direction : {Direction::positive, Direction::negative})
+            for (int i = 0; i < static_cast<int>(run.plan.targets.size()); ++i)
+                if (bidirectional || direction == Direction::positive)
+                    run.plan.points.push_back(
+                        {static_cast<int>(run.plan.points.size()), i, direction, approach});
+    for (double s = 2330; s < 9000; s += 30) // the longer plans outlast the readings
+        for (const ChannelRecord& channel : run.channels) {
+            const auto last = std::ranges::find_if(run.environment, [&](const auto& reading) {
+                return reading.channel == channel.id;
+            });
+            run.environment.push_back({channel.id, test::at_seconds(s), last->value});
+        }
+    run.points.clear();
+    test::add_points(run, test::synthetic_truth(1));
+    return run;
+}
+
+class Report : public ::testing::Test {
+protected:
+    /// Path of the rendered file.
+    std::string render(RunRecord run) {
+        const auto pdf = render_certificate_pdf(test::certificate_of(std::move(run)));
+        EXPECT_TRUE(pdf.has_value()) << (pdf ? "" : describe(pdf.error()));
+        return test::write_pdf(folder_, pdf.value_or(""));
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(Report, HoldsEverySymbolAndItsValue) {
+    const Certificate certificate = test::certificate_of(test::synthetic_run());
+    const std::string text = test::text_of(render(test::synthetic_run()));
+    const PositioningParameters& p = certificate.result.parameters;
+    for (const auto& lines : {parameters_of_both_directions(p), parameters_of_one_direction(p)})
+        for (const ParameterLine& line : lines) {
+            EXPECT_THAT(text, HasSubstr(line.symbol));
+            EXPECT_THAT(text, HasSubstr(fixed(*line.value * 1000, 1))) << line.symbol;
+        }
+    EXPECT_EQ(count(text, "U not evaluated"), 12);
+    for (const char* words :
+         {"B\u0304 = mean forward minus mean backward", "actual − target", "ISO 230-2:2014",
+          "20 °C", "Ciddor", "QP-17", "L-0042", "C-2025-118", "2026-09-30", "0815-4711",
+          "30 min of full strokes", "Z 250 mm", "seed 4711", "2027-01-01", "State: as found"})
+        EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_THAT(text, HasSubstr(certificate.run_file_sha256));
+    EXPECT_THAT(text, HasSubstr("version 0.1.0"));
+}
+
+TEST_F(Report, NumbersPagesAndMarksEachPreliminary) {
+    const std::string pdf = render(test::synthetic_run());
+    const int pages = test::pages_of(pdf);
+    EXPECT_EQ(pages, 4);
+    const std::string text = test::text_of(pdf);
+    for (int page = 1; page <= pages; ++page)
+        EXPECT_EQ(count(text, "page " + std::to_string(page) + " of " + std::to_string(pages)), 1);
+    EXPECT_EQ(count(text, "PRELIMINARY"), pages);
+}
+
+TEST_F(Report, PrintsNotStatedForEveryEmptyField) {
+    const std::string text = test::text_of(render(run_without_words()));
+    for (const char* key :
+         {"Customer", "Place", "Machine", "Maker", "Serial number", "Axis", "Certificate number",
+          "Procedure", "Control compensation", "Operator", "Approver", "Feed", "Dwell", "Warm-up",
+          "Offsets of the measuring line", "Positions of idle axes", "Note on the sensors",
+          "Feedback of the axis"}) {
+        const auto at = text.find(std::string{key} + " ");
+        ASSERT_NE(at, std::string::npos) << key;
+        EXPECT_THAT(text.substr(at, 60), HasSubstr("not stated")) << key;
+    }
+    EXPECT_THAT(text, HasSubstr("State: not stated"));
+    EXPECT_THAT(text, HasSubstr("Laboratory not stated"));
+    const auto instruments = text.substr(text.find("Calibrated"), 400);
+    EXPECT_GE(count(instruments, "not stated"), 10) << "serial, certificate and due date of each";
+    EXPECT_GE(count(text.substr(text.find("Place of the sensor")), "not stated"), 5);
+}
+
+TEST_F(Report, EmbedsDejaVuSansAndNothingElse) {
+    std::istringstream fonts{test::output_of("pdffonts '" + render(run_that_overflows()) + "'")};
+    std::string line;
+    std::getline(fonts, line); // head
+    std::getline(fonts, line); // rule
+    int found = 0;
+    while (std::getline(fonts, line)) {
+        ++found;
+        EXPECT_THAT(line, HasSubstr("+DejaVuSans")) << "subset";
+        EXPECT_THAT(line, Not(HasSubstr("Type 3")));
+        EXPECT_THAT(line, HasSubstr(" yes yes yes ")) << "embedded, subset, text can be copied";
+    }
+    EXPECT_GE(found, 2);
+}
+
+TEST_F(Report, GivesEqualBytesForEqualRuns) {
+    const auto once = render_certificate_pdf(test::certificate_of(test::synthetic_run()));
+    const auto again = render_certificate_pdf(test::certificate_of(test::synthetic_run()));
+    const auto other = render_certificate_pdf(test::certificate_of(test::synthetic_run(2)));
+    ASSERT_TRUE(once && again && other);
+    EXPECT_TRUE(*once == *again);
+    EXPECT_FALSE(*once == *other) << "the test must be able to fail";
+    EXPECT_THAT(*once, HasSubstr("(20260101010000Z)")) << "the end of the run, not the clock";
+}
+
+TEST_F(Report, KeepsInkInsideTheMargins) {
+    for (const RunRecord& run : {test::synthetic_run(), run_without_words(), run_that_overflows(),
+                                 run_of(1, false), run_of(1, true)}) {
+        const std::string pdf = render(run);
+        for (int page = 1; page <= test::pages_of(pdf); ++page) {
+            const test::PageImage image = test::image_of(pdf, page);
+            EXPECT_GT(image.ink(), 500) << "page " << page;
+            EXPECT_EQ(image.ink_outside(least_margin), 0) << "page " << page;
+        }
+    }
+}
+
+TEST_F(Report, NeverPrintsOneWordOverAnother) {
+    for (const RunRecord& run : {test::synthetic_run(), run_without_words(), run_that_overflows(),
+                                 run_of(1, false), run_of(9, true)}) {
+        const auto words = test::words_of(render(run));
+        EXPECT_GT(words.size(), 300u);
+        EXPECT_THAT(test::collisions_in(words), IsEmpty());
+    }
+}
+
+TEST_F(Report, CollisionSearchSeesPlantedOverlap) {
+    EXPECT_THAT(test::collisions_in({{1, 10, 10, 40, 20, "a"}, {1, 30, 12, 60, 22, "b"}}),
+                Not(IsEmpty()));
+    EXPECT_THAT(test::collisions_in({{1, 10, 10, 40, 20, "a"}, {2, 30, 12, 60, 22, "b"}}),
+                IsEmpty());
+}
+
+TEST_F(Report, PrintsLongTextsInFullAndEveryTarget) {
+    const std::string text = test::text_of(render(run_that_overflows()));
+    EXPECT_THAT(text, HasSubstr("Machine in full"));
+    EXPECT_THAT(text, HasSubstr("3 more instruments"));
+    EXPECT_THAT(text, HasSubstr("1000.274"));
+    EXPECT_THAT(text, HasSubstr("20 more events"));
+}
+
+TEST_F(Report, ReducesTheListOfASingleApproach) {
+    const std::string text = test::text_of(render(run_of(1, true)));
+    EXPECT_EQ(count(text, "U not evaluated"), 6) << "E, M, B, B̄, E↑, E↓";
+    EXPECT_THAT(text, HasSubstr("Not evaluated: A, R, A↑, A↓, R↑, R↓: one approach"));
+    EXPECT_THAT(text, Not(HasSubstr("±2s"))) << "no band without a spread";
+}
+
+TEST_F(Report, ReducesTheListOfOneDirection) {
+    const std::string text = test::text_of(render(run_of(5, false)));
+    EXPECT_EQ(count(text, "U not evaluated"), 3) << "A↑, E↑, R↑";
+    EXPECT_THAT(text, HasSubstr("Not evaluated: A, E, M, R, B, B\u0304"));
+    EXPECT_THAT(text, HasSubstr("5 approaches in the forward direction"));
+    EXPECT_THAT(text, Not(HasSubstr("backward ↓: mean")));
+}
+
+TEST_F(Report, RefusesTextThatTheFontCannotPrint) {
+    RunRecord run = test::synthetic_run();
+    run.statements.customer = "\u4e0a\u6d77 customer";
+    const auto pdf = render_certificate_pdf(test::certificate_of(run));
+    ASSERT_FALSE(pdf.has_value());
+    EXPECT_EQ(pdf.error().fault, Fault::refused);
+    EXPECT_THAT(pdf.error().detail, HasSubstr("customer"));
+}
+
+TEST_F(Report, SurvivesControlCharactersAndBrokenUtf8) {
+    RunRecord run = test::synthetic_run();
+    run.statements.customer = "line\nbreak\x01 and \xff broken";
+    run.statements.machine = "Мехмаш ЧПУ №5, Größe ±½";
+    const std::string text = test::text_of(render(run));
+    EXPECT_THAT(text, HasSubstr("line break"));
+    EXPECT_THAT(text, HasSubstr("Мехмаш ЧПУ №5, Größe ±½"));
+}
+
+} // namespace
+} // namespace axiscal

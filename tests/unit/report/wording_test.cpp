@@ -1,0 +1,64 @@
+#include "acquisition/publish/report/plots.hpp"
+#include "acquisition/publish/report/wording.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+TEST(Wording, WritesATrueMinusAndNeverMinusZero) {
+    EXPECT_EQ(fixed(-3.26, 1), "\u22123.3");
+    EXPECT_EQ(fixed(-0.04, 1), "0.0");
+    EXPECT_EQ(fixed(-0.0, 2), "0.00");
+    EXPECT_EQ(fixed(12, 3), "12.000");
+}
+
+TEST(Wording, TellsWhatNobodyStated) {
+    EXPECT_EQ(stated(""), "not stated");
+    EXPECT_EQ(stated(" \t"), "not stated");
+    EXPECT_EQ(stated("Hall 3"), "Hall 3");
+}
+
+TEST(Wording, WritesInstantsForPeople) {
+    EXPECT_EQ(readable_instant("2026-01-02T08:15:03Z"), "2026-01-02 08:15:03 UTC");
+    EXPECT_EQ(readable_instant("2026-01-02"), "2026-01-02");
+    EXPECT_EQ(readable_instant(""), "not stated");
+}
+
+TEST(Wording, GathersParametersOfOneReason) {
+    PositioningResult result;
+    result.not_evaluated = {{"R", "too few"}, {"A", "too few"}, {"B", "one way"}};
+    EXPECT_EQ(
+        reasons_not_evaluated(result),
+        (std::vector<std::string>{"Not evaluated: A, R: too few", "Not evaluated: B: one way"}));
+}
+
+TEST(Ticks, EncloseTheDataByRoundSteps) {
+    const Ticks ticks = ticks_around(-1.3, 9.2, 6);
+    EXPECT_DOUBLE_EQ(ticks.step, 2);
+    EXPECT_DOUBLE_EQ(ticks.first, -2);
+    EXPECT_DOUBLE_EQ(ticks.last, 10);
+    EXPECT_EQ(ticks.decimals, 0);
+    EXPECT_EQ(ticks.all().size(), 7u);
+}
+
+TEST(Ticks, DoNotMagnifyNoise) {
+    const Ticks ticks = ticks_around(20.001, 20.002, 4, 0.2);
+    EXPECT_LE(ticks.first, 19.91);
+    EXPECT_GE(ticks.last, 20.10);
+    EXPECT_EQ(ticks.decimals, 2);
+}
+
+TEST(Ticks, StayInsideAnAxisThatEndsWithItsData) {
+    const Ticks ticks = ticks_within(-12, 1012, 10);
+    EXPECT_DOUBLE_EQ(ticks.first, 0);
+    EXPECT_DOUBLE_EQ(ticks.last, 1000);
+}
+
+TEST(Ticks, SurviveASinglePoint) {
+    EXPECT_GT(ticks_around(5, 5, 6).last, 5);
+    EXPECT_GE(ticks_within(5, 5, 6).all().size(), 1u);
+}
+
+} // namespace
+} // namespace axiscal
