@@ -136,8 +136,12 @@ void CncLines::written() {
 
 void CncLines::connected() {
     const std::lock_guard lock{mutex_};
-    if (standing_coil_) queue_.push_front(*standing_coil_);
-    if (standing_) queue_.push_front(*standing_);
+    if (!queue_.empty() && queue_.front().restored) return; // of a connection that died at once
+    for (const auto& last : {standing_coil_, standing_}) {
+        if (!last) continue;
+        queue_.push_front(*last);
+        queue_.front().restored = true;
+    }
 }
 
 void CncLines::answered(const CncAnswer& answer) {

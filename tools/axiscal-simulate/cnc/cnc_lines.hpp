@@ -19,6 +19,7 @@ struct CncWrite {
     std::array<std::uint16_t, 9> words{};
     bool is_coil = false, coil = false;
     double not_before_s = 0;
+    bool restored = false; ///< written again after a new connection
 };
 
 /// What the other side answered last.
