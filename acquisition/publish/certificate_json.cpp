@@ -7,13 +7,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Empty means that nobody said it.
+/// Empty means that nobody said it. Json(x), not Json{x}: braces make an array of one.
 Json stated(const std::string& text) {
-    return text.empty() ? Json{} : Json{text};
+    return text.empty() ? Json{} : Json(text);
 }
 
 template <class T> Json stated(const std::optional<T>& value) {
-    return value ? Json{*value} : Json{};
+    return value ? Json(*value) : Json{};
 }
 
 Json statements_of(const Certificate& certificate) {
@@ -71,7 +71,7 @@ Json setup_of(const RunRecord& run) {
     object["laser"]["beam_walk_travel_mm"] = run.laser.beam_walk_travel.in(mm);
     object["material"]["expansion_per_K"] = run.material.coefficient.si();
     object["material"]["standard_uncertainty_per_K"] =
-        run.material.standard_uncertainty ? Json{run.material.standard_uncertainty->si()} : Json{};
+        run.material.standard_uncertainty ? Json(run.material.standard_uncertainty->si()) : Json{};
     object["material"]["feedback"] = stated(run.material.feedback);
     object["material"]["form"] = name_of(run.material.form);
     object["air"]["formula"] = name_of(run.air.formula);
@@ -167,13 +167,15 @@ Json environment_of(const Certificate& certificate) {
                 object["correction"] = channel.correction;
         object["readings"] = summary.readings;
         const bool read = summary.readings > 0;
-        object["first"] = read ? Json{summary.first} : Json{};
-        object["last"] = read ? Json{summary.last} : Json{};
-        object["minimum"] = read ? Json{summary.minimum} : Json{};
-        object["maximum"] = read ? Json{summary.maximum} : Json{};
+        object["first"] = read ? Json(summary.first) : Json{};
+        object["last"] = read ? Json(summary.last) : Json{};
+        object["minimum"] = read ? Json(summary.minimum) : Json{};
+        object["maximum"] = read ? Json(summary.maximum) : Json{};
         list.push_back(std::move(object));
     }
-    return Json{{"channels", std::move(list)}};
+    Json object;
+    object["channels"] = std::move(list);
+    return object;
 }
 
 Json compensation_of(const Certificate& certificate) {

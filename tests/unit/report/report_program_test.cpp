@@ -1,0 +1,89 @@
+// The program as the daemon starts it: a closed run file in, an outbox entry out.
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/run_file.hpp"
+#include "pdf_tools.hpp"
+#include "synthetic_certificate.hpp"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace axiscal {
+namespace {
+
+using testing::read_bytes;
+using testing::ScratchFolder;
+
+class ReportProgram : public ::testing::Test {
+protected:
+    std::string write_run(RunRecord run, bool complete = true) {
+        const std::string path = folder_.file(run.run_id + ".axiscal");
+        auto writer = RunFileWriter::create(path, run).value();
+        EXPECT_TRUE(writer.append_environment(run.environment));
+        for (const DatumRecord& datum : run.datums)
+            EXPECT_TRUE(writer.append_datum(datum));
+        for (const PointRecord& point : run.points)
+            EXPECT_TRUE(writer.append_point(point));
+        EXPECT_TRUE(writer.close(complete, complete ? "" : "aborted by the operator", run.closed));
+        return path;
+    }
+
+    /// Exit code; stdout and stderr are kept.
+    int start(const std::string& arguments) {
+        const std::string command = std::string{AXISCAL_REPORT_PROGRAM} + " " + arguments + " >'" +
+                                    folder_.file("out") + "' 2>'" + folder_.file("err") + "'";
+        const int status = std::system(command.c_str());
+        out_ = read_bytes(folder_.file("out"));
+        err_ = read_bytes(folder_.file("err"));
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    ScratchFolder folder_;
+    std::string out_, err_;
+};
+
+TEST_F(ReportProgram, StagesTheFourFilesAndPrintsTheirPaths) {
+    const std::string run = write_run(test::synthetic_run());
+    ASSERT_EQ(start(run + " --outbox " + folder_.file("outbox")), 0) << err_;
+    const auto line = nlohmann::json::parse(out_);
+    EXPECT_EQ(line.at("entry"), folder_.file("outbox/20260101T000000Z-X"));
+    for (const char* key : {"json", "csv", "pdf", "run_file"})
+        EXPECT_GT(std::filesystem::file_size(line.at(key).get<std::string>()), 500u) << key;
+    const std::string copy = line.at("run_file");
+    const auto document = nlohmann::json::parse(read_bytes(line.at("json")));
+    EXPECT_EQ(document.at("run").at("run_file_sha256"), sha256_of_file(copy).value());
+    EXPECT_EQ(document.at("run").at("result_digest").get<std::string>().size(), 64u);
+    const auto entries = std::filesystem::directory_iterator{folder_.file("outbox")};
+    EXPECT_EQ(std::distance(begin(entries), end(entries)), 1) << "no temporary folder is left";
+}
+
+TEST_F(ReportProgram, GivesEqualBytesEachTime) {
+    const std::string run = write_run(test::synthetic_run());
+    ASSERT_EQ(start(run + " --to " + folder_.file("a")), 0) << err_;
+    const auto a = nlohmann::json::parse(out_);
+    ASSERT_EQ(start(run + " --to " + folder_.file("b")), 0) << err_;
+    const auto b = nlohmann::json::parse(out_);
+    for (const char* key : {"json", "csv", "pdf", "run_file"})
+        EXPECT_TRUE(read_bytes(a.at(key)) == read_bytes(b.at(key))) << key;
+}
+
+TEST_F(ReportProgram, RefusesAnIncompleteRunWithASentence) {
+    RunRecord run = test::synthetic_run();
+    run.points.resize(7);
+    const std::string path = write_run(run, false);
+    EXPECT_EQ(start(path + " --outbox " + folder_.file("outbox")), 3);
+    EXPECT_EQ(out_, "");
+    EXPECT_NE(err_.find("aborted by the operator"), std::string::npos) << err_;
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("outbox/20260101T000000Z-X")));
+}
+
+TEST_F(ReportProgram, RefusesWhatIsNoRunFileAndAWrongCommandLine) {
+    testing::write_bytes(folder_.file("x.axiscal"), "not a run file");
+    EXPECT_EQ(start(folder_.file("x.axiscal") + " --to " + folder_.file("a")), 3) << err_;
+    EXPECT_EQ(start(folder_.file("x.axiscal")), 2) << "no place named";
+}
+
+} // namespace
+} // namespace axiscal
