@@ -41,7 +41,7 @@ private:
     void deliver(MapNews& news);
 
     Duration index_grace_;
-    std::uint16_t index_ = 0, done_ = 0;
+    std::uint16_t index_ = 0, done_ = never_armed;
     std::optional<std::uint16_t> delivered_; ///< index of the last edge reported
     std::optional<Edge> undecided_;
     std::optional<bool> coil_; ///< empty: not seen since the start

@@ -28,6 +28,10 @@ struct AddressSpace {
     [[nodiscard]] ModbusException check(const ModbusRequest& request) const;
 };
 
+/// What `done` shows before the first run is armed: not 0, for a program waits for 0 to know that
+/// the station is armed.
+inline constexpr std::uint16_t never_armed = 65535;
+
 inline constexpr int largest_table = 33;
 
 /// The readable content at one moment. A plain value: it may be handed to another thread.

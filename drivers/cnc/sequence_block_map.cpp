@@ -40,6 +40,7 @@ std::uint16_t permit_word(const PortStatus& status) {
 SequenceBlockMap::SequenceBlockMap(bool low_word_first, bool watch_heartbeat)
     : low_word_first_{low_word_first}
     , watch_heartbeat_{watch_heartbeat} {
+    words_[acknowledged_sequence] = never_armed;
     show(PortStatus{});
 }
 

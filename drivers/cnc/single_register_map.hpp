@@ -21,7 +21,7 @@ protected:
 
 private:
     std::optional<std::uint16_t> last_request_; ///< empty: none seen since the start
-    std::uint16_t done_ = 0;
+    std::uint16_t done_ = never_armed;
     bool armed_ = false;
 };
 
