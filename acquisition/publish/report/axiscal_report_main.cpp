@@ -5,6 +5,7 @@
 
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
+#include "acquisition/publish/run_certificate.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -18,19 +19,21 @@ constexpr int exit_ok = 0, exit_failed = 1, exit_usage = 2, exit_refused = 3;
 
 struct Options {
     std::string run_file;
-    std::string outbox; ///< or any folder: both get <run-id>/ in one rename
+    std::string outbox;
+    std::string to; ///< any folder; both get <run-id>/ in one rename
 };
 
 /// The entry appears in the outbox only with all its content.
 Result<std::string> stage(const Certificate& certificate, const Options& options) {
-    AXISCAL_TRY(const std::string temporary, begin_entry(options.outbox, certificate.run.run_id));
+    const std::string& folder = options.to.empty() ? options.outbox : options.to;
+    AXISCAL_TRY(const std::string temporary, begin_entry(folder, certificate.run.run_id));
     if (auto written = write_certificate_files(certificate, options.run_file, temporary);
         !written) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(written).error());
     }
-    return finish_entry(options.outbox, certificate.run.run_id);
+    return finish_entry(folder, certificate.run.run_id);
 }
 
 std::string paths_line(const std::string& entry, const std::string& run_file) {
@@ -53,7 +56,10 @@ bool is_refusal(Fault fault) {
 }
 
 int report(const Options& options) {
-    auto certificate = certificate_of_run_file(options.run_file);
+    // Only the station's own report is the first evaluation; an export changes nothing.
+    const Result<void> sealed = options.to.empty() ? seal_result(options.run_file) : Result<void>{};
+    auto certificate =
+        sealed ? certificate_of_run_file(options.run_file) : tl::unexpected<Error>(sealed.error());
     const auto entry =
         certificate.and_then([&](const Certificate& made) { return stage(made, options); });
     if (!entry) {
@@ -71,7 +77,7 @@ int run(int argc, char** argv) {
     app.add_option("RUN", options.run_file, "run file")->required();
     auto* places = app.add_option_group("place", "where the folder <run-id> is made");
     places->add_option("--outbox", options.outbox, "the station's outbox");
-    places->add_option("--to", options.outbox, "any folder");
+    places->add_option("--to", options.to, "any folder");
     places->require_option(1);
     app.set_version_flag("--version", AXISCAL_VERSION);
     try {

@@ -2,11 +2,9 @@
 
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/durable_file.hpp"
-#include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/certificate_csv.hpp"
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/report/report.hpp"
-#include "acquisition/publish/result_digest.hpp"
 
 #include <filesystem>
 
@@ -26,17 +24,6 @@ copy_verified(const std::string& from, const std::string& to, const std::string&
 }
 
 } // namespace
-
-Result<Certificate> certificate_of_run_file(const std::string& run_file) {
-    AXISCAL_TRY(std::string sha256, sha256_of_file(run_file));
-    AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
-    if (!contents.closed)
-        return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
-    AXISCAL_TRY(Certificate certificate,
-                make_certificate(std::move(contents.run), std::move(sha256)));
-    certificate.result_digest = result_digest(certificate.result);
-    return certificate;
-}
 
 Result<void> write_certificate_files(const Certificate& certificate,
                                      const std::string& run_file,

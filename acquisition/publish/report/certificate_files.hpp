@@ -12,11 +12,6 @@ inline constexpr const char* certificate_json_name = "certificate.json";
 inline constexpr const char* certificate_csv_name = "certificate.csv";
 inline constexpr const char* certificate_pdf_name = "certificate.pdf";
 
-/// Reads and verifies the run file and computes everything.
-/// @errors Fault::incomplete_run for an open or incomplete run; Fault::bad_run_file,
-/// Fault::not_found; what make_certificate() refuses.
-Result<Certificate> certificate_of_run_file(const std::string& run_file);
-
 /// Writes certificate.json, .csv, .pdf and a copy of the run file, whose SHA-256 must be the
 /// certificate's, into an existing folder. Each is synced; the folder is the caller's to sync.
 /// @errors Fault::io; Fault::refused when the run file changed meanwhile; render_certificate_pdf().
