@@ -37,7 +37,7 @@ Json to_json(const AxisView& axis) {
             {"still", axis.still}};
 }
 
-Json to_json(const RunView& run) {
+Json to_json(const RunStatus& run) {
     Json next = nullptr;
     if (run.next_target)
         next = {

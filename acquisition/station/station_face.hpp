@@ -33,7 +33,7 @@ struct AxisView {
     bool still = false;
 };
 
-struct RunView {
+struct RunStatus {
     std::string run_id, pass,
         state; ///< state: tying datum | armed | settling | stopped | complete | incomplete
     std::string file;
@@ -56,7 +56,7 @@ struct StationStatus {
     std::vector<InstrumentView> instruments;
     std::string trigger, trigger_note;
     bool cnc_silent = false;
-    std::optional<RunView> run; ///< the open run, or the last one since start
+    std::optional<RunStatus> run; ///< the open run, or the last one since start
     bool run_open = false;
     int outbox_entries = 0;
     std::vector<std::string> notes; ///< latest last, at most 20

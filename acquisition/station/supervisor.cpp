@@ -11,36 +11,9 @@ constexpr Duration first_pause = std::chrono::milliseconds{250};
 constexpr Duration longest_pause = std::chrono::seconds{4}; // an unplugged cable is back within 5 s
 constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports every few seconds
 
-/// The medium a channel has here: what the driver knows, or what the station file states.
-Result<Medium>
-medium_of(const Channel& channel, const ChannelConfig* stated, const InstrumentConfig& config) {
-    if (!stated || !stated->medium) return channel.medium;
-    if (channel.medium == Medium::air && *stated->medium == Medium::material)
-        return fail(Fault::wrong_medium,
-                    "instrument '" + config.name + "' (station file line " +
-                        std::to_string(config.line) + "): channel '" + channel.name +
-                        "' measures air; state medium = \"air\" or use a contact sensor");
-    return *stated->medium;
-}
-
 const ChannelConfig* find_stated(const InstrumentConfig& config, const std::string& channel) {
     const auto found = std::ranges::find(config.channels, channel, &ChannelConfig::channel);
     return found == config.channels.end() ? nullptr : &*found;
-}
-
-Result<void> check_named_channels(const InstrumentConfig& config,
-                                  const std::vector<Channel>& channels) {
-    for (const ChannelConfig& stated : config.channels) {
-        if (std::ranges::find(channels, stated.channel, &Channel::name) != channels.end()) continue;
-        std::string known;
-        for (const Channel& channel : channels)
-            known += (known.empty() ? "'" : ", '") + channel.name + "'";
-        return fail(Fault::bad_configuration,
-                    "instrument '" + config.name + "' (station file line " +
-                        std::to_string(config.line) + ") has no channel '" + stated.channel +
-                        "'; it has " + known);
-    }
-    return {};
 }
 
 } // namespace
@@ -52,6 +25,29 @@ std::string_view name_of(InstrumentState state) {
     case InstrumentState::faulty: return "faulty";
     }
     return "?";
+}
+
+std::vector<StationChannel> station_channels(const InstrumentConfig& config,
+                                             const Instrument& instrument,
+                                             int index,
+                                             int first_id) {
+    std::vector<StationChannel> channels;
+    for (const Channel& channel : instrument.channels()) {
+        StationChannel entry;
+        entry.id = first_id++;
+        entry.instrument = index;
+        entry.name = channel.name;
+        entry.instrument_name = config.name;
+        entry.kind = channel.kind;
+        entry.medium = channel.medium;
+        if (const ChannelConfig* stated = find_stated(config, channel.name)) {
+            entry.place = stated->place;
+            entry.correction = stated->correction;
+            entry.medium = stated->medium.value_or(channel.medium);
+        }
+        channels.push_back(std::move(entry));
+    }
+    return channels;
 }
 
 /// One instrument, its view and the sink through which it speaks.
@@ -97,30 +93,17 @@ Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListen
 
 Supervisor::~Supervisor() = default;
 
-Result<void> Supervisor::add(const InstrumentConfig& config,
-                             std::unique_ptr<Instrument> instrument) {
-    AXISCAL_CHECK(check_named_channels(config, instrument->channels()));
+void Supervisor::add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument) {
     auto seat = std::make_unique<Seat>(*this, std::move(instrument));
     seat->first_channel = static_cast<int>(channels_.size());
     seat->view.name = config.name;
     seat->view.driver = config.driver;
     seat->view.since = scheduler_.now();
-    for (const Channel& channel : seat->instrument->channels()) {
-        const ChannelConfig* stated = find_stated(config, channel.name);
-        AXISCAL_TRY(const Medium medium, medium_of(channel, stated, config));
-        StationChannel entry{.id = static_cast<int>(channels_.size()),
-                             .instrument = static_cast<int>(seats_.size()),
-                             .name = channel.name,
-                             .instrument_name = config.name,
-                             .place = {},
-                             .kind = channel.kind,
-                             .medium = medium,
-                             .correction = 0};
-        if (stated) entry.place = stated->place, entry.correction = stated->correction;
-        channels_.push_back(std::move(entry));
-    }
+    const int index = static_cast<int>(seats_.size());
+    for (StationChannel& channel :
+         station_channels(config, *seat->instrument, index, seat->first_channel))
+        channels_.push_back(std::move(channel));
     seats_.push_back(std::move(seat));
-    return {};
 }
 
 void Supervisor::start() {

@@ -26,6 +26,12 @@ struct StationChannel {
     double correction = 0;
 };
 
+/// The channels of one instrument as this station uses them, numbered from `first_id`.
+std::vector<StationChannel> station_channels(const InstrumentConfig& config,
+                                             const Instrument& instrument,
+                                             int index,
+                                             int first_id);
+
 struct InstrumentView {
     std::string name, driver;
     InstrumentState state = InstrumentState::unavailable;
@@ -54,9 +60,8 @@ public:
     Supervisor(const Supervisor&) = delete;
     Supervisor& operator=(const Supervisor&) = delete;
 
-    /// @errors Fault::bad_configuration when the configuration names a channel the driver lacks;
-    /// Fault::wrong_medium when it declares an air channel to be material.
-    Result<void> add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument);
+    /// The configuration was checked against the driver (make_instruments).
+    void add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument);
     /// Spawns one task an instrument; each runs until the loop stops.
     void start();
     /// Marks instruments unavailable whose last sample is older than `silence`; call it every

@@ -1,0 +1,91 @@
+#include "acquisition/station/certificate_writer.hpp"
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <filesystem>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+
+struct Child {
+    pid_t pid = -1;
+    int output = -1; ///< read end of its stdout and stderr
+};
+
+Result<Child> start(const std::vector<std::string>& words) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+        return fail(Fault::io, "no pipe for " + words.front(), {errno, std::generic_category()});
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    std::vector<char*> arguments;
+    for (const std::string& word : words)
+        arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    Child child;
+    const int failed = ::posix_spawnp(&child.pid, words.front().c_str(), &actions, nullptr,
+                                      arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    if (failed == 0) return child.output = ends[0], child;
+    ::close(ends[0]);
+    return fail(Fault::io, "cannot start " + words.front(), {failed, std::generic_category()});
+}
+
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    const auto cut = text.rfind('\n');
+    return cut == std::string::npos ? text : text.substr(cut + 1);
+}
+
+} // namespace
+
+Task<Result<std::string>> write_certificate(Scheduler& scheduler,
+                                            std::string program,
+                                            std::string run_file,
+                                            std::string outbox) {
+    const std::vector<std::string> words{program, run_file, "--outbox", outbox};
+    AXISCAL_CO_TRY(const Child child, start(words));
+    asio::posix::stream_descriptor output{scheduler.executor(), child.output};
+    std::string said;
+    // The process closes its output when it ends; it cannot wait for us, so there is no deadline to
+    // miss.
+    co_await asio::async_read(output, asio::dynamic_buffer(said),
+                              asio::as_tuple(asio::use_awaitable));
+    int status = 0;
+    while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    const std::string line = last_line(said);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        co_return fail(Fault::io, program + " failed: " + line);
+    const auto answer = nlohmann::json::parse(line, nullptr, false);
+    if (!answer.is_object() || !answer.contains("entry"))
+        co_return fail(Fault::io, program + " said nothing of its entry: " + line);
+    co_return answer["entry"].get<std::string>();
+}
+
+std::string sibling_program(const std::string& name) {
+    std::error_code error;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto beside = self.parent_path() / name;
+    return !error && std::filesystem::exists(beside, error) ? beside.string() : name;
+}
+
+} // namespace axiscal

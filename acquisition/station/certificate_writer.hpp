@@ -1,0 +1,21 @@
+#pragma once
+// Starts axiscal-report, the short-lived process that draws: the daemon links no drawing library.
+
+#include "drivers/scheduler.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// Runs `program run_file --outbox outbox` and waits for it without holding the loop.
+/// @returns the folder of the new outbox entry.
+/// @errors Fault::io with the process's own last words.
+Task<Result<std::string>> write_certificate(Scheduler& scheduler,
+                                            std::string program,
+                                            std::string run_file,
+                                            std::string outbox);
+
+/// `name` beside this executable when it lies there, else just `name` (found by PATH).
+std::string sibling_program(const std::string& name);
+
+} // namespace axiscal

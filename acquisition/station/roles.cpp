@@ -1,0 +1,77 @@
+#include "acquisition/station/roles.hpp"
+
+namespace axiscal {
+namespace {
+
+struct Wanted {
+    const char* role; ///< key of the station file
+    ChannelKind kind;
+    Medium medium;
+};
+
+std::string known_channels(const std::vector<StationChannel>& channels) {
+    std::string list;
+    for (const StationChannel& channel : channels)
+        list += (list.empty() ? "" : ", ") + channel.instrument_name + "/" + channel.name;
+    return list.empty() ? "none" : list;
+}
+
+Result<int>
+find(const RoleConfig& role, const Wanted& wanted, const std::vector<StationChannel>& channels) {
+    const std::string name = role.instrument + "/" + role.channel;
+    for (const StationChannel& channel : channels) {
+        if (channel.instrument_name != role.instrument || channel.name != role.channel) continue;
+        if (channel.kind != wanted.kind)
+            return fail(Fault::bad_configuration, std::string{wanted.role} + " = \"" + name +
+                                                      "\" measures " +
+                                                      std::string{name_of(channel.kind)} +
+                                                      ", not " + std::string{name_of(wanted.kind)});
+        if (wanted.medium != Medium::none && channel.medium != wanted.medium)
+            return fail(Fault::wrong_medium,
+                        std::string{wanted.role} + " = \"" + name + "\" has medium '" +
+                            std::string{name_of(channel.medium)} + "' but must have '" +
+                            std::string{name_of(wanted.medium)} + "'");
+        return channel.id;
+    }
+    return fail(Fault::bad_configuration, std::string{wanted.role} + " = \"" + name +
+                                              "\" does not exist; there are " +
+                                              known_channels(channels));
+}
+
+} // namespace
+
+std::vector<int> StationRoles::environment() const {
+    std::vector<int> ids{air_temperature, air_pressure, air_humidity};
+    ids.insert(ids.end(), material.begin(), material.end());
+    return ids;
+}
+
+Result<StationRoles> resolve_roles(const AxisConfig& axis,
+                                   const std::vector<StationChannel>& channels) {
+    StationRoles roles;
+    AXISCAL_TRY(
+        roles.laser,
+        find(axis.laser, {"axis.laser", ChannelKind::displacement, Medium::none}, channels));
+    AXISCAL_TRY(roles.air_temperature,
+                find(axis.air_temperature,
+                     {"axis.air.temperature", ChannelKind::temperature, Medium::air}, channels));
+    AXISCAL_TRY(roles.air_pressure,
+                find(axis.air_pressure, {"axis.air.pressure", ChannelKind::pressure, Medium::air},
+                     channels));
+    AXISCAL_TRY(roles.air_humidity,
+                find(axis.air_humidity, {"axis.air.humidity", ChannelKind::humidity, Medium::air},
+                     channels));
+    for (const RoleConfig& role : axis.material_temperature) {
+        AXISCAL_TRY(const int id,
+                    find(role,
+                         {"axis.material.temperature", ChannelKind::temperature, Medium::material},
+                         channels));
+        roles.material.push_back(id);
+    }
+    if (roles.material.empty())
+        return fail(Fault::bad_configuration, "axis.material.temperature names no sensor; the axis "
+                                              "cannot be brought to 20 degC without one");
+    return roles;
+}
+
+} // namespace axiscal

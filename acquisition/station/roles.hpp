@@ -1,0 +1,25 @@
+#pragma once
+// Which channel plays which part: names of the station file resolved against the instruments. Pure.
+
+#include "acquisition/station/supervisor.hpp"
+#include "config/station_config.hpp"
+
+#include <vector>
+
+namespace axiscal {
+
+/// Channel ids of the station.
+struct StationRoles {
+    int laser = 0;
+    int air_temperature = 0, air_pressure = 0, air_humidity = 0;
+    std::vector<int> material; ///< contact temperatures, at least one
+    /// All environment channels in the order air temperature, pressure, humidity, material...
+    [[nodiscard]] std::vector<int> environment() const;
+};
+
+/// @errors Fault::bad_configuration naming the role, the name and what there is instead;
+/// Fault::wrong_medium for an air channel in a material role, or the other way round.
+Result<StationRoles> resolve_roles(const AxisConfig& axis,
+                                   const std::vector<StationChannel>& channels);
+
+} // namespace axiscal

@@ -1,0 +1,116 @@
+#include "acquisition/station/run_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+using Field = std::string Statements::*;
+
+constexpr std::array<std::pair<std::string_view, Field>, 13> statement_fields{{
+    {"certificate_number", &Statements::certificate_number},
+    {"customer", &Statements::customer},
+    {"place", &Statements::place},
+    {"operator", &Statements::operator_name},
+    {"approver", &Statements::approver},
+    {"procedure", &Statements::procedure},
+    {"state", &Statements::state},
+    {"warm_up", &Statements::warm_up},
+    {"offsets", &Statements::offsets},
+    {"idle_axes", &Statements::idle_axes},
+    {"sensor_note", &Statements::sensor_note},
+    {"next_due", &Statements::next_due},
+    {"control_compensation", &Statements::control_compensation},
+}};
+
+LaserSetup laser_of(const RunHeaderParts& parts) {
+    const AxisConfig& axis = parts.config.axis;
+    LaserSetup laser;
+    laser.instrument = axis.laser.instrument;
+    laser.sign = axis.sign;
+    laser.dead_path = axis.dead_path;
+    laser.beam_walk = axis.beam_walk;
+    laser.beam_walk_travel = axis.beam_walk_travel;
+    const int seat =
+        parts.supervisor.channels()[static_cast<std::size_t>(parts.roles.laser)].instrument;
+    if (const auto optics = parts.supervisor.instrument(seat).optics()) {
+        laser.vacuum_wavelength = optics->vacuum_wavelength;
+        laser.optical_fold = optics->optical_fold;
+    }
+    return laser;
+}
+
+/// What the device says of itself, completed by what the station file states.
+InstrumentRecord instrument_of(const InstrumentConfig& config, const Identity& identity) {
+    return {.name = config.name,
+            .driver = config.driver,
+            .maker = identity.maker,
+            .model = identity.model,
+            .serial = identity.serial.empty() ? config.serial : identity.serial,
+            .firmware = identity.firmware,
+            .certificate_number = config.certificate_number,
+            .calibrated_on = config.calibrated_on,
+            .due_on = config.due_on};
+}
+
+std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
+    std::vector<ChannelRecord> records;
+    std::vector<int> ids = parts.roles.environment();
+    ids.push_back(parts.roles.laser);
+    std::ranges::sort(ids);
+    for (const int id : ids) {
+        const StationChannel& channel = parts.supervisor.channels()[static_cast<std::size_t>(id)];
+        records.push_back({.id = id,
+                           .name = channel.name,
+                           .instrument = channel.instrument_name,
+                           .place = channel.place,
+                           .kind = channel.kind,
+                           .medium = channel.medium,
+                           .correction = channel.correction});
+    }
+    return records;
+}
+
+} // namespace
+
+std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns) {
+    std::string instant = iso8601_utc(utc_ns);
+    std::erase_if(instant, [](char letter) { return letter == '-' || letter == ':'; });
+    return station + "-" + instant + "-" + axis;
+}
+
+Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request) {
+    const StationConfig& config = parts.config;
+    RunRecord run;
+    run.run_id = run_id_of(config.station, config.axis.name, parts.opened.utc_ns);
+    run.software_version = AXISCAL_VERSION;
+    run.station = config.station;
+    run.station_config = config.text;
+    run.config_hash = parts.config_hash;
+    run.boot_id = parts.boot_id;
+    run.opened = parts.opened;
+    run.plan = parts.plan;
+    run.laser = laser_of(parts);
+    run.material = config.axis.material;
+    run.air = config.axis.air;
+    run.statements = config.statements;
+    if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
+    for (const auto& [key, value] : request.statements) {
+        const auto field =
+            std::ranges::find(statement_fields, key, &std::pair<std::string_view, Field>::first);
+        if (field == statement_fields.end())
+            return refuse(Fault::bad_request, "statements." + key,
+                          "is not a statement; docs/api.md lists them");
+        run.statements.*(field->second) = value;
+    }
+    for (std::size_t i = 0; i < config.instruments.size(); ++i)
+        run.instruments.push_back(
+            instrument_of(config.instruments[i], parts.supervisor.identity(static_cast<int>(i))));
+    run.channels = channels_of(parts);
+    return run;
+}
+
+} // namespace axiscal

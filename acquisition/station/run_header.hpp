@@ -1,0 +1,25 @@
+#pragma once
+// What a run file says before its first point: plan, set-up, statements, who measures. Pure.
+
+#include "acquisition/station/roles.hpp"
+#include "acquisition/station/station_face.hpp"
+#include "config/station_config.hpp"
+
+namespace axiscal {
+
+struct RunHeaderParts {
+    const StationConfig& config;
+    const Supervisor& supervisor;
+    const StationRoles& roles;
+    RunPlan plan;
+    ClockTie opened;
+    std::string boot_id, config_hash;
+};
+
+/// "<station>-20261121T100000Z-X": unique a second, sortable, fit for a file name.
+std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns);
+
+/// @errors Fault::bad_request for a statement that does not exist.
+Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request);
+
+} // namespace axiscal

@@ -1,0 +1,215 @@
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/run/live_position.hpp"
+#include "analysis/air_refraction.hpp"
+#include "drivers/spawn.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration heartbeat = std::chrono::milliseconds{100};
+constexpr Duration judge_every = std::chrono::seconds{1};
+constexpr Duration log_every =
+    std::chrono::milliseconds{500}; // bounds the environment table of a long run
+constexpr Duration port_pause = std::chrono::seconds{1};
+constexpr std::size_t kept_notes = 20;
+
+std::vector<WatchedChannel> watched(const StationRoles& roles,
+                                    const std::vector<StationChannel>& channels) {
+    std::vector<WatchedChannel> list;
+    const auto add = [&](EnvironmentRole role, int id) {
+        const StationChannel& channel = channels[static_cast<std::size_t>(id)];
+        list.push_back({role, channel.instrument_name + "/" + channel.name, channel.place});
+    };
+    add(EnvironmentRole::air_temperature, roles.air_temperature);
+    add(EnvironmentRole::air_pressure, roles.air_pressure);
+    add(EnvironmentRole::air_humidity, roles.air_humidity);
+    for (const int id : roles.material)
+        add(EnvironmentRole::material_temperature, id);
+    return list;
+}
+
+SampleHistory::Limits history_limits(const CaptureConfig& config) {
+    SampleHistory::Limits limits;
+    limits.depth = config.history;
+    return limits;
+}
+
+/// The supervisor with every instrument seated; in a function so that the member can be
+/// const-built.
+void seat_all(Supervisor& supervisor,
+              const StationConfig& config,
+              std::vector<std::unique_ptr<Instrument>> instruments) {
+    for (std::size_t i = 0; i < instruments.size(); ++i)
+        supervisor.add(config.instruments[i], std::move(instruments[i]));
+}
+
+} // namespace
+
+Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
+    : scheduler_{scheduler}
+    , config_{std::move(parts.config)}
+    , roles_{std::move(parts.roles)}
+    , config_hash_{std::move(parts.config_hash)}
+    , boot_id_{std::move(parts.boot_id)}
+    , report_program_{std::move(parts.report_program)}
+    , supervisor_{scheduler, links, *this}
+    , port_{std::move(parts.port)}
+    , journal_{scheduler, parts.journal_thread}
+    , history_{history_limits(config_.capture)}
+    , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments)),
+              watched(roles_, supervisor_.channels()))}
+    , latest_(supervisor_.channels().size())
+    , logged_(supervisor_.channels().size()) {}
+
+Station::~Station() = default;
+
+Task<Result<void>> Station::start() {
+    std::error_code error;
+    for (const char* folder : {"runs", "outbox"}) {
+        std::filesystem::create_directories(std::filesystem::path{config_.state_directory} / folder,
+                                            error);
+        if (error)
+            co_return fail(Fault::io,
+                           "cannot make " + config_.state_directory + "/" + folder +
+                               "; check station.state_directory and its owner",
+                           error);
+    }
+    supervisor_.start();
+    spawn(scheduler_, tick());
+    const auto left_open = open_runs();
+    if (!left_open) co_return tl::unexpected<Error>(left_open.error());
+    for (const std::string& path : *left_open) {
+        auto resumed = co_await resume_or_close(path);
+        if (!resumed)
+            note("The open run " + path + " could not be continued: " + describe(resumed.error()));
+    }
+    spawn(scheduler_, serve_port());
+    co_return Result<void>{};
+}
+
+Task<void> Station::stop() {
+    stopping_ = true;
+    if (run_ && machine_ && !machine_->view().closed) {
+        perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
+                             "The daemon was stopped; the run stays open.", Fault::none, 0}});
+        co_await journal_.flush();
+    }
+}
+
+Task<void> Station::serve_port() {
+    while (!stopping_) {
+        TriggerContext context{&scheduler_, this};
+        const Result<void> ended = co_await port_->run(context);
+        if (!ended) on_port_note(ended.error().fault, describe(ended.error()));
+        co_await scheduler_.sleep_for(port_pause);
+    }
+}
+
+/// Ten times a second: what only time decides, and what the CNC reads.
+Task<void> Station::tick() {
+    MonotonicTime judged = scheduler_.now();
+    while (!stopping_) {
+        co_await scheduler_.sleep_for(heartbeat);
+        const MonotonicTime now = scheduler_.now();
+        if (now - judged >= judge_every) {
+            supervisor_.judge();
+            judged = now;
+        }
+        if (machine_) {
+            feed(EnvironmentNow{refractivity_now()});
+            feed(Tick{now});
+        }
+        publish_to_port();
+    }
+}
+
+void Station::on_sample(const Sample& sample) {
+    latest_[static_cast<std::size_t>(sample.channel)] = sample;
+    if (sample.channel == roles_.laser) return take_reading(sample);
+    const std::vector<int> environment = roles_.environment();
+    for (std::size_t i = 0; i < environment.size(); ++i)
+        if (environment[i] == sample.channel) {
+            watch_.take(i, sample);
+            log_environment(sample.channel, sample);
+        }
+}
+
+void Station::take_reading(const Sample& sample) {
+    history_.push(sample);
+    if (!datum_) return;
+    if (sample.epoch != laser_epoch_ && !datum_lost_told_) {
+        datum_lost_told_ = true;
+        feed(LaserFault{Fault::datum_lost, "The laser's counter lost its zero.", sample.at});
+        return;
+    }
+    if (const auto value = sample.value())
+        port_->position(
+            sample.at,
+            live_position(run_->header.laser, *datum_, metre(*value), refractivity_).in(mm));
+}
+
+void Station::log_environment(int channel, const Sample& sample) {
+    auto& last = logged_[static_cast<std::size_t>(channel)];
+    if (!run_ || closing_ || !sample.value() || (last && sample.at - *last < log_every)) return;
+    last = sample.at;
+    journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
+}
+
+void Station::on_instrument_change(const InstrumentView& view) {
+    std::string sentence = view.name + " is " + std::string{name_of(view.state)};
+    if (!view.last_note.empty()) sentence += ": " + view.last_note;
+    note(sentence);
+    if (run_ && !closing_)
+        perform(RecordEvent{
+            {EventKind::instrument, scheduler_.now(), 0, sentence, view.last_fault, 0}});
+}
+
+void Station::on_trigger(const TriggerEvent& event) {
+    if (!machine_) {
+        // Without an open run the first value seen is the baseline.
+        if (event.sequence != 0 && !event.standing)
+            port_->refuse(event.sequence, Fault::no_run_armed);
+        return;
+    }
+    feed(EnvironmentNow{refractivity_now()});
+    feed(event);
+}
+
+void Station::on_cnc_silent(bool silent) {
+    cnc_silent_ = silent;
+    note(silent ? "The CNC's heartbeat has stopped." : "The CNC's heartbeat is back.");
+}
+
+void Station::on_port_note(Fault fault, std::string sentence) {
+    port_note_ = std::string{fault_sentence(fault)} + " " + sentence;
+    note("Trigger port: " + port_note_);
+}
+
+void Station::note(const std::string& sentence) {
+    spdlog::info("{}", sentence);
+    const ClockTie tie = scheduler_.clock_tie();
+    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + sentence);
+    if (notes_.size() > kept_notes) notes_.pop_front();
+}
+
+Result<double> Station::refractivity_now() const {
+    const MonotonicTime now = scheduler_.now();
+    const Duration oldest = config_.axis.air.oldest;
+    AXISCAL_CHECK(watch_.check(now, oldest));
+    AirState air;
+    air.temperature =
+        Temperature::celsius(*watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest));
+    air.pressure = pascal(*watch_.fresh_mean(EnvironmentRole::air_pressure, now, oldest));
+    air.relative_humidity = percent(*watch_.fresh_mean(EnvironmentRole::air_humidity, now, oldest));
+    air.vacuum_wavelength = run_ ? run_->header.laser.vacuum_wavelength : nm(632.991);
+    air.co2_ppm = config_.axis.air.co2_ppm;
+    AXISCAL_TRY(const Refractivity refractivity, refractivity_of(config_.axis.air.formula, air));
+    return refractivity.n_minus_1;
+}
+
+} // namespace axiscal

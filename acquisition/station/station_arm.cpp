@@ -1,0 +1,192 @@
+// Opening a run, and taking over one that was open when the daemon went down.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/run/resume.hpp"
+#include "acquisition/station/run_header.hpp"
+
+#include <random>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration laser_limit = std::chrono::seconds{2};   // an older reading is no reading
+constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back within 5 s
+constexpr Duration look_every = std::chrono::milliseconds{20};
+
+} // namespace
+
+Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
+    CycleConfig cycle = config_.cycle;
+    if (request.seed) cycle.seed = request.seed;
+    std::random_device entropy;
+    const std::uint64_t fresh = (static_cast<std::uint64_t>(entropy()) << 32U) | entropy();
+    AXISCAL_TRY(const std::vector<RunPlan> passes, plan_passes(cycle, fresh));
+    std::string known;
+    for (const RunPlan& plan : passes) {
+        if (plan.pass == request.pass) {
+            RunPlan chosen = plan;
+            if (request.datum_mm) chosen.datum = mm(*request.datum_mm);
+            return chosen;
+        }
+        known += (known.empty() ? "" : ", ") + plan.pass;
+    }
+    return refuse(Fault::bad_request, "pass",
+                  "'" + request.pass + "' is not planned; there is " + known);
+}
+
+Result<void> Station::ready_to_measure() const {
+    if (run_ && !closed_)
+        return fail(Fault::busy, "run " + run_->header.run_id +
+                                     " is open; finish it or 'axiscal abort' it first");
+    const MonotonicTime now = scheduler_.now();
+    AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
+    const auto reading = history_.newest();
+    if (!reading || now - reading->at > laser_limit)
+        return fail(Fault::link_timeout, "the laser (" + config_.axis.laser.instrument +
+                                             ") sends nothing; see 'axiscal devices'");
+    if (!reading->value()) return fail(Fault::beam_lost, "the laser shows no good signal now");
+    return {};
+}
+
+std::string Station::laser_serial() const {
+    const int seat = supervisor_.channels()[static_cast<std::size_t>(roles_.laser)].instrument;
+    const std::string& serial = supervisor_.identity(seat).serial;
+    return serial.empty() ? config_.instruments[static_cast<std::size_t>(seat)].serial : serial;
+}
+
+RunSetup Station::setup_of(const RunRecord& header) const {
+    return {header.plan, header.laser, laser_serial(), config_.capture.timeout};
+}
+
+Task<Result<std::string>> Station::arm(ArmRequest request) {
+    if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
+    AXISCAL_CO_TRY(RunPlan plan, plan_for(request));
+    const RunHeaderParts parts{
+        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        boot_id_, config_hash_};
+    AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
+    std::string path =
+        config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
+    RunRecord copy = header;
+    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened)
+        co_return tl::unexpected<Error>(opened.error());
+    begin_run(std::move(header), std::move(path));
+    machine_.emplace(setup_of(run_->header));
+    feed(EnvironmentNow{refractivity_now()});
+    feed(Arm{scheduler_.now(), !request.datum_by_cnc});
+    if (request.datum_by_cnc) co_return run_->header.run_id;
+    if (auto tied = co_await await_datum(); !tied) co_return tl::unexpected<Error>(tied.error());
+    co_return run_->header.run_id;
+}
+
+void Station::begin_run(RunRecord header, std::string path) {
+    run_ = OpenRun{std::move(header), std::move(path), scheduler_.now(), 0};
+    last_receipt_.reset();
+    last_refusal_.reset();
+    last_outcome_.reset();
+    certificate_.clear();
+    datum_.reset();
+    closed_ = closing_ = false;
+    for (const int channel : roles_.environment()) { // the first point needs a reading before it
+        logged_[static_cast<std::size_t>(channel)].reset();
+        if (const auto& sample = latest_[static_cast<std::size_t>(channel)])
+            log_environment(channel, *sample);
+    }
+}
+
+/// A run whose datum cannot be tied is closed again: the technician mends the cause and arms anew.
+Task<Result<void>> Station::await_datum() {
+    const MonotonicTime deadline = scheduler_.now() + config_.capture.timeout + laser_limit;
+    while (!datum_ && !closed_ && !last_refusal_ && scheduler_.now() < deadline)
+        co_await scheduler_.sleep_for(look_every);
+    if (datum_) co_return Result<void>{};
+    const Error why =
+        last_refusal_.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
+    feed(Abort{"The datum could not be tied: " + describe(why), scheduler_.now()});
+    while (!closed_)
+        co_await scheduler_.sleep_for(look_every);
+    co_return tl::unexpected<Error>(why);
+}
+
+Result<void> Station::trigger() {
+    if (!run_ || closed_) return fail(Fault::no_run_armed, "");
+    last_refusal_.reset();
+    TriggerEvent event;
+    event.at = scheduler_.now();
+    event.origin = TriggerOrigin::manual;
+    feed(EnvironmentNow{refractivity_now()});
+    feed(event);
+    if (last_refusal_) return tl::unexpected<Error>(*last_refusal_);
+    return {};
+}
+
+Result<void> Station::abort(std::string reason) {
+    if (!run_ || closed_) return fail(Fault::no_run_armed, "there is nothing to abort");
+    feed(Abort{std::move(reason), scheduler_.now()});
+    return {};
+}
+
+Result<std::vector<std::string>> Station::open_runs() const {
+    const std::string folder = config_.state_directory + "/runs";
+    AXISCAL_CHECK(tidy_run_files(folder));
+    return open_run_files(folder);
+}
+
+Task<Result<void>> Station::resume_or_close(std::string path) {
+    AXISCAL_CO_TRY(RunRecord run, read_run_file(path));
+    if (run_ && !closed_) {
+        co_await close_left_over(path, "Another run was open too; only one can go on.",
+                                 Fault::busy);
+        co_return Result<void>{};
+    }
+    const MonotonicTime limit = scheduler_.now() + return_limit;
+    while ((!history_.newest() || !history_.newest()->value()) && scheduler_.now() < limit)
+        co_await scheduler_.sleep_for(look_every);
+    StationNow now;
+    now.config_hash = config_hash_;
+    now.boot_id = boot_id_;
+    now.laser_serial = laser_serial();
+    if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
+    now.limits.fastest = config_.capture.fastest;
+    const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
+    if (verdict.decision != ResumeDecision::wait_for_request) {
+        co_await close_left_over(path, verdict.sentence, verdict.fault);
+        co_return Result<void>{};
+    }
+    co_return co_await resume(path, std::move(run));
+}
+
+Task<Result<void>> Station::resume(std::string path, RunRecord run) {
+    if (auto reopened = co_await journal_.reopen(path); !reopened)
+        co_return tl::unexpected<Error>(reopened.error());
+    const std::uint32_t epoch = history_.newest() ? history_.newest()->epoch : 0;
+    RunRecord header = run;
+    header.points.clear();
+    begin_run(std::move(header), path);
+    run_->done_at_start = static_cast<int>(run.points.size());
+    machine_.emplace(setup_of(run), run, epoch, scheduler_.now());
+    feed(EnvironmentNow{refractivity_now()});
+    laser_epoch_ = epoch;
+    if (!run.points.empty() || !run.datums.empty()) {
+        auto receipt =
+            co_await journal_.receipt_for(run.points.empty() ? -1 : run.points.back().step);
+        if (receipt) last_receipt_ = *receipt, port_->acknowledge(*receipt);
+    }
+    note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
+         " durable points.");
+    co_return Result<void>{};
+}
+
+Task<void> Station::close_left_over(std::string path, std::string reason, Fault fault) {
+    if (auto reopened = co_await journal_.reopen(path); !reopened) {
+        note("The open run " + path + " cannot be closed: " + describe(reopened.error()));
+        co_return;
+    }
+    perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
+    co_await journal_.close(false, reason);
+    note("The open run " + path + " is closed as incomplete: " + reason);
+}
+
+} // namespace axiscal

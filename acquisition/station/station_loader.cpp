@@ -1,0 +1,49 @@
+#include "acquisition/station/station_loader.hpp"
+
+#include "acquisition/run/cycle_plan.hpp"
+#include "drivers/registry.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+/// What is wrong with the whole although every key is right by itself.
+void check_together(LoadedStation& station, Settings root) {
+    std::vector<StationChannel> channels;
+    for (std::size_t i = 0; i < station.instruments.size(); ++i) {
+        if (!station.instruments[i]) return;
+        auto more = station_channels(station.config.instruments[i], *station.instruments[i],
+                                     static_cast<int>(i), static_cast<int>(channels.size()));
+        std::ranges::move(more, std::back_inserter(channels));
+    }
+    if (auto roles = resolve_roles(station.config.axis, channels))
+        station.roles = *std::move(roles);
+    else
+        root.refuse("axis", describe(roles.error()));
+    if (auto passes = plan_passes(station.config.cycle, 0))
+        station.passes = *std::move(passes);
+    else
+        root.refuse("cycle", describe(passes.error()));
+}
+
+} // namespace
+
+tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string& path) {
+    auto document = SettingsDocument::load(path);
+    if (!document)
+        return tl::unexpected(std::vector<Refusal>{{path, 0, "", document.error().detail}});
+    LoadedStation station;
+    station.config = read_station(*document);
+    station.instruments =
+        make_instruments(station.config.instruments, station.config.instrument_options);
+    std::vector<Refusal> refusals = document->finish();
+    if (refusals.empty()) {
+        check_together(station, document->root());
+        refusals = document->finish();
+    }
+    if (!refusals.empty()) return tl::unexpected(std::move(refusals));
+    return station;
+}
+
+} // namespace axiscal

@@ -1,0 +1,24 @@
+#pragma once
+// The station file with everything that can be said about it before a device is opened.
+
+#include "acquisition/station/roles.hpp"
+#include "config/station_config.hpp"
+#include "drivers/instrument.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace axiscal {
+
+struct LoadedStation {
+    StationConfig config;
+    std::vector<std::unique_ptr<Instrument>> instruments; ///< as config.instruments
+    StationRoles roles;
+    std::vector<RunPlan> passes; ///< with seed 0 where the file names none
+};
+
+/// Reads, makes the instruments (opens nothing), resolves roles, plans the cycle.
+/// The error side holds every refusal with file:line, at once.
+tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string& path);
+
+} // namespace axiscal

@@ -1,0 +1,166 @@
+// What the station shows: to people and to the CNC.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/capture/stillness.hpp"
+#include "acquisition/run/live_position.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration laser_limit = std::chrono::seconds{2};
+
+int count_entries(const std::string& folder) {
+    std::error_code error;
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator{folder, error})
+        if (entry.is_directory(error) && !entry.path().filename().string().starts_with("."))
+            ++count;
+    return count;
+}
+
+} // namespace
+
+void Station::publish_to_port() {
+    PortStatus status;
+    status.state = port_state_;
+    status.axis_kind = config_.cycle.axis_kind;
+    const AxisView axis = axis_view();
+    status.measured_mm = axis.position_mm;
+    status.deviation_um = axis.deviation_um;
+    const MonotonicTime now = scheduler_.now();
+    const Duration oldest = config_.axis.air.oldest;
+    status.air_degC = watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest);
+    status.pressure_Pa = watch_.fresh_mean(EnvironmentRole::air_pressure, now, oldest);
+    status.humidity_percent = watch_.fresh_mean(EnvironmentRole::air_humidity, now, oldest);
+    status.material_degC = watch_.fresh_mean(EnvironmentRole::material_temperature, now, oldest);
+    if (machine_) {
+        const RunView view = machine_->view();
+        if (view.next && !view.closed) {
+            status.next_target = view.next->target_index;
+            status.next_nominal_mm =
+                run_->header.plan.targets[static_cast<std::size_t>(view.next->target_index)].in(mm);
+        }
+        status.run_complete = view.complete;
+        status.feed_hold = view.stopped;
+        status.may_move = port_state_ != PortState::settling && !view.stopped;
+    }
+    port_->publish(status);
+}
+
+AxisView Station::axis_view() const {
+    AxisView axis;
+    axis.name = config_.axis.name;
+    const MonotonicTime now = scheduler_.now();
+    const auto newest = history_.newest();
+    if (!newest || now - newest->at > laser_limit) return axis;
+    const MonotonicTime begin = newest->at - config_.capture.window;
+    const StillnessVerdict verdict =
+        judge_window(history_.between(begin, newest->at), begin, newest->at, config_.capture);
+    axis.still = verdict.still;
+    if (verdict.statistics.n > 1) {
+        axis.spread_um = verdict.statistics.spread.in(um);
+        axis.slope_um_per_s = verdict.statistics.slope_um_per_s;
+    }
+    if (const auto value = newest->value()) {
+        axis.displacement_mm = metre(*value).in(mm);
+        if (datum_ && run_ && !closed_)
+            axis.position_mm =
+                live_position(run_->header.laser, *datum_, metre(*value), refractivity_).in(mm);
+    }
+    if (axis.position_mm && machine_)
+        if (const auto next = machine_->view().next) {
+            const double deviation_um =
+                (*axis.position_mm -
+                 run_->header.plan.targets[static_cast<std::size_t>(next->target_index)].in(mm)) *
+                1e3;
+            if (std::abs(deviation_um) <= run_->header.plan.near_tolerance.in(um))
+                axis.deviation_um = deviation_um;
+        }
+    return axis;
+}
+
+RunStatus Station::run_status() const {
+    const RunView view = machine_->view();
+    RunStatus run;
+    run.run_id = run_->header.run_id;
+    run.pass = run_->header.plan.pass;
+    run.file = run_->path;
+    run.step = view.done;
+    run.steps = view.total;
+    run.done = view.last_durable;
+    run.certificate = certificate_;
+    if (view.last_deviation) run.last_deviation_um = view.last_deviation->in(um);
+    if (closed_)
+        run.state = last_outcome_ && last_outcome_->complete ? "complete" : "incomplete";
+    else if (view.stopped)
+        run.state = "stopped";
+    else if (!view.datum)
+        run.state = "tying datum";
+    else
+        run.state = view.state == PortState::settling ? "settling" : "armed";
+    if (view.next && !closed_) {
+        run.next_target = view.next->target_index;
+        run.next_nominal_mm =
+            run_->header.plan.targets[static_cast<std::size_t>(view.next->target_index)].in(mm);
+        run.next_direction = view.next->direction;
+        run.next_approach = view.next->approach;
+    }
+    const int taken = view.done - run_->done_at_start;
+    if (taken > 0 && !closed_)
+        run.seconds_left =
+            seconds_of(scheduler_.now() - run_->began) / taken * (view.total - view.done);
+    if (last_refusal_) {
+        run.last_fault = fault_name(last_refusal_->fault);
+        run.last_sentence = describe(*last_refusal_);
+    } else if (last_outcome_ && !last_outcome_->complete) {
+        run.last_fault = fault_name(last_outcome_->fault);
+        run.last_sentence = last_outcome_->reason;
+    }
+    return run;
+}
+
+ChannelView Station::channel_view(const StationChannel& channel) const {
+    ChannelView view;
+    view.instrument = channel.instrument_name;
+    view.channel = channel.name;
+    view.place = channel.place;
+    view.unit = stored_unit_of(channel.kind);
+    view.kind = channel.kind;
+    view.medium = channel.medium;
+    const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
+    if (!sample) return view;
+    const Duration age = scheduler_.now() - sample->at;
+    const bool stale =
+        age > (channel.kind == ChannelKind::displacement ? laser_limit : config_.axis.air.oldest);
+    view.age_s = seconds_of(age);
+    view.quality = stale ? "stale" : std::string{name_of(sample->quality())};
+    if (!stale) view.value = sample->value();
+    return view;
+}
+
+StationStatus Station::status() const {
+    StationStatus status;
+    status.station = config_.station;
+    status.version = AXISCAL_VERSION;
+    status.utc = iso8601_utc(scheduler_.clock_tie().utc_ns);
+    status.axis = axis_view();
+    for (const StationChannel& channel : supervisor_.channels()) {
+        status.channels.push_back(channel_view(channel));
+        if (channel.kind == ChannelKind::strength)
+            status.axis.strength_percent = status.channels.back().value;
+    }
+    status.instruments = supervisor_.view();
+    status.trigger = port_->describe();
+    status.trigger_note = port_note_;
+    status.cnc_silent = cnc_silent_;
+    if (run_ && machine_) status.run = run_status();
+    status.run_open = run_ && !closed_;
+    status.outbox_entries = count_entries(config_.state_directory + "/outbox");
+    status.notes.assign(notes_.begin(), notes_.end());
+    return status;
+}
+
+} // namespace axiscal
