@@ -21,8 +21,9 @@ MAY = {
     "acquisition/publish": {"analysis/quantity", "analysis", "config", "acquisition/journal"},
     "acquisition/station": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture",
                             "acquisition/run", "acquisition/journal"},
-    "acquisition/console": {"analysis/quantity", "analysis", "config", "acquisition/station"},
-    "acquisition": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/station",
+    "acquisition/console": {"analysis/quantity", "analysis", "config", "acquisition/station",
+                            "drivers/scheduler.hpp", "drivers/spawn.hpp"},
+    "acquisition": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/journal", "acquisition/station",
                     "acquisition/console"},
     "tools/axiscal-simulate": {"analysis/quantity"},
 }

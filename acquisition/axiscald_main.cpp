@@ -1,0 +1,179 @@
+// The daemon: configuration refused before any device opens; loop, doors, watchdog, orderly end.
+#include "acquisition/console/http_face.hpp"
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/station/station.hpp"
+#include "acquisition/station/station_loader.hpp"
+#include "drivers/asio_scheduler.hpp"
+#include "drivers/cnc/trigger_ports.hpp"
+#include "drivers/link/link_opener.hpp"
+#include "drivers/spawn.hpp"
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+enum ExitCode : int { exit_ok = 0, exit_failed = 1, exit_usage = 2, exit_refused = 3 };
+
+std::string boot_id() {
+    std::ifstream file{"/proc/sys/kernel/random/boot_id"};
+    std::string id;
+    std::getline(file, id);
+    return id;
+}
+
+/// Only one daemon may own a state directory. The lock goes with the process, however it ends.
+Result<int> lock_state(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    const std::string path = folder + "/lock";
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
+    if (file < 0)
+        return fail(Fault::io,
+                    "cannot open " + path +
+                        "; does station.state_directory exist and belong to this user?",
+                    {errno, std::generic_category()});
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+    ::close(file);
+    return fail(Fault::busy,
+                "another axiscald holds " + path + "; stop it first (systemctl stop axiscald)");
+}
+
+/// systemd's watchdog is fed by the loop itself: a loop that hangs is restarted.
+Task<void> feed_watchdog(Scheduler& scheduler) {
+    std::uint64_t limit_us = 0;
+    if (::sd_watchdog_enabled(0, &limit_us) <= 0) co_return;
+    for (;;) {
+        ::sd_notify(0, "WATCHDOG=1");
+        co_await scheduler.sleep_for(std::chrono::microseconds{limit_us / 3});
+    }
+}
+
+struct Daemon {
+    Daemon(LoadedStation loaded, std::unique_ptr<TriggerPort> port, std::string token)
+        : station{scheduler, links, parts_of(std::move(loaded), std::move(port))}
+        , console{scheduler, station, console_config, std::move(token)} {}
+
+    StationParts parts_of(LoadedStation loaded, std::unique_ptr<TriggerPort> port) {
+        StationParts parts;
+        console_config = loaded.config.console;
+        parts.config_hash = sha256_hex(loaded.config.text);
+        parts.config = std::move(loaded.config);
+        parts.roles = std::move(loaded.roles);
+        parts.instruments = std::move(loaded.instruments);
+        parts.port = std::move(port);
+        parts.boot_id = boot_id();
+        parts.report_program = sibling_program("axiscal-report");
+        return parts;
+    }
+
+    Task<void> run() {
+        const Result<void> started = co_await station.start();
+        const Result<void> doors = started ? console.start() : started;
+        if (!doors) {
+            spdlog::critical("{}", describe(doors.error()));
+            code = exit_failed;
+            loop.stop();
+            co_return;
+        }
+        spdlog::info("ready");
+        ::sd_notify(0, "READY=1");
+    }
+
+    Task<void> end_on_signal() {
+        boost::asio::signal_set signals{loop, SIGTERM, SIGINT};
+        co_await signals.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
+        ::sd_notify(0, "STOPPING=1");
+        spdlog::info("stopping; an open run stays open and is continued at the next start");
+        co_await station.stop();
+        loop.stop();
+    }
+
+    int serve() {
+        spawn(scheduler, end_on_signal());
+        spawn(scheduler, run());
+        spawn(scheduler, feed_watchdog(scheduler));
+        loop.run();
+        return code;
+    }
+
+    boost::asio::io_context loop{1};
+    AsioScheduler scheduler{loop};
+    RealLinkOpener links{scheduler};
+    ConsoleConfig console_config;
+    Station station;
+    HttpFace console;
+    int code = exit_ok;
+};
+
+void log_to_stderr() {
+    auto log = spdlog::stderr_logger_st("axiscald");
+    // Under systemd the journal stamps the lines itself.
+    log->set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%l: %v" : "%H:%M:%S.%e %l: %v");
+    log->flush_on(spdlog::level::info);
+    spdlog::set_default_logger(std::move(log));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"axiscald: the axiscal calibration station. It reads the instruments, serves the "
+                 "CNC's triggers and keeps every point on disk.",
+                 "axiscald"};
+    std::string config = "/etc/axiscal/station.toml";
+    app.add_option("--config", config, "station file; 'axiscal check-config' reads it the same way")
+        ->capture_default_str();
+    app.set_version_flag("--version", AXISCAL_VERSION);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_ok : exit_usage;
+    }
+    log_to_stderr();
+    auto loaded = load_station(config);
+    if (!loaded) {
+        for (const Refusal& refusal : loaded.error())
+            std::fprintf(stderr, "%s\n", refusal.describe().c_str());
+        return exit_refused;
+    }
+    for (const Refusal& warning : loaded->config.warnings)
+        spdlog::warn("{}", warning.describe());
+    const Result<int> lock = lock_state(loaded->config.state_directory);
+    auto token = lock ? load_or_make_token(loaded->config.state_directory + "/token")
+                      : tl::unexpected<Error>(lock.error());
+    if (!token) {
+        spdlog::critical("{}", describe(token.error()));
+        return exit_failed;
+    }
+    auto port = make_trigger_port(loaded->config.trigger);
+    Daemon daemon{*std::move(loaded), std::move(port), *std::move(token)};
+    return daemon.serve();
+}
+
+} // namespace
+} // namespace axiscal
+
+int main(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN); // a client that left is an error code, not a death
+    try {
+        return axiscal::run(argc, argv);
+    } catch (const std::exception& bug) {
+        std::fprintf(stderr, "axiscald: %s\n", bug.what());
+        return 1;
+    }
+}
