@@ -153,11 +153,11 @@ int command_abort(const StationClient& client, const std::string& reason, bool j
 
 int command_list_drivers(bool json) {
     Json list = Json::array();
-    for (const InstrumentDriver* driver : instrument_drivers()) {
-        list.push_back({{"driver", driver->name}, {"summary", driver->summary}});
+    for (const InstrumentDriver& driver : instrument_drivers()) {
+        list.push_back({{"driver", driver.name}, {"summary", driver.summary}});
         if (!json)
-            std::printf("  %-12s %s\n", std::string{driver->name}.c_str(),
-                        std::string{driver->summary}.c_str());
+            std::printf("  %-12s %s\n", std::string{driver.name}.c_str(),
+                        std::string{driver.summary}.c_str());
     }
     if (json) std::cout << list.dump() << "\n";
     return exit_ok;

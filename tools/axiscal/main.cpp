@@ -1,0 +1,206 @@
+// The command line. Each command is documented where it is parsed: `axiscal COMMAND --help`.
+#include "tools/axiscal/daemon_commands.hpp"
+#include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/offline_commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+namespace axiscal {
+namespace {
+
+constexpr const char* footer = R"(A run, from start to certificate:
+  axiscal check-config /etc/axiscal/station.toml     is the station file right?
+  axiscal devices                                    are laser and sensors there?
+  axiscal program --config station.toml --out .      part program for the CNC; load and start it:
+                                                     the axis goes to its datum and waits
+  axiscal arm --program X-whole.ngc                  tie the reading there; the CNC goes on by itself
+  axiscal watch                                      next target, reading, temperatures, time left
+
+Exit codes: 0 done; 1 a file or the disk failed; 2 wrong usage; 3 input refused (case, run file,
+station file); 4 the station refuses (rights, busy, not armed); 5 axiscald does not answer;
+6 the run ended incomplete.)";
+
+struct Options {
+    bool json = false;
+    DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
+    std::string token_file;
+    std::string config = "/etc/axiscal/station.toml";
+    std::string file, out = ".", reason;
+    bool until_published = false, drivers = false;
+    ArmOrder arm;
+    std::vector<std::string> statements;
+    ProgramRequest program;
+};
+
+StationClient client_of(Options& options) {
+    if (const char* socket = std::getenv("AXISCAL_SOCKET");
+        socket != nullptr &&
+        options.door.socket_path == DoorAddress{"/run/axiscal/axiscald.sock", "", ""}.socket_path)
+        options.door.socket_path = socket;
+    if (std::ifstream file{options.token_file}; !options.token_file.empty())
+        std::getline(file, options.door.token);
+    return StationClient{options.door};
+}
+
+void daemon_options(CLI::App& command, Options& options) {
+    command
+        .add_option("--socket", options.door.socket_path,
+                    "Unix socket of axiscald (default also from AXISCAL_SOCKET)")
+        ->capture_default_str();
+    command.add_option("--host", options.door.host,
+                       "talk TCP to ADDRESS:PORT instead; reads only, unless a token is given");
+    command.add_option("--token-file", options.token_file,
+                       "file with the bearer token (in the state directory)");
+}
+
+int split_statements(Options& options) {
+    for (const std::string& statement : options.statements) {
+        const auto equals = statement.find('=');
+        if (equals == std::string::npos) {
+            std::cerr << "--state-that needs KEY=TEXT, as in operator=\"Shift 2\"\n";
+            return exit_usage;
+        }
+        options.arm.statements[statement.substr(0, equals)] = statement.substr(equals + 1);
+    }
+    return exit_ok;
+}
+
+using Command = std::function<int()>;
+
+void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* devices =
+        app.add_subcommand("devices", "Instruments of the station: state, counters, last note");
+    devices->add_flag("--drivers", options.drivers,
+                      "list the drivers this program knows instead; needs no daemon");
+    devices->callback([&] {
+        chosen = [&] {
+            return options.drivers ? command_list_drivers(options.json)
+                                   : command_devices(client_of(options), options.json);
+        };
+    });
+
+    auto* arm = app.add_subcommand(
+        "arm", "Open a run: the axis stands at its datum, the reading is tied there");
+    arm->add_option("--datum", options.arm.datum_mm,
+                    "coordinate in mm (deg) where the axis stands now; default: the plan's datum");
+    arm->add_option("--program", options.arm.program,
+                    "the part program; its header names seed and pass")
+        ->check(CLI::ExistingFile);
+    arm->add_option("--seed", options.arm.seed,
+                    "seed of the targets' random parts, as the part program says");
+    arm->add_option("--pass", options.arm.pass, "whole, or stretch on an axis over 2000 mm")
+        ->capture_default_str();
+    arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
+                  "wait for the CNC's prepare command instead of tying now");
+    arm->add_option(
+        "--state-that", options.statements,
+        "KEY=TEXT for the certificate: operator, state (as found, raw, as left), customer, ...");
+    arm->callback([&] {
+        chosen = [&] {
+            const int usage = split_statements(options);
+            return usage != exit_ok ? usage
+                                    : command_arm(client_of(options), options.arm, options.json);
+        };
+    });
+
+    app.add_subcommand("status", "The station now: run, axis, channels, instruments")
+        ->callback(
+            [&] { chosen = [&] { return command_status(client_of(options), options.json); }; });
+    auto* watch = app.add_subcommand(
+        "watch",
+        "Live: next target, reading, temperatures, strength, time left; ends with the run");
+    watch->add_flag("--until-published", options.until_published, "wait for the certificate too");
+    watch->callback([&] {
+        chosen = [&] {
+            return command_watch(client_of(options), options.json, options.until_published);
+        };
+    });
+    app.add_subcommand("trigger",
+                       "Capture the next point now; it is marked manual on the certificate")
+        ->callback(
+            [&] { chosen = [&] { return command_trigger(client_of(options), options.json); }; });
+    auto* abort = app.add_subcommand("abort", "Close the run as incomplete; its file is kept");
+    abort->add_option("--reason", options.reason, "stands in the run file");
+    abort->callback([&] {
+        chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
+    });
+    for (const char* name : {"devices", "arm", "status", "watch", "trigger", "abort"})
+        daemon_options(*app.get_subcommand(name), options);
+}
+
+void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* analyze = app.add_subcommand(
+        "analyze",
+        "Figures of a run file, or of a JSON case (docs/analysis.md); told apart by content");
+    analyze
+        ->add_option("FILE", options.file,
+                     "RUN.axiscal or CASE.json; - reads a case from standard input")
+        ->required();
+    analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
+
+    auto* program = app.add_subcommand("program", "Write the part program of the planned cycle");
+    program->add_option("--config", options.config, "station file")->capture_default_str();
+    program->add_option("--dialect", options.program.dialect,
+                        "linuxcnc or marlin; default linuxcnc");
+    program->add_option("--out", options.program.out_directory, "folder for the files")
+        ->default_val(".");
+    program->add_option(
+        "--seed", options.program.seed,
+        "seed of the targets' random parts; default: the station file's, or a new one");
+    program->callback([&] {
+        chosen = [&] {
+            options.program.station_file = options.config;
+            return command_program(options.program, options.json);
+        };
+    });
+
+    auto* write =
+        app.add_subcommand("export", "certificate.json, .csv and .pdf of a closed run file");
+    write->add_option("RUN", options.file, "run file")->required();
+    write->add_option("--out", options.out, "folder to write into")->capture_default_str();
+    write->callback(
+        [&] { chosen = [&] { return command_export(options.file, options.out); }; });
+
+    auto* check = app.add_subcommand("check-config",
+                                     "Every refusal of a station file at once, with its line");
+    check->add_option("FILE", options.config, "station file")->capture_default_str();
+    check->callback(
+        [&] { chosen = [&] { return command_check_config(options.config, options.json); }; });
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"axiscal: calibrate a machine-tool axis, from the laser to the certificate",
+                 "axiscal"};
+    Options options;
+    Command chosen;
+    app.footer(footer);
+    app.require_subcommand(1);
+    app.set_version_flag("--version", AXISCAL_VERSION);
+    add_daemon_commands(app, options, chosen);
+    add_offline_commands(app, options, chosen);
+    for (CLI::App* command : app.get_subcommands({}))
+        command->add_flag("--json", options.json, "print JSON for programs");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_ok : exit_usage;
+    }
+    return chosen();
+}
+
+} // namespace
+} // namespace axiscal
+
+int main(int argc, char** argv) {
+    try {
+        return axiscal::run(argc, argv);
+    } catch (const std::exception& bug) {
+        std::cerr << "axiscal: " << bug.what() << "\n";
+        return axiscal::exit_failed;
+    }
+}

@@ -1,0 +1,197 @@
+#include "tools/axiscal/offline_commands.hpp"
+
+#include "acquisition/program/part_program.hpp"
+#include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/run_certificate.hpp"
+#include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/station/station_loader.hpp"
+#include "tools/axiscal/analyze_case.hpp"
+#include "tools/axiscal/exit_code.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <random>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view sqlite_magic{"SQLite format 3\0", 16};
+
+Result<std::string> read_all(const std::string& path) {
+    if (path == "-") return std::string{std::istreambuf_iterator<char>{std::cin}, {}};
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
+    return std::string{std::istreambuf_iterator<char>{file}, {}};
+}
+
+bool is_run_file(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    std::string head(sqlite_magic.size(), '\0');
+    return file.read(head.data(), static_cast<std::streamsize>(head.size())) &&
+           head == sqlite_magic;
+}
+
+int complain(const Error& error) {
+    std::cerr << describe(error) << "\n";
+    return error.fault == Fault::io ? exit_failed : exit_refused;
+}
+
+int analyze_run(const std::string& path) {
+    const auto certificate = certificate_of_run_file(path);
+    if (!certificate) return complain(certificate.error());
+    std::cout << certificate_json_text(*certificate);
+    return exit_ok;
+}
+
+int print_refusals(const std::vector<Refusal>& refusals, bool json) {
+    Json list = Json::array();
+    for (const Refusal& refusal : refusals) {
+        list.push_back({{"file", refusal.file},
+                        {"line", refusal.line},
+                        {"key", refusal.key},
+                        {"reason", refusal.reason}});
+        if (!json) std::cerr << refusal.describe() << "\n";
+    }
+    if (json) std::cout << Json{{"refusals", std::move(list)}}.dump() << "\n";
+    return exit_refused;
+}
+
+ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
+    ProgramOrder order;
+    order.plan = std::move(plan);
+    order.axis = config.axis.program_axis;
+    order.feed = config.cycle.feed;
+    order.dwell = config.cycle.dwell;
+    order.shape = config.trigger.shape;
+    order.answer_limit = config.capture.timeout + std::chrono::seconds{2};
+    if (order.shape == TriggerShape::dwell)
+        order.least_halt = config.trigger.minimum_halt + config.capture.window;
+    return order;
+}
+
+Result<std::string> write_program(const StationConfig& config,
+                                  const RunPlan& plan,
+                                  const ProgramDialect& dialect,
+                                  const std::string& folder) {
+    AXISCAL_TRY(const std::string text, dialect.write(order_of(config, plan)));
+    const std::string path =
+        folder + "/" + config.axis.program_axis + "-" + plan.pass + std::string{dialect.extension};
+    std::ofstream file{path, std::ios::binary | std::ios::trunc};
+    if (!(file << text << std::flush)) return fail(Fault::io, "cannot write " + path);
+    return path;
+}
+
+Json plan_json(const RunPlan& plan, const std::string& path) {
+    Json targets = Json::array();
+    for (const Length target : plan.targets)
+        targets.push_back(target.in(mm));
+    return {{"file", path},
+            {"pass", plan.pass},
+            {"seed", plan.seed ? Json(*plan.seed) : Json(nullptr)},
+            {"datum_mm", plan.datum.in(mm)},
+            {"points", plan.points.size()},
+            {"approaches", plan.approaches},
+            {"targets_mm", std::move(targets)}};
+}
+
+} // namespace
+
+int command_analyze(const std::string& path) {
+    if (path != "-" && is_run_file(path)) return analyze_run(path);
+    const auto text = read_all(path);
+    if (!text) return complain(text.error());
+    const CaseAnswer answer = analyze_cases(*text);
+    std::cout << answer.output << std::flush;
+    if (!answer.error_line.empty()) std::cerr << answer.error_line << "\n";
+    return answer.exit_code;
+}
+
+int command_program(const ProgramRequest& request, bool json) {
+    auto station = load_station(request.station_file);
+    if (!station) return print_refusals(station.error(), json);
+    StationConfig& config = station->config;
+    if (request.seed) config.cycle.seed = request.seed;
+    std::random_device entropy;
+    const auto passes = plan_passes(config.cycle, entropy());
+    if (!passes) return complain(passes.error());
+    const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
+    if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
+    Json list = Json::array();
+    for (const RunPlan& plan : *passes) {
+        const auto path = write_program(config, plan, *dialect, request.out_directory);
+        if (!path) return complain(path.error());
+        list.push_back(plan_json(plan, *path));
+        if (json) continue;
+        std::cout << *path << ": " << plan.points.size() << " points on " << plan.targets.size()
+                  << " targets, datum at " << plan.datum.in(mm) << "\n";
+        if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
+        std::cout << "  load and start it; when the axis waits at its datum: axiscal arm --program "
+                  << *path << "\n";
+    }
+    if (json) std::cout << Json{{"programs", std::move(list)}}.dump() << "\n";
+    return exit_ok;
+}
+
+int command_export(const std::string& run_file, const std::string& out_directory) {
+    const std::string program = sibling_program("axiscal-report");
+    std::vector<std::string> words{program, run_file, "--to", out_directory};
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::cout << std::flush;
+    pid_t child = -1;
+    if (const int failed =
+            ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
+        failed != 0)
+        return complain(
+            {Fault::io, "cannot start " + program, {failed, std::generic_category()}, {}});
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return good ? exit_ok : WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
+}
+
+int command_check_config(const std::string& station_file, bool json) {
+    const auto station = load_station(station_file);
+    if (!station) return print_refusals(station.error(), json);
+    Json warnings = Json::array();
+    for (const Refusal& warning : station->config.warnings) {
+        warnings.push_back(warning.describe());
+        if (!json) std::cout << "note: " << warning.describe() << "\n";
+    }
+    Json passes = Json::array();
+    for (const RunPlan& plan : station->passes) {
+        passes.push_back({{"pass", plan.pass},
+                          {"targets", plan.targets.size()},
+                          {"approaches", plan.approaches},
+                          {"points", plan.points.size()},
+                          {"remark", plan.remark}});
+        if (!json)
+            std::cout << "pass " << plan.pass << ": " << plan.targets.size() << " targets, "
+                      << plan.points.size() << " points"
+                      << (plan.remark.empty() ? "" : "; " + plan.remark) << "\n";
+    }
+    if (json)
+        std::cout << Json{{"refusals", Json::array()},
+                          {"notes", std::move(warnings)},
+                          {"passes", std::move(passes)}}
+                         .dump()
+                  << "\n";
+    else
+        std::cout << station_file << " is accepted.\n";
+    return exit_ok;
+}
+
+} // namespace axiscal

@@ -1,0 +1,29 @@
+#pragma once
+// The commands that need no daemon.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace axiscal {
+
+/// A run file or a JSON case, told apart by content; "-" reads a case from standard input.
+/// Run: prints the certificate document. Case: the result document, exit 3 when refused.
+int command_analyze(const std::string& path);
+
+struct ProgramRequest {
+    std::string station_file, dialect,
+        out_directory; ///< dialect empty: linuxcnc, or marlin is named
+    std::optional<std::uint64_t> seed;
+};
+/// Writes one file a pass and says how to arm it.
+int command_program(const ProgramRequest& request, bool json);
+
+/// certificate.json, .csv and .pdf of a closed run into `out_directory`/<run-id>/, by axiscal-report,
+/// whose line of JSON names the files.
+int command_export(const std::string& run_file, const std::string& out_directory);
+
+/// Every refusal of the station file at once, with file:line.
+int command_check_config(const std::string& station_file, bool json);
+
+} // namespace axiscal
