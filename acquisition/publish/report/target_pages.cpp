@@ -7,6 +7,18 @@ namespace {
 
 constexpr std::size_t deviations_in_a_row = 12;
 
+void append_spread(TableRow& cells,
+                   const PositionRow& row,
+                   const PaperUnits& units,
+                   bool backward) {
+    cells.push_back(units.of_spread(row.s_forward));
+    if (backward) cells.push_back(units.of_spread(row.s_backward));
+    cells.push_back(units.of_deviation(row.repeatability_forward));
+    if (!backward) return;
+    cells.push_back(units.of_deviation(row.repeatability_backward));
+    cells.push_back(units.of_deviation(row.repeatability));
+}
+
 void draw_statistics(Sheet& sheet, const Certificate& certificate) {
     const PaperUnits units = paper_units_of(certificate);
     const bool backward = !certificate.deviations.backward().empty();
@@ -29,13 +41,7 @@ void draw_statistics(Sheet& sheet, const Certificate& certificate) {
         if (backward)
             for (const auto& value : {row.mean_backward, row.mean, row.reversal})
                 cells.push_back(units.of_deviation(value));
-        if (spread && backward)
-            for (const auto& value : {row.s_forward, row.s_backward, row.repeatability_forward,
-                                      row.repeatability_backward, row.repeatability})
-                cells.push_back(units.of_deviation(value));
-        if (spread && !backward)
-            for (const auto& value : {row.s_forward, row.repeatability_forward})
-                cells.push_back(units.of_deviation(value));
+        if (spread) append_spread(cells, row, units, backward);
         rows.push_back(std::move(cells));
     }
     sheet.heading("Result per target");

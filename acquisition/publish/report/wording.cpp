@@ -64,6 +64,11 @@ std::string PaperUnits::of_deviation(double in_result_unit) const {
 std::string PaperUnits::of_deviation(const std::optional<double>& in_result_unit) const {
     return in_result_unit ? of_deviation(*in_result_unit) : "–";
 }
+std::string PaperUnits::of_spread(const std::optional<double>& in_result_unit) const {
+    if (!in_result_unit) return of_deviation(in_result_unit);
+    return fixed(*in_result_unit * deviation_factor, deviation_decimals + 1);
+}
+
 std::string PaperUnits::of_position(double in_result_unit) const {
     return fixed(in_result_unit, position_decimals);
 }

@@ -25,6 +25,8 @@ struct PaperUnits {
 
     [[nodiscard]] std::string of_deviation(double in_result_unit) const;
     [[nodiscard]] std::string of_deviation(const std::optional<double>& in_result_unit) const;
+    /// Standard deviations: one decimal more, they are a few times smaller than what they describe.
+    [[nodiscard]] std::string of_spread(const std::optional<double>& in_result_unit) const;
     [[nodiscard]] std::string of_position(double in_result_unit) const;
 };
 PaperUnits paper_units_of(const Certificate& certificate);
