@@ -199,7 +199,9 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     std::size_t best_cost = std::max<std::size_t>(1, word.size() / 3) + 1;
     if (word.size() > 64) return best; // the table of edits stays small
     for (const std::string& candidate : candidates) {
-        const std::size_t edits = edit_distance(lower(word), lower(candidate));
+        // A word broken off ("dracal" for "dracal-vcp") is one slip, however much is missing.
+        const bool broken_off = word.size() >= 3 && lower(candidate).starts_with(lower(word));
+        const std::size_t edits = broken_off ? 1 : edit_distance(lower(word), lower(candidate));
         if (edits < best_cost) {
             best = candidate;
             best_cost = edits;

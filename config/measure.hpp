@@ -55,7 +55,8 @@ bool within(double value, double low, double high);
 
 /// Edits (insert, delete, replace, swap of neighbours) from one word to the other.
 std::size_t edit_distance(std::string_view word, std::string_view other);
-/// The candidate that a slip of the finger explains (at most a third of its letters); else empty.
+/// The candidate that a slip of the finger explains (at most a third of its letters, or the rest
+/// left out); else empty.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace axiscal

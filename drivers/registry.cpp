@@ -1,12 +1,14 @@
 #include "drivers/registry.hpp"
 
+#include "config/measure.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/modbus_instrument.hpp"
 #include "drivers/laser/laser_umd.hpp"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <string>
+#include <vector>
 
 namespace axiscal {
 namespace {
@@ -17,21 +19,6 @@ constexpr std::array drivers{
                      make_dracal_vcp},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
-
-/// Levenshtein distance: how many letters to change, add or drop.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
 
 template <class Names> std::string list_of(const Names& names) {
     std::string text;
@@ -65,11 +52,12 @@ std::span<const InstrumentDriver> instrument_drivers() {
 Result<const InstrumentDriver*> find_driver(std::string_view name) {
     const auto found = std::ranges::find(drivers, name, &InstrumentDriver::name);
     if (found != drivers.end()) return &*found;
-    const auto nearest = std::ranges::min_element(
-        drivers, {}, [name](const InstrumentDriver& row) { return distance(name, row.name); });
+    std::vector<std::string> names;
+    for (const InstrumentDriver& row : drivers)
+        names.emplace_back(row.name);
     std::string reason = "there is no driver \"" + std::string{name} + "\"";
-    if (distance(name, nearest->name) <= nearest->name.size() / 2)
-        reason += "; did you mean \"" + std::string{nearest->name} + "\"?";
+    if (const std::string near = nearest_word(name, names); !near.empty())
+        reason += "; did you mean \"" + near + "\"?";
     return fail(Fault::unknown_instrument, reason + " Drivers: " + list_of(drivers));
 }
 

@@ -11,6 +11,11 @@
 
 namespace axiscal {
 
+/// 65535 is followed by 1: 0 stays the idle number.
+constexpr std::uint16_t next_sequence(std::uint16_t sequence) {
+    return sequence == 65535 ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
+}
+
 enum class TriggerCommand : std::uint8_t { prepare, capture, skip, abort, end };
 
 /// One edge of the CNC's request. A repeated sequence number is delivered again: the station

@@ -1,5 +1,7 @@
 #include "acquisition/program/part_program.hpp"
 
+#include "drivers/framing/checksum.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,16 +17,6 @@ constexpr std::array dialects{
                    "Marlin and other printer firmware: dwell trigger, G4 P in milliseconds",
                    write_marlin},
 };
-
-/// CRC-16/XMODEM (poly 0x1021, init 0), bytes high first.
-std::uint16_t crc16(std::uint16_t crc, std::uint32_t word) {
-    for (int bit = 31; bit >= 0; --bit) {
-        const bool top = (crc & 0x8000U) != 0;
-        crc = static_cast<std::uint16_t>(crc << 1U);
-        if (top != (((word >> static_cast<unsigned>(bit)) & 1U) != 0)) crc ^= 0x1021U;
-    }
-    return crc;
-}
 
 } // namespace
 
@@ -60,11 +52,11 @@ Result<ProgramDialect> find_dialect(std::string_view name) {
 }
 
 std::string program_id(const RunPlan& plan) {
-    std::uint16_t check = 0;
+    std::string targets;
     for (const Length target : plan.targets)
-        check = crc16(check, static_cast<std::uint32_t>(std::lround(target.in(um)*10)));
+        targets += std::to_string(std::lround(target.in(um)*10)) + ";";
     char hex[8];
-    std::snprintf(hex, sizeof hex, "%04X", check);
+    std::snprintf(hex, sizeof hex, "%04X", static_cast<unsigned>(crc16_xmodem(targets)));
     return "seed=" + (plan.seed ? std::to_string(*plan.seed) : "none") + " pass=" + plan.pass +
            " targets=" + std::to_string(plan.targets.size()) +
            " n=" + std::to_string(plan.approaches) + " check=" + hex;

@@ -43,7 +43,7 @@ std::span<const ProgramDialect> program_dialects();
 Result<ProgramDialect> find_dialect(std::string_view name);
 
 /// "seed=42 pass=whole targets=11 n=5 check=1A2B": what ties a program to its plan; the check is
-/// CRC-16/XMODEM over the targets in 0.1 um, so that a wrong pair of program and job is seen.
+/// CRC-16/XMODEM over the targets in 0.1 um ("348900;1393570;..."), so that a wrong pair of program and job is seen.
 std::string program_id(const RunPlan& plan);
 /// Coordinates are written with four decimals (0.1 um) and always a decimal point.
 std::string coordinate_word(const std::string& axis, double coordinate_mm);

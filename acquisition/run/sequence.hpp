@@ -1,14 +1,12 @@
 #pragma once
 // The numbering of requests: 0 is idle, 65535 is followed by 1. Pure.
 
+#include "drivers/trigger_port.hpp"
+
 #include <cstdint>
 #include <string>
 
 namespace axiscal {
-
-constexpr std::uint16_t next_sequence(std::uint16_t sequence) {
-    return sequence == 65535 ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
-}
 
 /// One sentence for a request that is neither the last durable one nor the next: names it as
 /// missed, restarted or late, with the numbers. `last_durable` 0: nothing is durable yet.

@@ -15,11 +15,6 @@
 
 namespace axiscal {
 
-/// 65535 is followed by 1: 0 stays the idle number.
-constexpr std::uint16_t next_sequence(std::uint16_t sequence) {
-    return sequence == 65535 ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
-}
-
 /// Which addresses a shape has, each table from address 0. A plain value: every thread may ask.
 struct AddressSpace {
     int coils = 0, discrete_inputs = 0, holding = 0, input = 0;

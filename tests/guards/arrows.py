@@ -16,7 +16,7 @@ MAY = {
     "drivers": {"analysis/quantity", "analysis/run_record.hpp", "config"},
     "acquisition/capture": {"analysis/quantity", "analysis", "config", "drivers"},
     "acquisition/run": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture"},
-    "acquisition/program": {"analysis/quantity", "analysis", "config", "acquisition/run"},
+    "acquisition/program": {"analysis/quantity", "analysis", "config", "drivers/framing/checksum.hpp"},
     "acquisition/journal": {"analysis/quantity", "analysis", "drivers"},
     "acquisition/publish": {"analysis/quantity", "analysis", "config", "acquisition/journal"},
     "acquisition/station": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture",

@@ -142,7 +142,7 @@ TEST_F(ModbusRtu, IsDeafToOthersAndToDamagedFrames) {
     pump_until([] { return false; }, 100);
     EXPECT_TRUE(received.empty());
     reach();
-    EXPECT_EQ(ask({17, 3, 0, 18, 0, 1}, 7), with_crc({17, 3, 2, 0, 0}));
+    EXPECT_EQ(ask({17, 3, 0, 18, 0, 1}, 7), with_crc({17, 3, 2, 0xFF, 0xFF})); // never armed
     EXPECT_TRUE(running->sink.events.empty());
 }
 
