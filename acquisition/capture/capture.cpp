@@ -18,6 +18,14 @@ Length turning_tolerance(const StillWindow& window, Length overrun) {
     return std::max({overrun / 20, window.statistics.spread, 2.0_um});
 }
 
+/// A hole in time is none where the instrument's own numbers go on: the computer was busy and read
+/// late, nothing was lost. Number 0: the instrument does not count.
+bool misses_samples(const Sample& earlier, const Sample& later, Duration gap) {
+    const bool numbered = earlier.device_count != 0 && later.epoch == earlier.epoch;
+    if (numbered && later.device_count - earlier.device_count <= 1) return false;
+    return later.at - earlier.at > gap;
+}
+
 /// Backwards from the rest. `along` grows towards the target from the claimed side.
 Path follow_back(const SampleHistory& history,
                  const StillWindow& window,
@@ -29,17 +37,20 @@ Path follow_back(const SampleHistory& history,
     };
     const auto tolerance = turning_tolerance(window, claim.overrun);
     const auto samples = history.between(claim.since, window.begin);
+    const auto rest = history.between(window.begin, window.end);
     Length farthest{};
-    auto later = window.begin;
+    Sample later = rest.empty() ? Sample{} : rest.front();
+    later.at = window.begin;
     for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
         const auto reading = sample->value();
-        if (!reading || later - sample->at > gap) return {-farthest, PathEnd::samples_missing};
-        later = sample->at;
+        if (!reading || misses_samples(*sample, later, gap))
+            return {-farthest, PathEnd::samples_missing};
+        later = *sample;
         const auto place = along(*reading);
         if (place > farthest + tolerance) return {-farthest, PathEnd::turned};
         farthest = std::min(farthest, place);
     }
-    const bool whole = history.reaches_back_to(claim.since) && later - claim.since <= gap;
+    const bool whole = history.reaches_back_to(claim.since) && later.at - claim.since <= gap;
     return {-farthest, whole ? PathEnd::reached_start : PathEnd::samples_missing};
 }
 

@@ -50,7 +50,8 @@ Result<Capture> make_capture(const SampleHistory& history,
 /// turn it, a reversal does.
 /// @return the travel; at least overrun - lost_motion_allowance(overrun).
 /// @errors Fault::wrong_direction with the travel seen; Fault::samples_lost when the readings end
-/// (gap, bad value, history too short) before the travel was seen.
+/// (gap, bad value, history too short) before the travel was seen. Samples with consecutive device
+/// numbers have no gap between them, however late they were read.
 Result<Length> approach_travel(const SampleHistory& history,
                                const StillWindow& window,
                                const ApproachClaim& claim,

@@ -41,6 +41,11 @@ public:
         lost_until_ = now_s_ + seconds;
         return *this;
     }
+    /// The computer was busy: what follows is stamped later, but the device's numbers go on.
+    AxisSignal& read_late(double seconds) {
+        now_s_ += seconds;
+        return *this;
+    }
     AxisSignal& bad(Quality why) {
         tick();
         history.push(Sample::bad(0, at_s(now_s_), why, count_, epoch));

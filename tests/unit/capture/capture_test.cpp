@@ -160,6 +160,15 @@ TEST(Approach, SaysWhenTheEvidenceWasLost) {
     EXPECT_EQ(capture->approach_travel.error().fault, Fault::samples_lost);
 }
 
+TEST(Approach, ReadingLateIsNoLoss) {
+    AxisSignal signal;
+    const auto since = signal.stand(1).now();
+    signal.move_to(5).read_late(0.15).move_to(5.5);
+    const auto capture = capture_here(signal, Direction::positive, since);
+    ASSERT_TRUE(capture->approach_travel) << capture->approach_travel.error().detail;
+    EXPECT_NEAR(capture->approach_travel->in(mm), 5.5, 0.01);
+}
+
 TEST(Approach, ALossBeforeTheEvidenceDoesNotMatter) {
     AxisSignal signal;
     const auto since = signal.stand(1).now();
