@@ -89,10 +89,18 @@ int live(const Options& options, Simulator& world) {
     return 0;
 }
 
+/// A real CNC's position stream: it speaks for itself, and each of its lines is a laser sample.
+void let_another_drive(Scenario& scenario) {
+    constexpr double stream_hz = 1000; // LinuxCNC's servo cycle
+    scenario.cnc.reset();
+    scenario.laser.rate_hz = stream_hz;
+}
+
 int open_and_live(const Options& options) {
     auto scenario = read_scenario(options.scenario);
     if (!scenario) return complain(scenario.error(), is_refused);
     if (options.cnc_port >= 0 && scenario->cnc) scenario->cnc->port = options.cnc_port;
+    if (!options.positions.empty()) let_another_drive(*scenario);
     auto world = Simulator::open(*scenario);
     if (!world) return complain(world.error(), can_not_open);
     (*world)->set_program(options.program);
@@ -119,7 +127,7 @@ int main(int argc, char** argv) {
     app.add_option("--truth", options.truth, "write the hidden truth of the program here");
     app.add_option("--control", options.control, "Unix socket for commands");
     app.add_option("--positions", options.positions,
-                   "drive the laser from a 1 kHz stream; - is stdin");
+                   "drive the laser from a 1 kHz stream (the scenario's [cnc] rests); - is stdin");
     app.add_option("--positions-field", options.positions_field, "which value of a line, from 1");
     app.add_option("--cnc-port", options.cnc_port, "the daemon's Modbus TCP port");
     app.add_flag("--run", options.run, "run the program at once");
