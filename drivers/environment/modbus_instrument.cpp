@@ -133,11 +133,12 @@ Task<Result<int>> ModbusInstrument::round(ModbusBus& bus, InstrumentContext cont
             hand_up(block, *reply, *context.sink);
             continue;
         }
-        count(reply.error().fault);
+        const Fault fault = reply.error().fault;
+        count(fault);
+        // A late or damaged answer says nothing about the sensor: its last value only grows old.
+        if (fault != Fault::link_closed && fault != Fault::refused) continue;
         hand_up_absent(block, context.scheduler->now(), *context.sink);
-        if (reply.error().fault == Fault::link_closed)
-            co_return tl::unexpected<Error>(reply.error());
-        if (reply.error().fault != Fault::refused) continue;
+        if (fault == Fault::link_closed) co_return tl::unexpected<Error>(reply.error());
         ++answered;
         if (!std::exchange(refusal_told_, true))
             context.sink->note(Fault::refused, reply.error().detail);

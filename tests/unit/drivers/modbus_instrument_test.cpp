@@ -329,8 +329,27 @@ TEST(ModbusSensorRtu, ADamagedReplyIsCountedAndGivesNoNumber) {
                                            "\"\npoll_period = \"20 ms\"\n");
         EXPECT_TRUE(station.until([&] { return sensor.ended.has_value(); }));
         EXPECT_EQ(sensor.instrument->counters().checksum_errors, 3u);
+        EXPECT_TRUE(sensor.sink.samples.empty());
+    }
+    line.join();
+}
+
+TEST(ModbusSensorRtu, OneDamagedReplyDoesNotMakeTheSensorAbsent) {
+    testing::PtyPair pty;
+    std::thread line{[&] {
+        for (const char* last : {"\xCF", "\xCE", "\xCF"}) {
+            if (pty.receive(8).size() != 8) return;
+            pty.send(std::string("\x01\x04\x04\x00\xF5\x02\x22\x6A", 8) + last);
+        }
+    }};
+    {
+        Station station;
+        const auto& sensor = station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path +
+                                           "\"\npoll_period = \"20 ms\"\n");
+        EXPECT_TRUE(station.until([&] { return sensor.sink.samples.size() >= 4; }));
+        EXPECT_EQ(sensor.instrument->counters().checksum_errors, 1u);
         for (const Sample& sample : sensor.sink.samples)
-            EXPECT_EQ(sample.quality(), Quality::absent);
+            EXPECT_EQ(sample.quality(), Quality::good);
     }
     line.join();
 }
