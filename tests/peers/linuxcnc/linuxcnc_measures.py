@@ -117,8 +117,8 @@ class Bench:
               [simulator, daemon, cnc])
         until(lambda: "unavailable" not in self.axiscal("devices"), "all instruments", [daemon, cnc])
         self.axiscal("arm", "--program", program)
-        print(self.axiscal("watch", "--until-published", limit_s=RUN_LIMIT_S).splitlines()[-1])
-        assert cnc.wait(PATIENCE_S) == 0, f"LinuxCNC: {(self.scratch / 'cnc.events').read_text()}"
+        assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(self.scratch / 'cnc.events').read_text()}"
+        print(self.axiscal("watch", "--until-published").splitlines()[-1])
         return next((self.scratch / "state/outbox").iterdir()), program
 
     def truth(self, program):
