@@ -61,7 +61,7 @@ others_gone 50 || refuse "a LinuxCNC runs on this computer already; a second one
 meeting=$(mktemp -d "${TMPDIR:-/tmp}/axiscal-cnc.XXXXXX")
 cnc=''
 finish() {
-    trap - EXIT TERM INT
+    trap '' TERM INT # nothing may stop the cleaning up
     if [ -n "$cnc" ] && kill -0 "$cnc" 2>/dev/null; then
         # LinuxCNC goes when its display goes; before there is one, its own script must.
         kill -TERM "$(cat "$scratch/display.pid" 2>/dev/null || echo "$cnc")" 2>/dev/null || true
