@@ -49,9 +49,9 @@ class Bench:
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="axiscal-peer-"))
         self.scratch.chmod(0o711)  # LinuxCNC's real-time part is another user
         self.port = free_port()
-        self.programs = {"axiscald": build / "acquisition/axiscald",
-                         "axiscal": build / "tools/axiscal/axiscal",
-                         "simulate": build / "tools/axiscal-simulate/axiscal-simulate"}
+        self.programs = {"axiscald": build / "bin/axiscald",
+                         "axiscal": build / "bin/axiscal",
+                         "simulate": build / "bin/axiscal-simulate"}
         self.environment = {**os.environ, "TMPDIR": str(self.scratch),
                             "AXISCAL_SOCKET": str(self.scratch / "axiscald.sock"),
                             "AXISCAL_PROFILE_PATH": str(source / "config/profiles")}
