@@ -55,25 +55,26 @@ void UmdCounter::lose_datum(SampleSink& sink, Fault fault, std::string sentence)
 }
 
 void UmdCounter::take(std::span<const UmdRecord> records, MonotonicTime read_at, SampleSink& sink) {
-    for (std::size_t i = 0; i < records.size(); ++i) {
-        const auto later = static_cast<std::int64_t>(records.size() - 1 - i);
-        MonotonicTime at = read_at - latency_ - period() * later;
-        // Never back: a burst that waited in a buffer may reach before the last one's time.
+    auto behind = std::ssize(records);
+    for (const UmdRecord& record : records) {
+        follow_sequence(record.sequence, read_at, sink);
+        facts_.learn(record.low_speed_code, record.low_speed_data);
+        MonotonicTime at = clock_.place(device_count_, read_at, period(), --behind) - latency_;
+        // Never back: a record that came quicker than all before moves the clock's origin.
         at = std::max(at, last_at_ + std::chrono::microseconds{1});
         last_at_ = at;
-        follow_sequence(records[i].sequence, read_at, sink);
-        learn(records[i], at, sink);
-        if (facts_.complete()) hand_up(read(records[i]), at, sink);
+        learn_environment(record, at, sink);
+        introduce(sink);
+        if (facts_.complete())
+            hand_up(read(record), at, sink);
+        else
+            complain_without_facts(sink);
     }
     last_read_at_ = read_at;
 }
 
-void UmdCounter::learn(const UmdRecord& record, MonotonicTime at, SampleSink& sink) {
-    facts_.learn(record.low_speed_code, record.low_speed_data);
-    learn_environment(record, at, sink);
-    introduce(sink);
-    if (facts_.complete() || complained_) return;
-    if (++records_without_facts_ < records_to_wait_for_facts) return;
+void UmdCounter::complain_without_facts(SampleSink& sink) {
+    if (complained_ || ++records_without_facts_ < records_to_wait_for_facts) return;
     complained_ = true;
     sink.note(Fault::bad_configuration, facts_.missing());
 }
@@ -112,6 +113,7 @@ void UmdCounter::follow_sequence(std::int64_t sequence, MonotonicTime read_at, S
     if (!last_sequence_) {
         last_sequence_ = sequence;
         device_count_ = static_cast<std::uint64_t>(sequence < 0 ? sequence + 65536 : sequence);
+        clock_.restart();
         return;
     }
     const std::int64_t step = step_of(sequence);
@@ -121,6 +123,7 @@ void UmdCounter::follow_sequence(std::int64_t sequence, MonotonicTime read_at, S
     if (step <= 0 || too_far) {
         ++counters_.restarts;
         device_count_ = static_cast<std::uint64_t>(sequence < 0 ? sequence + 65536 : sequence);
+        clock_.restart();
         lose_datum(sink, Fault::datum_lost, "the counter restarted");
         return;
     }

@@ -2,6 +2,7 @@
 // From uMD records to samples: continuity, signal faults, datum, time. No I/O. Loop-bound.
 
 #include "drivers/instrument.hpp"
+#include "drivers/laser/count_clock.hpp"
 #include "drivers/laser/umd_facts.hpp"
 #include "drivers/laser/umd_record.hpp"
 
@@ -28,7 +29,7 @@ public:
     void opened();
     /// The instrument printed its greeting: it restarted.
     void greeted(SampleSink& sink);
-    /// Records that arrived together; they are spread backwards by the record rate.
+    /// Records that arrived together; their numbers and the record rate place them in time.
     void take(std::span<const UmdRecord> records, MonotonicTime read_at, SampleSink& sink);
 
 private:
@@ -41,9 +42,9 @@ private:
         double counts = 0;
     };
 
-    void learn(const UmdRecord& record, MonotonicTime at, SampleSink& sink);
     void learn_environment(const UmdRecord& record, MonotonicTime at, SampleSink& sink);
     void introduce(SampleSink& sink);
+    void complain_without_facts(SampleSink& sink);
     void follow_sequence(std::int64_t sequence, MonotonicTime read_at, SampleSink& sink);
     [[nodiscard]] std::int64_t step_of(std::int64_t sequence) const;
     void lose_datum(SampleSink& sink, Fault fault, std::string sentence);
@@ -63,6 +64,7 @@ private:
     bool introduced_ = false, complained_ = false, contradicted_ = false, doubted_ = false;
     std::optional<std::int64_t> last_sequence_;
     std::uint64_t device_count_ = 0;
+    CountClock clock_;
     std::int64_t last_step_ = 1;
     int records_without_facts_ = 0;
     std::optional<double> last_counts_;
