@@ -112,7 +112,7 @@ struct RepublishDone {
 struct Refuse {
     std::uint16_t sequence = 0;
     Fault fault = Fault::none;
-    std::string sentence;
+    std::string sentence; ///< what there is to say beyond fault_sentence(fault)
     TriggerOrigin origin = TriggerOrigin::cnc;
 };
 /// Not waited for. `utc_ns` is left to the one who has a clock.

@@ -318,12 +318,12 @@ void RunMachine::refuse(std::uint16_t sequence,
                         MonotonicTime at,
                         RunActions& out) {
     ++counters_.refused;
-    Refuse refusal{sequence, error.fault, describe(error), origin};
+    Refuse refusal{sequence, error.fault, error.detail, origin};
     const bool repeated = last_refusal_ && last_refusal_->sequence == sequence &&
                           last_refusal_->fault == error.fault && last_refusal_->origin == origin;
     // After Close the file is shut, and a request repeated at 200 Hz must not fill it before.
     if (!repeated && !closed_)
-        record(EventKind::refused, at, refusal.sentence, error.fault, sequence, out);
+        record(EventKind::refused, at, describe(error), error.fault, sequence, out);
     last_refusal_ = refusal;
     out.push_back(std::move(refusal));
 }
