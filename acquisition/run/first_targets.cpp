@@ -49,6 +49,14 @@ bool shift_fits(Claims claims) {
     });
 }
 
+/// The targets before were right, this one is off: what a shift in mid-program leaves.
+bool shift_is_new(Claims claims) {
+    const auto before = claims.first(claims.size() - 1);
+    return std::ranges::all_of(before, [](const ClaimedTarget& claim) {
+        return abs(claim.measured - claim.target) <= 50.0_um;
+    });
+}
+
 std::string joined(const std::vector<std::string>& causes) {
     std::string text;
     for (const auto& cause : causes)
@@ -98,6 +106,7 @@ Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims
             causes.push_back(shift_cause(shift));
         else if (causes.empty() && ratio_fits(datum, claims, seen / claimed))
             causes.push_back(scale_cause(seen / claimed));
+        if (shift_is_new(claims)) causes.push_back(shift_cause(shift) + " since the target before");
     } else {
         if (causes.empty()) causes.push_back(scale_cause(seen / claimed));
         // Nothing moved is no shift: a shift would have to equal the move by chance.

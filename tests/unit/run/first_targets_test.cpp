@@ -66,6 +66,13 @@ TEST(FirstTargets, ATurnedSignAndAWrongUnitAreNamedTogether) {
     EXPECT_TRUE(names(error, "and the sign is turned")) << error.detail;
 }
 
+TEST(FirstTargets, AShiftAfterARightTargetIsTold) {
+    const std::vector<ClaimedTarget> claims{{14.0_mm, 14.003_mm}, {105.0_mm, 106.002_mm}};
+    const auto error = diagnose_first_targets(datum, claims);
+    EXPECT_TRUE(names(error, "the datum is shifted by 1.002 mm since the target before"))
+        << error.detail;
+}
+
 TEST(FirstTargets, OneTargetCannotTellAScaleFromAShift) {
     const auto error = diagnose(1.1, {}, {30.0_mm});
     EXPECT_EQ(error.fault, Fault::outside_window);
