@@ -62,6 +62,7 @@ void Simulator::start(bool external_positions) {
         threads_.emplace_back([this](std::stop_token stop) { laser_->run(stop); });
     for (const auto& sensor : sensors_)
         threads_.emplace_back([face = sensor.get()](std::stop_token stop) { face->run(stop); });
+    if (cable_) threads_.emplace_back([this](std::stop_token stop) { cable_->run(stop); });
     if (exchange_) threads_.emplace_back([this](std::stop_token stop) { exchange_->run(stop); });
 }
 
