@@ -112,12 +112,12 @@ RunStatus Station::run_status() const {
     if (taken > 0 && !closed_)
         run.seconds_left =
             seconds_of(scheduler_.now() - run_->began) / taken * (view.total - view.done);
-    if (last_refusal_) {
+    if (last_outcome_ && !last_outcome_->complete) { // why it ended, whatever was refused before
+        if (last_outcome_->fault != Fault::none) run.last_fault = fault_name(last_outcome_->fault);
+        run.last_sentence = last_outcome_->reason;
+    } else if (last_refusal_) {
         run.last_fault = fault_name(last_refusal_->fault);
         run.last_sentence = describe(*last_refusal_);
-    } else if (last_outcome_ && !last_outcome_->complete) {
-        run.last_fault = fault_name(last_outcome_->fault);
-        run.last_sentence = last_outcome_->reason;
     }
     return run;
 }
