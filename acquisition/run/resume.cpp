@@ -13,6 +13,7 @@ namespace axiscal {
 namespace {
 
 constexpr Duration shortest_rate_base = std::chrono::seconds{10};
+constexpr Duration shortest_count = std::chrono::seconds{1};
 constexpr std::string_view skip_words = "Skipped: planned step ";
 
 void add_sightings(const std::vector<WindowSample>& samples, std::vector<CounterSighting>& out) {
@@ -89,6 +90,28 @@ std::optional<double> counting_rate_hz(const RunRecord& run) {
            seconds_of(span);
 }
 
+std::optional<double> counting_rate_hz(std::span<const Sample> samples) {
+    if (samples.empty()) return std::nullopt;
+    const Sample &first = samples.front(), &last = samples.back();
+    if (last.at - first.at < shortest_count || last.device_count <= first.device_count)
+        return std::nullopt;
+    return static_cast<double>(last.device_count - first.device_count) /
+           seconds_of(last.at - first.at);
+}
+
+MonotonicTime last_sign_of_life(const RunRecord& run) {
+    MonotonicTime last = run.opened.after;
+    for (const auto& datum : run.datums)
+        last = std::max(last, datum.at);
+    for (const auto& point : run.points)
+        last = std::max(last, point.window_end);
+    for (const auto& event : run.events)
+        last = std::max(last, event.at);
+    for (const auto& reading : run.environment)
+        last = std::max(last, reading.at);
+    return last;
+}
+
 ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const Sample& first_after,
                                   const ContinuityLimits& limits) {
@@ -151,8 +174,7 @@ ResumeVerdict judge_first_request(std::uint16_t last_durable,
                     " was durable before the interruption, done is published again."};
     if (*request == next_sequence(last_durable))
         return {ResumeDecision::capture_standing, Fault::none,
-                "Resumed: request " + std::to_string(*request) +
-                    " still stands and is captured; the way to it was not seen."};
+                "Resumed: request " + std::to_string(*request) + " still stands and is captured."};
     return {ResumeDecision::close_sequence_lost, Fault::sequence_lost,
             describe_disorder(*request, last_durable)};
 }
@@ -170,7 +192,10 @@ decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const 
     auto datum = judge_datum(run, now);
     if (datum.fault != Fault::none) return datum;
     auto verdict = judge_first_request(last_durable_request(run).sequence, request);
-    if (!datum.sentence.empty()) verdict.sentence += " " + datum.sentence;
+    if (!request && !datum.sentence.empty())
+        verdict.sentence = datum.sentence;
+    else if (!datum.sentence.empty())
+        verdict.sentence += " " + datum.sentence;
     return verdict;
 }
 

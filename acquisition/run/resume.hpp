@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,12 @@ std::optional<CounterSighting> last_sighting(const RunRecord& run);
 /// Samples a second between the first and the last sighting; none when they are too near each
 /// other (10 s) to tell.
 std::optional<double> counting_rate_hz(const RunRecord& run);
+
+/// The same from readings alone, for a run too young to tell; none below one second.
+std::optional<double> counting_rate_hz(std::span<const Sample> samples);
+
+/// When the run file was last written to.
+MonotonicTime last_sign_of_life(const RunRecord& run);
 
 /// An interferometer is incremental: its zero survives a restart of the daemon only if its counter
 /// is proven to have run on. The laser's own number must have advanced by elapsed time x rate (a

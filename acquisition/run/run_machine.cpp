@@ -53,7 +53,12 @@ RunMachine::RunMachine(RunSetup setup,
         datum_epoch_ = epoch;
         datum_count_ = static_cast<int>(open_run.datums.size());
     }
+    // The way began where the run was left; of what was not watched nothing is held against it.
     approach_since_ = now;
+    if (datum_) approach_since_ = datum_->at;
+    for (const auto& point : open_run.points)
+        approach_since_ = std::max(approach_since_, point.window_end);
+    approach_unseen_ = datum_.has_value();
 }
 
 RunActions RunMachine::handle(const RunInput& input) {
@@ -147,7 +152,6 @@ bool RunMachine::answered_after_resume(const TriggerEvent& event, RunActions& ou
         close(false, verdict.sentence, Fault::sequence_lost, out);
         return true;
     }
-    approach_unseen_ = verdict.decision == ResumeDecision::capture_standing;
     record(EventKind::resumed, event.at, verdict.sentence, Fault::none, event.sequence, out);
     return false;
 }
@@ -222,6 +226,7 @@ void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
         datum_epoch_ = settled.datum.epoch;
         datum_broken_ = false;
         approach_since_ = settled.datum.at;
+        approach_unseen_ = false;
         if (!std::exchange(armed_, true)) {
             out.push_back(PublishArmed{});
             record(EventKind::armed, settled.datum.at, "Armed at the datum.", Fault::none, 0, out);

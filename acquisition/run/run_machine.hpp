@@ -48,8 +48,8 @@ public:
     explicit RunMachine(RunSetup setup);
     /// An open run after a restart, found resumable (resume.hpp). `epoch`: of the laser's counter
     /// now, proven to continue the datum's. The first request must be the last durable one or the
-    /// next; anything else closes the run (sequence_lost). The way to a standing request was not
-    /// seen: that one point is taken without it, and an event says so.
+    /// next; anything else closes the run (sequence_lost). As much of the way to the first point as
+    /// nobody watched is not asked for, and an event says so.
     RunMachine(RunSetup setup, const RunRecord& open_run, std::uint32_t epoch, MonotonicTime now);
 
     RunActions handle(const RunInput& input);
@@ -116,6 +116,7 @@ private:
     void accept_point(const Capture& capture, RunActions& out);
     [[nodiscard]] std::optional<Error> objection_to_place(Length position, Length target) const;
     [[nodiscard]] std::string place_in_words(Length position, Length target) const;
+    [[nodiscard]] bool may_have_been_unseen(const Error& error) const;
     void refuse_pending(const Error& error, MonotonicTime at, RunActions& out);
 
     RunSetup setup_;

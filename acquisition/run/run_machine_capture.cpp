@@ -120,9 +120,7 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     pending.sequence = event.sequence;
     pending.step = point->step;
     pending.triggered_at = event.at;
-    std::optional<ApproachClaim> approach;
-    if (!approach_unseen_)
-        approach = ApproachClaim{point->direction, setup_.laser.sign, setup_.plan.overrun,
+    const ApproachClaim approach{point->direction, setup_.laser.sign, setup_.plan.overrun,
                                  approach_since_};
     open_window(std::move(pending), approach,
                 setup_.plan.targets[static_cast<std::size_t>(point->target_index)], out);
@@ -183,6 +181,11 @@ std::optional<Error> RunMachine::objection_to_place(Length position, Length targ
     return diagnose_first_targets(datum_->coordinate, claims);
 }
 
+/// Once, after a restart; a way that was seen to be wrong stays wrong.
+bool RunMachine::may_have_been_unseen(const Error& error) const {
+    return approach_unseen_ && error.fault == Fault::samples_lost;
+}
+
 void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     if (capture.epoch != datum_epoch_) {
         refuse_pending(datum_lost_error("The counter was restarted since the datum."), capture.end,
@@ -196,8 +199,14 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     const auto position = live_position(setup_.laser, *datum_, capture.mean, *air_);
     if (const auto objection = objection_to_place(position, target))
         return refuse_pending(*objection, capture.end, out);
-    if (!capture.approach_travel)
-        return refuse_pending(capture.approach_travel.error(), capture.end, out);
+    const auto& way = capture.approach_travel;
+    if (!way && !may_have_been_unseen(way.error()))
+        return refuse_pending(way.error(), capture.end, out);
+    if (!way)
+        record(EventKind::resumed, capture.end,
+               "The way to the point of request " + std::to_string(pending_->sequence) +
+                   " was not seen: the station was away.",
+               Fault::none, pending_->sequence, out);
     if (first_claims_.size() < diagnosed_targets) first_claims_.push_back({target, position});
     auto& point = pending_->point;
     point.step = planned.step;
@@ -211,7 +220,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     point.spread = capture.spread;
     point.slope_um_per_s = capture.slope_um_per_s;
     point.n = capture.n;
-    point.approach_travel = *capture.approach_travel;
+    point.approach_travel = way.value_or(Length{});
     point.datum_id = datum_->id;
     point.live_deviation = position - target;
     point.samples = capture.samples;

@@ -91,7 +91,8 @@ private:
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
     Task<Result<void>> await_datum();
     Task<Result<void>> resume_or_close(std::string path);
-    Task<Result<void>> resume(std::string path, RunRecord run);
+    Task<double> laser_rate_hz(MonotonicTime limit);
+    Task<Result<void>> resume(std::string path, RunRecord run, std::string proof);
     Task<void> close_left_over(std::string path, std::string reason, Fault fault);
     [[nodiscard]] std::string laser_serial() const;
 

@@ -1,6 +1,7 @@
 // Opening a run, and taking over one that was open when the daemon went down.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/capture/wording.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -148,23 +149,44 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     now.config_hash = config_hash_;
     now.boot_id = boot_id_;
     now.laser_serial = laser_serial();
-    if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
     now.limits.fastest = config_.capture.fastest;
+    if (!run.datums.empty() && !counting_rate_hz(run))
+        now.limits.rate_hz = co_await laser_rate_hz(limit);
+    if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
     const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
     if (verdict.decision != ResumeDecision::wait_for_request) {
         co_await close_left_over(path, verdict.sentence, verdict.fault);
         co_return Result<void>{};
     }
-    co_return co_await resume(path, std::move(run));
+    co_return co_await resume(path, std::move(run), verdict.sentence);
 }
 
-Task<Result<void>> Station::resume(std::string path, RunRecord run) {
+/// For a run too young to tell. The first second may hold readings that waited in a buffer.
+Task<double> Station::laser_rate_hz(MonotonicTime limit) {
+    constexpr Duration second = std::chrono::seconds{1};
+    while (scheduler_.now() < limit) {
+        const auto newest = history_.newest();
+        if (newest && history_.reaches_back_to(newest->at - 2 * second - look_every)) {
+            const auto latest = history_.between(newest->at - second - look_every, newest->at);
+            if (const auto rate_hz = counting_rate_hz(latest)) co_return *rate_hz;
+        }
+        co_await scheduler_.sleep_for(look_every);
+    }
+    co_return 0;
+}
+
+Task<Result<void>> Station::resume(std::string path, RunRecord run, std::string proof) {
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
     const std::uint32_t epoch = history_.newest() ? history_.newest()->epoch : 0;
     RunRecord header = run;
     header.points.clear();
     begin_run(std::move(header), path);
+    const std::string away = run.boot_id == boot_id_
+                                 ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
+                                 : "while the computer was restarted";
+    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
+                         "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
     run_->done_at_start = static_cast<int>(run.points.size());
     machine_.emplace(setup_of(run), run, epoch, scheduler_.now());
     feed(EnvironmentNow{refractivity_now()});

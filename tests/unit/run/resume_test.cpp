@@ -128,6 +128,25 @@ TEST(Resume, MeasuresTheLasersRateFromTheRun) {
     EXPECT_NEAR(*counting_rate_hz(run_with_points(5)), rate_hz, 0.1);
 }
 
+TEST(Resume, MeasuresTheLasersRateFromOneSecondOfReadings) {
+    std::vector<Sample> samples;
+    for (int i = 0; i <= 1000; ++i)
+        samples.emplace_back(0, at_s(50 + i * 1e-3), 0.02, count_at(50) + i);
+    EXPECT_NEAR(*counting_rate_hz(samples), rate_hz, 0.1);
+    samples.pop_back();
+    EXPECT_FALSE(counting_rate_hz(samples)); // shorter than a second
+    EXPECT_FALSE(counting_rate_hz(std::span<const Sample>{}));
+}
+
+TEST(Resume, FindsTheLastSignOfLifeInWhateverWasWrittenLast) {
+    RunRecord run = run_with_points(2);
+    EXPECT_EQ(last_sign_of_life(run), at_s(140.5));
+    run.environment.push_back({0, at_s(141), 20.0});
+    EXPECT_EQ(last_sign_of_life(run), at_s(141));
+    run.events.push_back({EventKind::interrupted, at_s(142), 0, "", Fault::none, 0});
+    EXPECT_EQ(last_sign_of_life(run), at_s(142));
+}
+
 CounterSighting before_at(double seconds) {
     return {at_s(seconds), 20.0_mm, count_at(seconds)};
 }
@@ -221,19 +240,51 @@ TEST(ResumedRun, PublishesDoneAgainAndGoesOn) {
     EXPECT_TRUE(bench.open_window.approach) << "this way is seen again";
 }
 
-TEST(ResumedRun, CapturesAStandingRequestWhoseWayWasNotSeen) {
-    const auto run = run_with_points(3);
+/// The machine after a restart, at the window of a standing request 4.
+Bench resumed_at_standing_request() {
     Bench bench;
-    bench.machine = RunMachine{bench.setup, run, 1, at_s(200)};
+    bench.now_s = 200;
+    auto run = run_with_points(3);
+    run.datums.front().coordinate = bench.setup.plan.datum;
+    run.datums.front().reading = bench.reading_zero;
+    bench.machine = RunMachine{bench.setup, run, bench.epoch, at_s(200)};
     bench.give(EnvironmentNow{testing::air_index_minus_1});
     auto standing = Bench::request(4);
     standing.standing = true;
     bench.trigger(standing);
+    return bench;
+}
+
+TEST(ResumedRun, AsksForTheWaySinceTheLastDurablePoint) {
+    const Bench bench = resumed_at_standing_request();
     ASSERT_TRUE(bench.saw<OpenWindow>());
-    EXPECT_FALSE(bench.open_window.approach);
     EXPECT_EQ(bench.the<RecordEvent>().event.kind, EventKind::resumed);
-    EXPECT_NE(bench.the<RecordEvent>().event.text.find("the way to it was not seen"),
-              std::string::npos);
+    ASSERT_TRUE(bench.open_window.approach);
+    EXPECT_EQ(bench.open_window.approach->since, at_s(160.5));
+}
+
+Capture with_way(const Bench& bench, Fault fault) {
+    Capture capture = bench.capture_at(bench.open_window.expected);
+    capture.approach_travel = fail(fault, "Seen only 0 mm from below.");
+    return capture;
+}
+
+TEST(ResumedRun, TakesThePointWhoseWayNobodySawOnce) {
+    Bench bench = resumed_at_standing_request();
+    bench.window(with_way(bench, Fault::samples_lost));
+    ASSERT_TRUE(bench.saw<CommitPoint>());
+    EXPECT_EQ(bench.the<CommitPoint>().point.approach_travel, 0.0_mm);
+    EXPECT_NE(bench.the<RecordEvent>().event.text.find("was not seen"), std::string::npos);
+    bench.commit().trigger(5).window(with_way(bench, Fault::samples_lost));
+    EXPECT_FALSE(bench.saw<CommitPoint>());
+    EXPECT_EQ(bench.the<Refuse>().fault, Fault::samples_lost);
+}
+
+TEST(ResumedRun, RefusesAWayThatWasSeenToBeWrong) {
+    Bench bench = resumed_at_standing_request();
+    bench.window(with_way(bench, Fault::wrong_direction));
+    EXPECT_FALSE(bench.saw<CommitPoint>());
+    EXPECT_EQ(bench.the<Refuse>().fault, Fault::wrong_direction);
 }
 
 TEST(ResumedRun, StopsWithSequenceLost) {
