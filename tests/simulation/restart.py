@@ -1,0 +1,88 @@
+"""A daemon that dies in mid-run goes on where it was, or says why it cannot."""
+
+import signal
+
+import bench
+from bench import expect, sentence
+
+
+def interrupt(b, sign, code, points=5):
+    b.begin_run()
+    b.wait_for_points(points)
+    expect(b.end("axiscald", sign) == code, "the exit code of axiscald")
+
+
+def goes_on(b):
+    """Every point once, in the order of the plan; the certificate tells of the interruption."""
+    run_id = b.start_daemon_again()
+    certificate = b.finish()
+    run = b.run()
+    expect(run["id"] == run_id and run["step"] == run["steps"] == 20, f"the run: {run}")
+    rows = certificate["run"]["deviations"]
+    expect([len(row) for row in rows["forward"] + rows["backward"]] == [2] * 10, f"{rows}")
+    remarks = " ".join(certificate["run"]["remarks"])
+    print(remarks)
+    expect("The run was interrupted at" in remarks, remarks)
+    expect("The station recorded nothing for" in remarks, remarks)
+    expect("The laser counted on during the interruption" in remarks, remarks)
+    expect("The run was resumed at" in remarks, remarks)
+    return remarks
+
+
+@sentence("KilledDaemonGoesOnWithTheRunOverTcp")
+def killed_tcp(b):
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    goes_on(b)
+
+
+@sentence("KilledDaemonGoesOnWithTheRunOverRtu")
+def killed_rtu(b):
+    b.trigger("sequence-block", "rtu")
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    goes_on(b)
+
+
+@sentence("KilledDaemonGoesOnWithTheRunOnASingleRegister")
+def killed_single_register(b):
+    b.trigger("single-register", "tcp")
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    goes_on(b)
+
+
+@sentence("StoppedDaemonGoesOnWithTheRun")
+def stopped(b):
+    interrupt(b, signal.SIGTERM, 0)
+    remarks = goes_on(b)
+    expect("The daemon was stopped; the run stays open" in remarks, remarks)
+
+
+@sentence("RequestThatChangedMeanwhileEndsTheRunAsSequenceLost")
+def advanced_by_hand(b):
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    b.sim("stop")
+    b.sim(f"connect 127.0.0.1 {bench.free_port()}")  # the CNC's cable is pulled
+    b.start_daemon_again()
+    b.foreign_request(15)
+    bench.wait_until("the run is closed", lambda: not b.status()["run_open"], 10)
+    b.axiscal("watch", code=6)
+    run = b.run()
+    expect(run["state"] == "incomplete" and run["fault"] == "sequence_lost", f"{run}")
+    expect("Request 15 came, but" in run["sentence"], run["sentence"])
+
+
+@sentence("LaserThatWasSwitchedOffMeanwhileEndsTheRunAsDatumLost")
+def counter_restarted(b):
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    b.sim("restart-counter")
+    b.start_daemon()
+    notes = bench.wait_until(
+        "the run is closed",
+        lambda: [n for n in b.status()["notes"] if "closed as incomplete" in n],
+        30,
+    )
+    expect("The datum is lost: its number advanced by" in notes[-1], notes[-1])
+    expect(b.run() is None, "no run is open")
+
+
+if __name__ == "__main__":
+    bench.main()
