@@ -54,6 +54,8 @@ public:
         double optical_fold = 2;
     };
     [[nodiscard]] virtual std::optional<Optics> optics() const { return std::nullopt; }
+    /// Where the device's own sample number begins again (65536 for 16 bits); 0: it does not.
+    [[nodiscard]] virtual std::uint64_t count_modulus() const { return 0; }
 };
 
 /// One row of the registry: how a driver is called in the station file and made from it.

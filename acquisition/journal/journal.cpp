@@ -233,11 +233,25 @@ Task<Result<JournalReceipt>> Journal::commit(EventRecord event, int step) {
 }
 
 Task<Result<JournalReceipt>> Journal::receipt_for(int step) {
+    const Lookup lookup = [](const RunFileWriter& writer, int key) {
+        return key < 0 ? writer.sequence_of_last_datum() : writer.sequence_of_point(key);
+    };
+    co_return co_await receipt_by(lookup, step, step);
+}
+
+Task<Result<JournalReceipt>> Journal::receipt_for_skip(std::uint16_t sequence, int step) {
+    const Lookup lookup = [](const RunFileWriter& writer, int key) {
+        return writer.sequence_of_skip(static_cast<std::uint16_t>(key));
+    };
+    co_return co_await receipt_by(lookup, sequence, step);
+}
+
+Task<Result<JournalReceipt>> Journal::receipt_by(Lookup lookup, int key, int step) {
     Worker* worker = worker_.get();
-    std::function<Result<std::uint16_t>()> work = [worker, step]() -> Result<std::uint16_t> {
+    std::function<Result<std::uint16_t>()> work = [worker, lookup, key,
+                                                   step]() -> Result<std::uint16_t> {
         if (!worker->writer) return fail(Fault::no_run_armed, "no run file is open");
-        AXISCAL_TRY(const auto sequence, step < 0 ? worker->writer->sequence_of_last_datum()
-                                                  : worker->writer->sequence_of_point(step));
+        AXISCAL_TRY(const auto sequence, lookup(*worker->writer, key));
         if (!sequence)
             return fail(Fault::not_found,
                         worker->writer->path() + " holds no point of step " + std::to_string(step));

@@ -14,6 +14,7 @@
 namespace axiscal {
 
 struct RunBatch;
+class RunFileWriter;
 struct StoredResult;
 
 /// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
@@ -49,6 +50,8 @@ public:
     /// For what is durable already, read back from disk: a point by its step, the last datum by -1.
     /// @errors Fault::not_found.
     Task<Result<JournalReceipt>> receipt_for(int step);
+    /// The same for a skipped step, which is an event: found by the request that skipped it.
+    Task<Result<JournalReceipt>> receipt_for_skip(std::uint16_t sequence, int step);
 
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);
@@ -67,6 +70,8 @@ public:
 private:
     struct Worker;
     Task<Result<JournalReceipt>> commit(RunBatch batch, std::uint16_t sequence, int step);
+    using Lookup = Result<std::optional<std::uint16_t>> (*)(const RunFileWriter& writer, int key);
+    Task<Result<JournalReceipt>> receipt_by(Lookup lookup, int key, int step);
 
     Scheduler& scheduler_;
     std::unique_ptr<Worker> worker_;

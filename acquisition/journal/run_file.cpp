@@ -205,6 +205,14 @@ Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_last_datum() con
     return sequence_in(*database_, "SELECT sequence FROM datum ORDER BY link DESC LIMIT 1");
 }
 
+Result<std::optional<std::uint16_t>>
+RunFileWriter::sequence_of_skip(std::uint16_t sequence) const {
+    if (broken_) return tl::unexpected<Error>(*broken_);
+    return sequence_in(*database_,
+                       "SELECT sequence FROM event WHERE kind='skipped' AND sequence=" +
+                           std::to_string(sequence) + " LIMIT 1");
+}
+
 Result<void> RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie) {
     AXISCAL_CHECK(transact({row_of(Closing{complete, std::move(reason), tie})}));
     broken_ = Error{Fault::refused, path_ + " is closed: nothing can be added", {}, {}};

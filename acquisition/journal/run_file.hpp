@@ -56,6 +56,7 @@ public:
     /// Sequence numbers as they stand on disk; empty when there is no such row.
     Result<std::optional<std::uint16_t>> sequence_of_point(int step) const;
     Result<std::optional<std::uint16_t>> sequence_of_last_datum() const;
+    Result<std::optional<std::uint16_t>> sequence_of_skip(std::uint16_t sequence) const;
 
     /// Writes the closing row and leaves one single file without WAL, synced with its folder.
     Result<void> close(bool complete, std::string reason, const ClockTie& tie);

@@ -117,8 +117,10 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const ContinuityLimits& limits) {
     const auto reading = first_after.value();
     if (!reading) return lost("the laser gives no good reading.");
-    if (last_before.device_count == 0 || first_after.device_count == 0 || limits.rate_hz <= 0)
+    if (last_before.device_count == 0 || first_after.device_count == 0)
         return lost("this laser does not number its samples, so nothing proves that it ran on.");
+    if (limits.rate_hz <= 0)
+        return lost("the run was too young to tell how fast the laser counts.");
     const Duration elapsed = first_after.at - last_before.at;
     if (elapsed < Duration{}) return lost("its reading is older than the run's last one.");
     const double expected = seconds_of(elapsed) * limits.rate_hz;

@@ -368,6 +368,7 @@ RunView RunMachine::view() const {
     view.skipped = count_of(skipped_);
     view.total = static_cast<int>(done_.size());
     view.datum = datum_;
+    view.datum_epoch = datum_epoch_;
     view.last_position = last_position_;
     view.last_deviation = last_deviation_;
     view.counters = counters_;

@@ -35,6 +35,7 @@ struct RunView {
     std::optional<PlannedPoint> next; ///< none when every point is done or skipped
     int done = 0, skipped = 0, total = 0;
     std::optional<DatumRecord> datum;
+    std::uint32_t datum_epoch = 0; ///< of the laser's counter now, while the datum holds
     std::optional<Length> last_position, last_deviation; ///< of the last accepted point, live
     RunCounters counters;
 };

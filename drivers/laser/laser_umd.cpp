@@ -48,6 +48,7 @@ public:
     [[nodiscard]] std::optional<Optics> optics() const override {
         return Optics{setup_.wavelength, setup_.optical_fold};
     }
+    [[nodiscard]] std::uint64_t count_modulus() const override { return counter_.modulus(); }
 
 private:
     void digest(const TimedBytes& arrived, LineFramer& framer, SampleSink& sink);

@@ -100,6 +100,10 @@ void UmdCounter::learn_environment(const UmdRecord& record, MonotonicTime at, Sa
     sink.take(absent ? Sample::bad(channel, at, Quality::absent) : Sample{channel, at, value});
 }
 
+std::uint64_t UmdCounter::modulus() const {
+    return facts_.family() == UmdFamily::umd0 ? 65536 : 0;
+}
+
 /// How many records on `sequence` is. The uMD0 prints a 16-bit signed number that wraps.
 std::int64_t UmdCounter::step_of(std::int64_t sequence) const {
     const std::int64_t step = sequence - *last_sequence_;

@@ -31,6 +31,8 @@ public:
     void greeted(SampleSink& sink);
     /// Records that arrived together; their numbers and the record rate place them in time.
     void take(std::span<const UmdRecord> records, MonotonicTime read_at, SampleSink& sink);
+    /// 65536 once the instrument is known to be a uMD0, whose number has 16 bits.
+    [[nodiscard]] std::uint64_t modulus() const;
 
 private:
     enum class Signal : std::uint8_t { good, doubtful, lost };
