@@ -4,11 +4,14 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/read.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <spawn.h>
@@ -23,7 +26,18 @@ namespace asio = boost::asio;
 
 struct Child {
     pid_t pid = -1;
-    int output = -1; ///< read end of its stdout and stderr
+    int output = -1;  ///< read end of its stdout and stderr
+    int process = -1; ///< pidfd: readable when it has ended
+};
+
+constexpr auto longest_drawing = std::chrono::minutes{2}; // takes a second; a hung one is ended
+constexpr std::size_t longest_answer = 64 * 1024;
+
+struct KillLate {
+    int process;
+    void operator()(boost::system::error_code cancelled) const {
+        if (!cancelled) ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0U);
+    }
 };
 
 Result<Child> start(const std::vector<std::string>& words) {
@@ -43,9 +57,12 @@ Result<Child> start(const std::vector<std::string>& words) {
                                       arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
-    if (failed == 0) return child.output = ends[0], child;
-    ::close(ends[0]);
-    return fail(Fault::io, "cannot start " + words.front(), {failed, std::generic_category()});
+    child.output = ends[0];
+    if (failed == 0) child.process = static_cast<int>(::syscall(SYS_pidfd_open, child.pid, 0U));
+    if (child.process >= 0) return child;
+    const int reason = failed != 0 ? failed : errno;
+    ::close(child.output);
+    return fail(Fault::io, "cannot start " + words.front(), {reason, std::generic_category()});
 }
 
 std::string last_line(std::string text) {
@@ -64,19 +81,24 @@ Task<Result<std::string>> write_certificate(Scheduler& scheduler,
     const std::vector<std::string> words{program, run_file, "--outbox", outbox};
     AXISCAL_CO_TRY(const Child child, start(words));
     asio::posix::stream_descriptor output{scheduler.executor(), child.output};
+    asio::posix::stream_descriptor process{scheduler.executor(), child.process};
+    asio::steady_timer deadline{scheduler.executor(),
+                                longest_drawing}; // another process: real time
+    deadline.async_wait(KillLate{child.process});
     std::string said;
-    // The process closes its output when it ends; it cannot wait for us, so there is no deadline to
-    // miss.
-    co_await asio::async_read(output, asio::dynamic_buffer(said),
+    co_await asio::async_read(output, asio::dynamic_buffer(said, longest_answer),
                               asio::as_tuple(asio::use_awaitable));
+    output.close(); // one that goes on talking is ended by it
+    co_await process.async_wait(asio::posix::stream_descriptor::wait_read,
+                                asio::as_tuple(asio::use_awaitable));
+    deadline.cancel();
     int status = 0;
-    while (::waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
-    }
+    ::waitpid(child.pid, &status, 0); // it has ended: this does not wait
     const std::string line = last_line(said);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         co_return fail(Fault::io, program + " failed: " + line);
     const auto answer = nlohmann::json::parse(line, nullptr, false);
-    if (!answer.is_object() || !answer.contains("entry"))
+    if (!answer.is_object() || !answer.contains("entry") || !answer["entry"].is_string())
         co_return fail(Fault::io, program + " said nothing of its entry: " + line);
     co_return answer["entry"].get<std::string>();
 }

@@ -7,7 +7,8 @@
 
 namespace axiscal {
 
-/// Runs `program run_file --outbox outbox` and waits for it without holding the loop.
+/// Runs `program run_file --outbox outbox` and waits for it without holding the loop; after two
+/// minutes it is killed.
 /// @returns the folder of the new outbox entry.
 /// @errors Fault::io with the process's own last words.
 Task<Result<std::string>> write_certificate(Scheduler& scheduler,

@@ -4,6 +4,7 @@
 #include "analysis/air_refraction.hpp"
 #include "drivers/spawn.hpp"
 
+#include <boost/asio/bind_cancellation_slot.hpp>
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
@@ -88,13 +89,15 @@ Task<Result<void>> Station::start() {
         if (!resumed)
             note("The open run " + path + " could not be continued: " + describe(resumed.error()));
     }
-    spawn(scheduler_, serve_port());
+    boost::asio::co_spawn(scheduler_.executor(), serve_port(),
+                          boost::asio::bind_cancellation_slot(end_port_.slot(), RethrowOnLoop{}));
     co_return Result<void>{};
 }
 
 Task<void> Station::stop() {
     stopping_ = true;
-    if (run_ && machine_ && !machine_->view().closed) {
+    end_port_.emit(boost::asio::cancellation_type::terminal);
+    if (recording()) {
         perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                              "The daemon was stopped; the run stays open.", Fault::none, 0}});
         co_await journal_.flush();
@@ -105,7 +108,8 @@ Task<void> Station::serve_port() {
     while (!stopping_) {
         TriggerContext context{&scheduler_, this};
         const Result<void> ended = co_await port_->run(context);
-        if (!ended) on_port_note(ended.error().fault, describe(ended.error()));
+        if (stopping_) co_return;
+        if (!ended) on_port_note(ended.error().fault, ended.error().detail);
         co_await scheduler_.sleep_for(port_pause);
     }
 }
@@ -120,10 +124,7 @@ Task<void> Station::tick() {
             supervisor_.judge();
             judged = now;
         }
-        if (machine_) {
-            feed(EnvironmentNow{refractivity_now()});
-            feed(Tick{now});
-        }
+        feed_with_air(Tick{now});
         publish_to_port();
     }
 }
@@ -141,10 +142,10 @@ void Station::on_sample(const Sample& sample) {
 
 void Station::take_reading(const Sample& sample) {
     history_.push(sample);
-    if (!datum_) return;
-    if (sample.epoch != laser_epoch_ && !datum_lost_told_) {
-        datum_lost_told_ = true;
-        feed(LaserFault{Fault::datum_lost, "The laser's counter lost its zero.", sample.at});
+    if (!datum_ || !recording()) return;
+    if (sample.epoch != datum_epoch_) {
+        if (!std::exchange(datum_lost_told_, true))
+            feed(LaserFault{Fault::datum_lost, "The laser's counter lost its zero.", sample.at});
         return;
     }
     if (const auto value = sample.value())
@@ -155,29 +156,45 @@ void Station::take_reading(const Sample& sample) {
 
 void Station::log_environment(int channel, const Sample& sample) {
     auto& last = logged_[static_cast<std::size_t>(channel)];
-    if (!run_ || closing_ || !sample.value() || (last && sample.at - *last < log_every)) return;
+    if (!recording() || !sample.value() || (last && sample.at - *last < log_every)) return;
     last = sample.at;
     journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
 }
 
-void Station::on_instrument_change(const InstrumentView& view) {
-    std::string sentence = view.name + " is " + std::string{name_of(view.state)};
-    if (!view.last_note.empty()) sentence += ": " + view.last_note;
+void Station::on_instrument_state(const InstrumentView& view) {
+    record_instrument(view.name + " is " + std::string{name_of(view.state)} + ".", Fault::none);
+}
+
+void Station::on_instrument_note(const InstrumentView& view) {
+    record_instrument(view.name + ": " + view.last_note, view.last_fault);
+}
+
+void Station::record_instrument(const std::string& sentence, Fault fault) {
     note(sentence);
-    if (run_ && !closing_)
-        perform(RecordEvent{
-            {EventKind::instrument, scheduler_.now(), 0, sentence, view.last_fault, 0}});
+    if (recording())
+        perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, sentence, fault, 0}});
 }
 
 void Station::on_trigger(const TriggerEvent& event) {
-    if (!machine_) {
-        // Without an open run the first value seen is the baseline.
-        if (event.sequence != 0 && !event.standing)
-            port_->refuse(event.sequence, Fault::no_run_armed);
-        return;
-    }
-    feed(EnvironmentNow{refractivity_now()});
-    feed(event);
+    port_note_.clear(); // it works
+    if (machine_) return feed_with_air(event);
+    if (event.sequence == 0) return;
+    // Without an open run the first value seen is the baseline, unless the CNC waits for a run
+    // that ended with the last daemon: then it is told why.
+    if (event.standing && left_over_fault_)
+        refuse_on_port(event.sequence, *left_over_fault_);
+    else if (!event.standing)
+        refuse_on_port(event.sequence, {Fault::no_run_armed, {}, {}, {}});
+}
+
+/// The CNC may repeat itself as fast as it likes: one line a change.
+void Station::refuse_on_port(std::uint16_t sequence, const Error& error) {
+    port_->refuse(sequence, error.fault);
+    std::string sentence =
+        "Request " + std::to_string(sequence) + " is refused: " + describe(error);
+    if (sentence == refused_note_) return;
+    note(sentence);
+    refused_note_ = std::move(sentence);
 }
 
 void Station::on_cnc_silent(bool silent) {
@@ -186,8 +203,10 @@ void Station::on_cnc_silent(bool silent) {
 }
 
 void Station::on_port_note(Fault fault, std::string sentence) {
-    port_note_ = std::string{fault_sentence(fault)} + " " + sentence;
-    note("Trigger port: " + port_note_);
+    std::string told = std::string{fault_sentence(fault)} + " " + sentence;
+    if (told == port_note_) return; // a taken address is tried again each second
+    note("Trigger port: " + told);
+    port_note_ = std::move(told);
 }
 
 void Station::note(const std::string& sentence) {
@@ -195,6 +214,18 @@ void Station::note(const std::string& sentence) {
     const ClockTie tie = scheduler_.clock_tie();
     notes_.push_back(iso8601_utc(tie.utc_ns) + " " + sentence);
     if (notes_.size() > kept_notes) notes_.pop_front();
+}
+
+const StationChannel& Station::channel_of(int id) const {
+    return supervisor_.channels()[static_cast<std::size_t>(id)];
+}
+
+bool Station::recording() const {
+    return run_ && machine_ && !run_->closing && !run_->closed;
+}
+
+bool Station::run_open() const {
+    return run_ && !run_->closed;
 }
 
 Result<double> Station::refractivity_now() const {

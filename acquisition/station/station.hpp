@@ -1,6 +1,8 @@
 #pragma once
 // The station: joins instruments, trigger port, run machine and journal on one loop. It carries out
 // what the run machine decides and decides nothing about a run itself. Loop-bound.
+//
+// Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
 #include "acquisition/capture/environment_watch.hpp"
 #include "acquisition/capture/sample_history.hpp"
@@ -12,6 +14,7 @@
 #include "config/station_config.hpp"
 #include "drivers/trigger_port.hpp"
 
+#include <boost/asio/cancellation_signal.hpp>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -40,7 +43,8 @@ public:
     /// Instruments first, then an open run is resumed or closed, the trigger port last.
     /// @errors Fault::io when the state directory cannot be used.
     Task<Result<void>> start();
-    /// Trigger port first, then everything noted is made durable; an open run stays open.
+    /// The trigger port is told to end first, then everything noted is made durable; an open run
+    /// stays open.
     Task<void> stop();
 
     [[nodiscard]] StationStatus status() const override;
@@ -49,22 +53,34 @@ public:
     Result<void> abort(std::string reason) override;
 
 private:
-    struct OpenRun {
+    /// The run that is open, or the last one.
+    struct CurrentRun {
         RunRecord header; ///< without points
         std::string path;
-        MonotonicTime began;
-        int done_at_start = 0; ///< points that were durable when this daemon took the run over
+        bool closing = false, closed = false;
+        std::optional<Close> outcome;
+        std::optional<Error> refusal; ///< since the last durable record
+        std::string certificate;      ///< folder
+        std::optional<Error> no_certificate;
+        /// Points that became durable under this daemon, for the time that is left.
+        int taken = 0;
+        MonotonicTime first_taken, last_taken;
     };
 
     // SupervisorListener, TriggerSink
     void on_sample(const Sample& sample) override;
-    void on_instrument_change(const InstrumentView& view) override;
+    void on_instrument_state(const InstrumentView& view) override;
+    void on_instrument_note(const InstrumentView& view) override;
     void on_trigger(const TriggerEvent& event) override;
     void on_cnc_silent(bool silent) override;
     void on_port_note(Fault fault, std::string sentence) override;
 
     // station_run.cpp: the run machine's actions
-    void feed(const RunInput& input);
+    /// Inputs are handled one after the other, each with all its actions, also when an action
+    /// feeds the next.
+    void feed(RunInput input);
+    void feed_with_air(RunInput input); ///< the refractive index of this moment first
+    void handle(const RunInput& input);
     void perform(PublishArmed action);
     void perform(OpenWindow action);
     void perform(CloseWindow action);
@@ -82,9 +98,11 @@ private:
     Task<void> commit_event(CommitEvent action);
     void settle(Result<JournalReceipt> receipt);
     Task<void> close_run(Close action);
+    Task<void> certify(std::string run_id, std::string path);
 
     // station_arm.cpp: opening and resuming
-    void begin_run(RunRecord header, std::string path);
+    Task<Result<std::string>> open_and_tie(ArmRequest request);
+    void begin_run(RunRecord header, std::string path, RunMachine machine);
     [[nodiscard]] Result<std::vector<std::string>> open_runs() const;
     Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> ready_to_measure() const;
@@ -93,20 +111,28 @@ private:
     Task<Result<void>> resume_or_close(std::string path);
     Task<double> laser_rate_hz(MonotonicTime limit);
     Task<Result<void>> resume(std::string path, RunRecord run, std::string proof);
+    Task<Result<void>> publish_last_done(RunRecord run);
     Task<void> close_left_over(std::string path, std::string reason, Fault fault);
     [[nodiscard]] std::string laser_serial() const;
+    [[nodiscard]] const StationChannel& channel_of(int id) const;
 
     // station_view.cpp
     void publish_to_port();
     [[nodiscard]] AxisView axis_view() const;
     [[nodiscard]] RunStatus run_status() const;
+    [[nodiscard]] std::optional<double> seconds_left(const RunView& view) const;
     [[nodiscard]] ChannelView channel_view(const StationChannel& channel) const;
 
     Task<void> serve_port();
     Task<void> tick();
     void take_reading(const Sample& sample);
     void log_environment(int channel, const Sample& sample);
+    void record_instrument(const std::string& sentence, Fault fault);
     void note(const std::string& sentence);
+    /// A run takes records: neither closing nor closed.
+    [[nodiscard]] bool recording() const;
+    [[nodiscard]] bool run_open() const;
+    void refuse_on_port(std::uint16_t sequence, const Error& error);
     [[nodiscard]] Result<double> refractivity_now() const;
 
     Scheduler& scheduler_;
@@ -121,19 +147,21 @@ private:
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
     std::optional<RunMachine> machine_;
-    std::optional<OpenRun> run_;
+    std::optional<CurrentRun> run_;
+    std::deque<RunInput> inputs_;
+    bool handling_ = false;
     std::optional<JournalReceipt> last_receipt_;
     std::uint64_t open_window_ = 0;
     PortState port_state_ = PortState::idle;
-    std::optional<Error> last_refusal_; ///< since the last durable record
-    std::optional<Close> last_outcome_;
+    std::optional<Error> manual_refusal_;  ///< of a person's own request
+    std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
-    std::uint32_t laser_epoch_ = 0; ///< of the counter under which the datum holds
+    std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
     double refractivity_ = 0;       ///< n - 1, the last one known; for live positions only
-    std::string certificate_, port_note_;
+    std::string port_note_, refused_note_;
     std::deque<std::string> notes_;
-    bool cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
-    bool closing_ = false, closed_ = false; ///< of run_
+    boost::asio::cancellation_signal end_port_;
+    bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
 };
 
 } // namespace axiscal

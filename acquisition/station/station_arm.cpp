@@ -7,6 +7,7 @@
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/run_header.hpp"
 
+#include <algorithm>
 #include <random>
 
 namespace axiscal {
@@ -38,7 +39,8 @@ Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
 }
 
 Result<void> Station::ready_to_measure() const {
-    if (run_ && !closed_)
+    if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
+    if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
                                      " is open; finish it or 'axiscal abort' it first");
     const MonotonicTime now = scheduler_.now();
@@ -52,7 +54,7 @@ Result<void> Station::ready_to_measure() const {
 }
 
 std::string Station::laser_serial() const {
-    const int seat = supervisor_.channels()[static_cast<std::size_t>(roles_.laser)].instrument;
+    const int seat = channel_of(roles_.laser).instrument;
     const std::string& serial = supervisor_.identity(seat).serial;
     return serial.empty() ? config_.instruments[static_cast<std::size_t>(seat)].serial : serial;
 }
@@ -63,6 +65,13 @@ RunSetup Station::setup_of(const RunRecord& header) const {
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
+    arming_ = true;
+    auto armed = co_await open_and_tie(std::move(request));
+    arming_ = false;
+    co_return armed;
+}
+
+Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(RunPlan plan, plan_for(request));
     const RunHeaderParts parts{
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
@@ -73,23 +82,24 @@ Task<Result<std::string>> Station::arm(ArmRequest request) {
     RunRecord copy = header;
     if (auto opened = co_await journal_.open(path, std::move(copy)); !opened)
         co_return tl::unexpected<Error>(opened.error());
-    begin_run(std::move(header), std::move(path));
-    machine_.emplace(setup_of(run_->header));
-    feed(EnvironmentNow{refractivity_now()});
-    feed(Arm{scheduler_.now(), !request.datum_by_cnc});
+    RunMachine machine{setup_of(header)};
+    begin_run(std::move(header), std::move(path), std::move(machine));
+    manual_refusal_.reset();
+    feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
     if (request.datum_by_cnc) co_return run_->header.run_id;
     if (auto tied = co_await await_datum(); !tied) co_return tl::unexpected<Error>(tied.error());
     co_return run_->header.run_id;
 }
 
-void Station::begin_run(RunRecord header, std::string path) {
-    run_ = OpenRun{std::move(header), std::move(path), scheduler_.now(), 0};
+void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
+    run_.emplace();
+    run_->header = std::move(header);
+    run_->path = std::move(path);
+    machine_.emplace(std::move(machine));
     last_receipt_.reset();
-    last_refusal_.reset();
-    last_outcome_.reset();
-    certificate_.clear();
+    left_over_fault_.reset();
+    refused_note_.clear();
     datum_.reset();
-    closed_ = closing_ = false;
     for (const int channel : roles_.environment()) { // the first point needs a reading before it
         logged_[static_cast<std::size_t>(channel)].reset();
         if (const auto& sample = latest_[static_cast<std::size_t>(channel)])
@@ -100,31 +110,30 @@ void Station::begin_run(RunRecord header, std::string path) {
 /// A run whose datum cannot be tied is closed again: the technician mends the cause and arms anew.
 Task<Result<void>> Station::await_datum() {
     const MonotonicTime deadline = scheduler_.now() + config_.capture.timeout + laser_limit;
-    while (!datum_ && !closed_ && !last_refusal_ && scheduler_.now() < deadline)
+    while (!datum_ && recording() && !manual_refusal_ && scheduler_.now() < deadline)
         co_await scheduler_.sleep_for(look_every);
-    if (datum_) co_return Result<void>{};
+    if (datum_ && recording()) co_return Result<void>{};
     const Error why =
-        last_refusal_.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
+        manual_refusal_.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
     feed(Abort{"The datum could not be tied: " + describe(why), scheduler_.now()});
-    while (!closed_)
+    while (!run_->closed)
         co_await scheduler_.sleep_for(look_every);
     co_return tl::unexpected<Error>(why);
 }
 
 Result<void> Station::trigger() {
-    if (!run_ || closed_) return fail(Fault::no_run_armed, "");
-    last_refusal_.reset();
+    if (!recording()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
+    manual_refusal_.reset();
     TriggerEvent event;
     event.at = scheduler_.now();
     event.origin = TriggerOrigin::manual;
-    feed(EnvironmentNow{refractivity_now()});
-    feed(event);
-    if (last_refusal_) return tl::unexpected<Error>(*last_refusal_);
+    feed_with_air(event);
+    if (manual_refusal_) return tl::unexpected<Error>(*manual_refusal_);
     return {};
 }
 
 Result<void> Station::abort(std::string reason) {
-    if (!run_ || closed_) return fail(Fault::no_run_armed, "there is nothing to abort");
+    if (!recording()) return fail(Fault::no_run_armed, "there is nothing to abort");
     feed(Abort{std::move(reason), scheduler_.now()});
     return {};
 }
@@ -137,7 +146,7 @@ Result<std::vector<std::string>> Station::open_runs() const {
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunRecord run, read_run_file(path));
-    if (run_ && !closed_) {
+    if (run_open()) {
         co_await close_left_over(path, "Another run was open too; only one can go on.",
                                  Fault::busy);
         co_return Result<void>{};
@@ -150,6 +159,8 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     now.boot_id = boot_id_;
     now.laser_serial = laser_serial();
     now.limits.fastest = config_.capture.fastest;
+    now.limits.count_modulus =
+        supervisor_.instrument(channel_of(roles_.laser).instrument).count_modulus();
     if (!run.datums.empty() && !counting_rate_hz(run))
         now.limits.rate_hz = co_await laser_rate_hz(limit);
     if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
@@ -181,23 +192,35 @@ Task<Result<void>> Station::resume(std::string path, RunRecord run, std::string 
     const std::uint32_t epoch = history_.newest() ? history_.newest()->epoch : 0;
     RunRecord header = run;
     header.points.clear();
-    begin_run(std::move(header), path);
+    RunMachine machine{setup_of(run), run, epoch, scheduler_.now()};
+    begin_run(std::move(header), path, std::move(machine));
     const std::string away = run.boot_id == boot_id_
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
                                  : "while the computer was restarted";
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
-    run_->done_at_start = static_cast<int>(run.points.size());
-    machine_.emplace(setup_of(run), run, epoch, scheduler_.now());
     feed(EnvironmentNow{refractivity_now()});
-    laser_epoch_ = epoch;
-    if (!run.points.empty() || !run.datums.empty()) {
-        auto receipt =
-            co_await journal_.receipt_for(run.points.empty() ? -1 : run.points.back().step);
-        if (receipt) last_receipt_ = *receipt, port_->acknowledge(*receipt);
-    }
+    port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
          " durable points.");
+    co_return co_await publish_last_done(std::move(run));
+}
+
+/// The port is not open yet: the first thing a CNC can read of us is the last durable request.
+Task<Result<void>> Station::publish_last_done(RunRecord run) {
+    const DurableRequest last = last_durable_request(run);
+    if (last.sequence == 0) { // tied by a person, or not yet tied
+        port_->publish_armed();
+        co_return Result<void>{};
+    }
+    const bool is_point =
+        std::ranges::find(run.points, last.step, &PointRecord::step) != run.points.end();
+    auto receipt = last.step < 0 || is_point
+                       ? co_await journal_.receipt_for(last.step)
+                       : co_await journal_.receipt_for_skip(last.sequence, last.step);
+    if (!receipt) co_return tl::unexpected<Error>(receipt.error());
+    last_receipt_ = *receipt;
+    port_->acknowledge(*receipt);
     co_return Result<void>{};
 }
 
@@ -207,8 +230,10 @@ Task<void> Station::close_left_over(std::string path, std::string reason, Fault 
         co_return;
     }
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
-    co_await journal_.close(false, reason);
-    note("The open run " + path + " is closed as incomplete: " + reason);
+    const auto closed = co_await journal_.close(false, reason);
+    note(closed ? "The open run " + path + " is closed as incomplete: " + reason
+                : "The open run " + path + " cannot be closed: " + describe(closed.error()));
+    left_over_fault_ = Error{fault, reason, {}, {}};
 }
 
 } // namespace axiscal

@@ -13,8 +13,25 @@ constexpr Duration look_every = std::chrono::milliseconds{20}; // adds at most t
 
 } // namespace
 
-void Station::feed(const RunInput& input) {
+void Station::feed(RunInput input) {
     if (!machine_) return;
+    inputs_.push_back(std::move(input));
+    if (std::exchange(handling_, true)) return;
+    while (!inputs_.empty()) {
+        const RunInput next = std::move(inputs_.front());
+        inputs_.pop_front();
+        handle(next);
+    }
+    handling_ = false;
+}
+
+void Station::feed_with_air(RunInput input) {
+    if (!machine_) return;
+    feed(EnvironmentNow{refractivity_now()});
+    feed(std::move(input));
+}
+
+void Station::handle(const RunInput& input) {
     if (const auto* environment = std::get_if<EnvironmentNow>(&input);
         environment && environment->refractive_index_minus_1)
         refractivity_ = *environment->refractive_index_minus_1;
@@ -22,10 +39,10 @@ void Station::feed(const RunInput& input) {
         std::visit([this](auto& step) { perform(std::move(step)); }, action);
     const RunView view = machine_->view();
     if (view.datum && (!datum_ || datum_->id != view.datum->id)) {
-        laser_epoch_ = view.datum->epoch;
         datum_lost_told_ = false;
     }
     datum_ = view.datum;
+    datum_epoch_ = view.datum_epoch;
 }
 
 void Station::perform(PublishArmed) {
@@ -53,8 +70,7 @@ Task<void> Station::watch_window(OpenWindow window) {
         else if (now >= window.deadline)
             found = tl::unexpected(give_up(search, now - window.from));
         if (found || found.error().fault != Fault::none) {
-            feed(EnvironmentNow{refractivity_now()});
-            feed(WindowResult{window.window, std::move(found), now});
+            feed_with_air(WindowResult{window.window, std::move(found), now});
             co_return;
         }
         co_await scheduler_.sleep_for(look_every);
@@ -87,7 +103,12 @@ void Station::settle(Result<JournalReceipt> receipt) {
         return feed(CommitFailed{describe(receipt.error()), now});
     }
     last_receipt_ = *receipt;
-    last_refusal_.reset();
+    run_->refusal.reset();
+    refused_note_.clear();
+    if (receipt->step() >= 0) {
+        if (run_->taken++ == 0) run_->first_taken = now;
+        run_->last_taken = now;
+    }
     feed(Committed{receipt->sequence(), receipt->step(), now});
 }
 
@@ -101,9 +122,11 @@ void Station::perform(RepublishDone action) {
 }
 
 void Station::perform(Refuse action) {
-    last_refusal_ = Error{action.fault, action.sentence, {}, {}};
-    note("Refused request " + std::to_string(action.sequence) + ": " + describe(*last_refusal_));
-    if (action.origin != TriggerOrigin::manual) port_->refuse(action.sequence, action.fault);
+    const Error error{action.fault, action.sentence, {}, {}};
+    run_->refusal = error;
+    if (action.origin != TriggerOrigin::manual) return refuse_on_port(action.sequence, error);
+    manual_refusal_ = error;
+    note("Refused: " + describe(error));
 }
 
 void Station::perform(RecordEvent action) {
@@ -117,7 +140,7 @@ void Station::perform(SetState action) {
 }
 
 void Station::perform(Close action) {
-    closing_ = true;
+    run_->closing = true;
     open_window_ = 0;
     spawn(scheduler_, close_run(std::move(action)));
 }
@@ -127,17 +150,24 @@ Task<void> Station::close_run(Close action) {
     if (!closed) note("The run file could not be closed: " + describe(closed.error()));
     note("Run " + run_->header.run_id +
          (action.complete ? " is complete." : " is closed as incomplete: " + action.reason));
-    last_outcome_ = action;
-    closed_ = true;
-    closing_ = false;
-    if (!action.complete || !closed) co_return;
-    auto entry = co_await write_certificate(scheduler_, report_program_, run_->path,
-                                            config_.state_directory + "/outbox");
+    run_->outcome = action;
+    run_->closed = true;
+    run_->closing = false;
+    if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
+}
+
+/// Meanwhile a new run may have been armed: the answer belongs to the run named here.
+Task<void> Station::certify(std::string run_id, std::string path) {
+    const auto entry = co_await write_certificate(scheduler_, report_program_, path,
+                                                  config_.state_directory + "/outbox");
+    note(entry ? "Certificate written: " + *entry
+               : "No certificate for run " + run_id + ": " + describe(entry.error()) +
+                     " 'axiscal export " + path + "' tries again.");
+    if (run_->header.run_id != run_id) co_return;
     if (entry)
-        certificate_ = *entry;
+        run_->certificate = *entry;
     else
-        last_refusal_ = entry.error();
-    note(entry ? "Certificate written: " + *entry : "No certificate: " + describe(entry.error()));
+        run_->no_certificate = entry.error();
 }
 
 } // namespace axiscal

@@ -4,6 +4,7 @@
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/run/live_position.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -66,7 +67,7 @@ AxisView Station::axis_view() const {
     }
     if (const auto value = newest->value()) {
         axis.displacement_mm = metre(*value).in(mm);
-        if (datum_ && run_ && !closed_)
+        if (datum_ && run_open())
             axis.position_mm =
                 live_position(run_->header.laser, *datum_, metre(*value), refractivity_).in(mm);
     }
@@ -91,35 +92,43 @@ RunStatus Station::run_status() const {
     run.step = view.done;
     run.steps = view.total;
     run.done = view.last_durable;
-    run.certificate = certificate_;
+    run.certificate = run_->certificate;
     if (view.last_deviation) run.last_deviation_um = view.last_deviation->in(um);
-    if (closed_)
-        run.state = last_outcome_ && last_outcome_->complete ? "complete" : "incomplete";
+    if (run_->closed)
+        run.state = run_->outcome->complete ? "complete" : "incomplete";
     else if (view.stopped)
         run.state = "stopped";
     else if (!view.datum)
         run.state = "tying datum";
     else
         run.state = view.state == PortState::settling ? "settling" : "armed";
-    if (view.next && !closed_) {
+    if (view.next && run_open()) {
         run.next_target = view.next->target_index;
         run.next_nominal_mm =
             run_->header.plan.targets[static_cast<std::size_t>(view.next->target_index)].in(mm);
         run.next_direction = view.next->direction;
         run.next_approach = view.next->approach;
     }
-    const int taken = view.done - run_->done_at_start;
-    if (taken > 0 && !closed_)
-        run.seconds_left =
-            seconds_of(scheduler_.now() - run_->began) / taken * (view.total - view.done);
-    if (last_outcome_ && !last_outcome_->complete) { // why it ended, whatever was refused before
-        if (last_outcome_->fault != Fault::none) run.last_fault = fault_name(last_outcome_->fault);
-        run.last_sentence = last_outcome_->reason;
-    } else if (last_refusal_) {
-        run.last_fault = fault_name(last_refusal_->fault);
-        run.last_sentence = describe(*last_refusal_);
-    }
+    run.seconds_left = seconds_left(view);
+    const auto tell = [&run](Fault fault, std::string sentence) {
+        if (fault != Fault::none) run.last_fault = fault_name(fault);
+        run.last_sentence = std::move(sentence);
+    };
+    if (run_->outcome && !run_->outcome->complete)
+        tell(run_->outcome->fault, run_->outcome->reason);
+    else if (run_->no_certificate)
+        tell(run_->no_certificate->fault, describe(*run_->no_certificate));
+    else if (run_->refusal && !run_->closed)
+        tell(run_->refusal->fault, describe(*run_->refusal));
     return run;
+}
+
+/// From the mean time between points; none before the second, for the first one waited for people.
+std::optional<double> Station::seconds_left(const RunView& view) const {
+    if (run_->taken < 2 || !run_open() || view.stopped) return std::nullopt;
+    const double spacing = seconds_of(run_->last_taken - run_->first_taken) / (run_->taken - 1);
+    const double since = seconds_of(scheduler_.now() - run_->last_taken);
+    return std::max(0.0, spacing * (view.total - view.done - view.skipped) - since);
 }
 
 ChannelView Station::channel_view(const StationChannel& channel) const {
@@ -157,7 +166,7 @@ StationStatus Station::status() const {
     status.trigger_note = port_note_;
     status.cnc_silent = cnc_silent_;
     if (run_ && machine_) status.run = run_status();
-    status.run_open = run_ && !closed_;
+    status.run_open = run_open();
     status.outbox_entries = count_entries(config_.state_directory + "/outbox");
     status.notes.assign(notes_.begin(), notes_.end());
     return status;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr Duration first_pause = std::chrono::milliseconds{250};
 constexpr Duration longest_pause = std::chrono::seconds{4}; // an unplugged cable is back within 5 s
+constexpr Duration between_notes = std::chrono::seconds{2};
 constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports every few seconds
 
 const ChannelConfig* find_stated(const InstrumentConfig& config, const std::string& channel) {
@@ -72,18 +73,23 @@ struct Supervisor::Seat final : SampleSink {
     }
     void identify(const Identity& identity) override { view.identity = identity; }
     void note(Fault fault, std::string sentence) override {
+        const MonotonicTime now = supervisor.scheduler_.now();
         const bool again = fault == view.last_fault && sentence == view.last_note;
-        view.repeats = again ? view.repeats + 1 : 0;
+        const bool too_soon = told_at && now - *told_at < between_notes;
         view.last_fault = fault;
         view.last_note = std::move(sentence);
-        if (!again) supervisor.listener_.on_instrument_change(view);
+        if (again || too_soon) return void(++view.repeats);
+        view.repeats = 0;
+        told_at = now;
+        supervisor.listener_.on_instrument_note(view);
     }
 
     Supervisor& supervisor;
     std::unique_ptr<Instrument> instrument;
     int first_channel = 0;
     InstrumentView view;
-    std::optional<MonotonicTime> last_sample, last_good;
+    std::optional<MonotonicTime> last_sample, last_good; ///< on this connection
+    std::optional<MonotonicTime> told_at;
 };
 
 Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListener& listener)
@@ -112,16 +118,18 @@ void Supervisor::start() {
 }
 
 Task<void> Supervisor::keep_running(Seat& seat) {
-    Duration pause = first_pause;
+    Duration pause{};
     for (;;) {
         const MonotonicTime begun = scheduler_.now();
         const InstrumentContext context{&scheduler_, &links_, &seat};
         const Result<void> ended = co_await seat.instrument->run(context);
         ++seat.view.restarts;
-        set_state(seat, InstrumentState::unavailable);
+        seat.last_sample.reset();
+        seat.last_good.reset();
         if (!ended) seat.note(ended.error().fault, describe(ended.error()));
-        pause = scheduler_.now() - begun > longest_pause ? first_pause
-                                                         : std::min(2 * pause, longest_pause);
+        set_state(seat, InstrumentState::unavailable);
+        const bool ran_well = scheduler_.now() - begun > longest_pause;
+        pause = ran_well ? first_pause : std::clamp(2 * pause, first_pause, longest_pause);
         co_await scheduler_.sleep_for(pause);
     }
 }
@@ -130,7 +138,7 @@ void Supervisor::set_state(Seat& seat, InstrumentState state) {
     if (seat.view.state == state) return;
     seat.view.state = state;
     seat.view.since = scheduler_.now();
-    listener_.on_instrument_change(seat.view);
+    listener_.on_instrument_state(seat.view);
 }
 
 void Supervisor::judge() {
@@ -138,8 +146,7 @@ void Supervisor::judge() {
     for (auto& seat : seats_) {
         const bool heard = seat->last_sample && now - *seat->last_sample < silence;
         const bool good = seat->last_good && now - *seat->last_good < silence;
-        if (seat->view.state == InstrumentState::available && !good)
-            set_state(*seat, heard ? InstrumentState::faulty : InstrumentState::unavailable);
+        if (!good) set_state(*seat, heard ? InstrumentState::faulty : InstrumentState::unavailable);
     }
 }
 

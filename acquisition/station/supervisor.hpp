@@ -41,7 +41,7 @@ struct InstrumentView {
     std::uint64_t restarts = 0;
     Fault last_fault = Fault::none;
     std::string last_note;
-    std::uint64_t repeats = 0; ///< how often the last note came again
+    std::uint64_t repeats = 0; ///< notes that came since and were not told
 };
 
 class SupervisorListener {
@@ -49,8 +49,11 @@ public:
     virtual ~SupervisorListener() = default;
     /// `sample.channel` is the station's channel id; the channel's correction is already added.
     virtual void on_sample(const Sample& sample) = 0;
-    /// One call a change of state or of the note, never one a sample.
-    virtual void on_instrument_change(const InstrumentView& view) = 0;
+    /// The state changed; at most a few times a second, for a restart waits.
+    virtual void on_instrument_state(const InstrumentView& view) = 0;
+    /// The last note changed. Repeats, and changes within two seconds of the last one told, are
+    /// only counted: an instrument that floods must not drown the others.
+    virtual void on_instrument_note(const InstrumentView& view) = 0;
 };
 
 class Supervisor {
@@ -62,10 +65,10 @@ public:
 
     /// The configuration was checked against the driver (make_instruments).
     void add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument);
-    /// Spawns one task an instrument; each runs until the loop stops.
+    /// Spawns one task an instrument; each runs until the loop stops, for good.
     void start();
-    /// Marks instruments unavailable whose last sample is older than `silence`; call it every
-    /// second.
+    /// Without a good value for ten seconds an instrument is faulty when it still sends something,
+    /// else unavailable. Call it every second.
     void judge();
 
     [[nodiscard]] const std::vector<StationChannel>& channels() const { return channels_; }
