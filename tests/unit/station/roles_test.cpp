@@ -1,0 +1,76 @@
+#include "acquisition/station/roles.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+class Roles : public ::testing::Test {
+protected:
+    void SetUp() override {
+        axis.laser = {"laser", "axis 1"};
+        axis.air_temperature = {"air", "temperature"};
+        axis.air_pressure = {"air", "pressure"};
+        axis.air_humidity = {"air", "humidity"};
+        axis.material_temperature = {{"contacts", "1"}};
+        add("laser", "axis 1", ChannelKind::displacement, Medium::none);
+        add("air", "temperature", ChannelKind::temperature, Medium::air);
+        add("air", "pressure", ChannelKind::pressure, Medium::air);
+        add("air", "humidity", ChannelKind::humidity, Medium::air);
+        add("contacts", "1", ChannelKind::temperature, Medium::material);
+        add("contacts", "2", ChannelKind::temperature, Medium::material);
+    }
+    void add(const char* instrument, const char* name, ChannelKind kind, Medium medium) {
+        StationChannel channel;
+        channel.id = static_cast<int>(channels.size());
+        channel.instrument_name = instrument;
+        channel.name = name;
+        channel.kind = kind;
+        channel.medium = medium;
+        channels.push_back(channel);
+    }
+    void expect_refused(Fault fault, const std::string& words) {
+        const auto roles = resolve_roles(axis, channels);
+        ASSERT_FALSE(roles);
+        EXPECT_EQ(roles.error().fault, fault);
+        EXPECT_NE(roles.error().detail.find(words), std::string::npos) << roles.error().detail;
+    }
+    AxisConfig axis;
+    std::vector<StationChannel> channels;
+};
+
+TEST_F(Roles, AreFoundByName) {
+    axis.material_temperature.push_back({"contacts", "2"});
+    const auto roles = resolve_roles(axis, channels);
+    ASSERT_TRUE(roles);
+    EXPECT_EQ(roles->laser, 0);
+    EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
+}
+
+TEST_F(Roles, AnAirChannelIsRefusedAsMaterial) {
+    axis.material_temperature = {{"air", "temperature"}};
+    expect_refused(Fault::wrong_medium, "medium 'air' but must have 'material'");
+}
+
+TEST_F(Roles, AContactSensorIsRefusedAsAir) {
+    axis.air_temperature = {"contacts", "2"};
+    expect_refused(Fault::wrong_medium, "medium 'material' but must have 'air'");
+}
+
+TEST_F(Roles, AnotherQuantityIsRefusedByName) {
+    axis.air_pressure = {"air", "humidity"};
+    expect_refused(Fault::bad_configuration, "axis.air.pressure = \"air/humidity\" measures");
+}
+
+TEST_F(Roles, AnUnknownChannelIsRefusedWithThoseThereAre) {
+    axis.laser = {"laser", "axis 2"};
+    expect_refused(Fault::bad_configuration, "laser/axis 1, air/temperature");
+}
+
+TEST_F(Roles, AnAxisWithoutAContactSensorIsRefused) {
+    axis.material_temperature.clear();
+    expect_refused(Fault::bad_configuration, "names no sensor");
+}
+
+} // namespace
+} // namespace axiscal

@@ -1,0 +1,357 @@
+#pragma once
+// A whole station under virtual time: made instruments at its door `Instrument`, a scripted port at
+// its door `TriggerPort`, a machine that moves. Tests only.
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/station/station.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/virtual_scheduler.hpp"
+
+#include <boost/asio/co_spawn.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace axiscal::testing {
+
+using namespace std::chrono_literals;
+
+/// Straight moves at one speed, rest otherwise. Survives the station: a daemon restarts, a machine
+/// does not.
+class MovingAxis {
+public:
+    void go(double to_mm, MonotonicTime now) {
+        from_mm_ = at(now);
+        to_mm_ = to_mm;
+        began_ = now;
+    }
+    [[nodiscard]] double at(MonotonicTime now) const {
+        const double way = speed_mm_per_s * seconds_of(now - began_);
+        const double distance = to_mm_ - from_mm_;
+        return way >= std::abs(distance) ? to_mm_ : from_mm_ + (distance < 0 ? -way : way);
+    }
+    [[nodiscard]] Duration time_to(double to_mm, MonotonicTime now) const {
+        return from_seconds(std::abs(to_mm - at(now)) / speed_mm_per_s);
+    }
+    double speed_mm_per_s = 400;
+
+private:
+    double from_mm_ = 0, to_mm_ = 0;
+    MonotonicTime began_{};
+};
+
+/// Sends one sample a channel and period, and misbehaves as told.
+class BenchInstrument final : public Instrument {
+public:
+    using Reading = std::function<double(int channel, MonotonicTime at)>;
+    BenchInstrument(std::vector<Channel> channels, Duration period, Reading reading)
+        : channels_{std::move(channels)}
+        , period_{period}
+        , reading_{std::move(reading)} {}
+
+    [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
+    [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
+    [[nodiscard]] std::optional<Optics> optics() const override {
+        return channels_.front().kind == ChannelKind::displacement
+                   ? std::optional{Optics{nm(632.991354), 2}}
+                   : std::nullopt;
+    }
+    [[nodiscard]] std::uint64_t count_modulus() const override { return modulus; }
+
+    Task<Result<void>> run(InstrumentContext context) override {
+        ++opened;
+        opened_at.push_back(context.scheduler->now());
+        if (unplugged) co_return fail(Fault::link_closed, "no such device");
+        context.sink->identify({"Maker", "Model", serial, "1.0"});
+        for (;;) {
+            co_await context.scheduler->sleep_for(period_);
+            if (unplugged) co_return fail(Fault::link_closed, "unplugged");
+            const MonotonicTime now = context.scheduler->now();
+            if (!silent) send(now, *context.sink);
+            for (int i = 0; i < notes_each_period; ++i)
+                context.sink->note(Fault::bad_frame, "garbage " + std::to_string(++noted));
+        }
+    }
+
+    bool unplugged = false, silent = false;
+    Quality quality = Quality::good;
+    std::uint32_t epoch = 0;
+    std::uint64_t modulus = 0;
+    bool number_wraps = false;
+    MonotonicTime switched_on{}; ///< its number counts from here
+    std::string serial = "S-1";
+    int opened = 0, notes_each_period = 0, noted = 0;
+    std::vector<MonotonicTime> opened_at;
+
+private:
+    /// As the driver does: unwrapped while it runs, from what the device says at first.
+    std::uint64_t first_count(std::uint64_t number) {
+        if (first_number_ == 0) first_number_ = number;
+        return first_number_ % 65'536;
+    }
+    void send(MonotonicTime now, SampleSink& sink) {
+        // The device numbers by its own clock: a daemon that restarts finds it further on.
+        auto count = static_cast<std::uint64_t>((now - switched_on) / period_);
+        if (number_wraps) count = first_count(count) + count - first_number_;
+        for (int channel = 0; channel < static_cast<int>(channels_.size()); ++channel)
+            sink.take(quality == Quality::good
+                          ? Sample{channel, now, reading_(channel, now), count, epoch}
+                          : Sample::bad(channel, now, quality, count, epoch));
+    }
+    std::vector<Channel> channels_;
+    Duration period_;
+    Reading reading_;
+    InstrumentCounters counters_;
+    std::uint64_t first_number_ = 0;
+};
+
+/// Remembers what the CNC would read.
+class ScriptedPort final : public TriggerPort {
+public:
+    Task<Result<void>> run(TriggerContext context) override {
+        sink = context.sink;
+        ++runs;
+        if (broken) co_return fail(Fault::io, "the address is taken");
+        try {
+            for (;;)
+                co_await context.scheduler->sleep_for(1h);
+        } catch (const std::exception&) { // cancelled: the way a port ends
+        }
+        ended = true;
+        co_return Result<void>{};
+    }
+    void publish_armed() override {
+        ++armed;
+        done = 0;
+    }
+    void acknowledge(const JournalReceipt& receipt) override {
+        done = receipt.sequence();
+        if (sink == nullptr) done_before_open = done;
+        acknowledged.push_back(receipt.sequence());
+    }
+    void refuse(std::uint16_t sequence, Fault fault) override {
+        refusals.emplace_back(sequence, fault);
+    }
+    void publish(const PortStatus& of) override { status = of; }
+    [[nodiscard]] std::string describe() const override { return "scripted"; }
+
+    TriggerSink* sink = nullptr;
+    bool broken = false, ended = false;
+    int runs = 0, armed = 0;
+    std::uint16_t done = 65535;
+    std::optional<std::uint16_t> done_before_open;
+    std::vector<std::uint16_t> acknowledged;
+    std::vector<std::pair<std::uint16_t, Fault>> refusals;
+    PortStatus status;
+};
+
+class NoLinks final : public LinkOpener {
+public:
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings&, MonotonicTime) override {
+        co_return fail(Fault::io, "no links here");
+    }
+};
+
+/// What outlives a daemon: the folder, the machine, the time.
+struct Shop {
+    ScratchFolder scratch;
+    MovingAxis axis;
+    StationConfig config = make_config(scratch.path());
+    MonotonicTime now = monotonic_from_ns(1'000'000'000);
+    std::uint64_t laser_modulus = 0;
+    bool laser_number_wraps = false;
+    MonotonicTime laser_switched_on{};
+    std::string laser_serial = "S-1";
+
+    static StationConfig make_config(const std::string& folder) {
+        StationConfig config;
+        config.text = "name = \"bench\"\n";
+        config.station = "bench";
+        config.state_directory = folder;
+        config.axis.laser = {"laser", "axis 1"};
+        config.axis.air_temperature = {"air", "air temperature"};
+        config.axis.air_pressure = {"air", "air pressure"};
+        config.axis.air_humidity = {"air", "air humidity"};
+        config.axis.material_temperature = {{"material", "contact 1"}, {"material", "contact 2"}};
+        config.axis.material.coefficient = per_kelvin(11.5e-6);
+        config.cycle.travel_low = mm(0);
+        config.cycle.travel_high = mm(1000);
+        config.cycle.interval = mm(90);
+        config.cycle.target_count = 11;
+        config.cycle.first_target = mm(40);
+        config.cycle.seed = 7;
+        config.cycle.overrun = mm(5);
+        config.cycle.feed = mm_per_minute(1000);
+        config.capture.spread_limit = um(2);
+        config.capture.fastest = mm_per_minute(30'000);
+        config.statements.operator_name = "the station file's operator";
+        for (const char* name : {"laser", "air", "material"}) {
+            InstrumentConfig one;
+            one.name = name;
+            one.driver = "made";
+            config.instruments.push_back(one);
+        }
+        return config;
+    }
+    /// Five targets, one approach each way: ten points.
+    void shorten() {
+        config.cycle.target_count = 5;
+        config.cycle.interval = mm(200);
+        config.cycle.first_target = mm(70);
+        config.cycle.approaches = 1;
+    }
+    [[nodiscard]] RunPlan plan() const {
+        const auto passes = plan_passes(config.cycle, 7);
+        if (!passes) throw std::runtime_error(describe(passes.error()));
+        return passes->front();
+    }
+    [[nodiscard]] std::vector<std::string> run_files() const {
+        std::vector<std::string> files;
+        for (const RunSummary& run : list_run_files(scratch.file("runs")))
+            files.push_back(run.path);
+        return files;
+    }
+};
+
+/// One life of the daemon.
+class Life {
+public:
+    explicit Life(Shop& of, const std::string& report = "/nonexistent/axiscal-report")
+        : shop{of} {
+        scheduler.run_until(shop.now);
+        station.emplace(scheduler, links, parts(report));
+        boost::asio::co_spawn(scheduler.loop(), station->start(),
+                              [this](std::exception_ptr, Result<void> result) {
+                                  EXPECT_TRUE(result);
+                                  started = true;
+                              });
+        run(2s);
+    }
+    ~Life() { shop.now = scheduler.now(); }
+    Life(const Life&) = delete;
+    Life& operator=(const Life&) = delete;
+
+    void run(Duration span) { scheduler.run_for(span); }
+    /// For what a real process has a part in.
+    void run_until(const std::function<bool()>& reached) {
+        for (int i = 0; i < 400 && !reached(); ++i) {
+            run(20ms);
+            scheduler.loop().restart();
+            scheduler.loop().run_one_for(20ms);
+        }
+        EXPECT_TRUE(reached());
+    }
+    Result<std::string> arm(ArmRequest request = {}) {
+        shop.axis.go(shop.plan().datum.in(mm), scheduler.now());
+        run(4s);
+        auto answer = begin_arm(std::move(request));
+        run(3s);
+        return *answer ? **answer : Result<std::string>{fail(Fault::internal, "still arming")};
+    }
+    std::shared_ptr<std::optional<Result<std::string>>> begin_arm(ArmRequest request = {}) {
+        auto answer = std::make_shared<std::optional<Result<std::string>>>();
+        boost::asio::co_spawn(
+            scheduler.loop(), station->arm(std::move(request)),
+            [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
+        return answer;
+    }
+    /// To the point from its side, then rest.
+    void drive_to(const PlannedPoint& point) {
+        const RunPlan plan = shop.plan();
+        const double target = plan.targets[static_cast<std::size_t>(point.target_index)].in(mm);
+        const double way = 1.5 * plan.overrun.in(mm) * static_cast<int>(point.direction);
+        for (const double stop : {target - way, target}) {
+            const Duration needed = shop.axis.time_to(stop, scheduler.now());
+            shop.axis.go(stop, scheduler.now());
+            run(needed + 50ms);
+        }
+    }
+    static TriggerEvent request_for(const PlannedPoint& point, std::uint16_t sequence) {
+        TriggerEvent event;
+        event.sequence = sequence;
+        event.target_index = point.target_index;
+        event.direction = point.direction;
+        return event;
+    }
+    void ask(TriggerEvent event) {
+        event.at = scheduler.now();
+        port->sink->on_trigger(event);
+    }
+    /// Drives, asks, waits. @returns done is the point's number
+    bool take(int step) {
+        const PlannedPoint point = shop.plan().points[static_cast<std::size_t>(step)];
+        const auto sequence = static_cast<std::uint16_t>(step + 1);
+        drive_to(point);
+        ask(request_for(point, sequence));
+        for (int i = 0; i < 40 && port->done != sequence && port->refusals.empty(); ++i)
+            run(100ms);
+        return port->done == sequence;
+    }
+    [[nodiscard]] StationStatus status() const { return station->status(); }
+    [[nodiscard]] int notes_with(const std::string& words) const {
+        const auto notes = status().notes;
+        return static_cast<int>(std::ranges::count_if(
+            notes, [&](const std::string& note) { return note.find(words) != note.npos; }));
+    }
+
+    Shop& shop;
+    VirtualScheduler scheduler; // before the station: its tasks end with the loop
+    NoLinks links;
+    BenchInstrument *laser = nullptr, *air = nullptr, *material = nullptr;
+    ScriptedPort* port = nullptr;
+    std::optional<Station> station;
+    bool started = false;
+
+private:
+    StationParts parts(const std::string& report) {
+        StationParts made;
+        made.config = shop.config;
+        made.config_hash = sha256_hex(shop.config.text);
+        made.boot_id = "boot-1";
+        made.report_program = report;
+        made.journal_thread = JournalThread::caller;
+        auto light = std::make_unique<BenchInstrument>(
+            std::vector<Channel>{{"axis 1", ChannelKind::displacement}}, 5ms,
+            [this](int, MonotonicTime at) { return shop.axis.at(at) * 1e-3 * (1 + 2.7e-4); });
+        auto weather = std::make_unique<BenchInstrument>(
+            std::vector<Channel>{{"air temperature", ChannelKind::temperature, Medium::air},
+                                 {"air pressure", ChannelKind::pressure, Medium::air},
+                                 {"air humidity", ChannelKind::humidity, Medium::air}},
+            500ms, [](int channel, MonotonicTime) {
+                return channel == 0 ? 23.0 : channel == 1 ? 101'325.0 : 50.0;
+            });
+        auto contacts = std::make_unique<BenchInstrument>(
+            std::vector<Channel>{{"contact 1", ChannelKind::temperature, Medium::material},
+                                 {"contact 2", ChannelKind::temperature, Medium::material}},
+            1s, [](int channel, MonotonicTime) { return channel == 0 ? 22.5 : 22.7; });
+        laser = light.get(), air = weather.get(), material = contacts.get();
+        laser->modulus = shop.laser_modulus;
+        laser->number_wraps = shop.laser_number_wraps;
+        laser->switched_on = shop.laser_switched_on;
+        laser->serial = shop.laser_serial;
+        made.instruments.push_back(std::move(light));
+        made.instruments.push_back(std::move(weather));
+        made.instruments.push_back(std::move(contacts));
+        auto scripted = std::make_unique<ScriptedPort>();
+        port = scripted.get();
+        made.port = std::move(scripted);
+        std::vector<StationChannel> channels;
+        for (std::size_t i = 0; i < made.instruments.size(); ++i)
+            for (StationChannel& channel :
+                 station_channels(made.config.instruments[i], *made.instruments[i],
+                                  static_cast<int>(i), static_cast<int>(channels.size())))
+                channels.push_back(std::move(channel));
+        made.roles = *resolve_roles(made.config.axis, channels);
+        return made;
+    }
+};
+
+} // namespace axiscal::testing

@@ -1,0 +1,336 @@
+// The station from arming to the certificate, and what goes wrong on the way.
+#include "tests/unit/station/report_script.hpp"
+#include "tests/unit/station/station_bench.hpp"
+
+#include <csignal>
+#include <sys/resource.h>
+
+namespace axiscal::testing {
+namespace {
+
+class StationRuns : public ::testing::Test {
+protected:
+    void SetUp() override { shop.shorten(); }
+    Shop shop;
+};
+
+TEST_F(StationRuns, AHundredAndTenPointsInVirtualTime) {
+    shop.config = Shop::make_config(shop.scratch.path());
+    const auto script =
+        report_script(shop.scratch, R"(echo "drawing $1"; echo "{\"entry\": \"$3/done\"}")");
+    Life life{shop, script};
+    ASSERT_TRUE(life.arm());
+    EXPECT_EQ(life.port->armed, 1);
+    std::vector<std::uint16_t> expected;
+    for (int step = 0; step < 110; ++step) {
+        ASSERT_TRUE(life.take(step)) << step;
+        expected.push_back(static_cast<std::uint16_t>(step + 1));
+    }
+    EXPECT_EQ(life.port->acknowledged, expected);
+    EXPECT_TRUE(life.port->refusals.empty());
+    life.run_until([&] { return !life.status().run->certificate.empty(); });
+    EXPECT_EQ(life.status().run->certificate, shop.scratch.file("outbox/done"));
+    EXPECT_EQ(life.status().run->state, "complete");
+    EXPECT_FALSE(life.status().run_open);
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_TRUE(run->complete);
+    EXPECT_TRUE(check_complete(*run));
+    EXPECT_EQ(run->points.size(), 110U);
+    // Each point lies between two readings of every channel.
+    EXPECT_LE(run->environment.front().at, run->points.front().window_begin);
+}
+
+TEST_F(StationRuns, EveryPointIsOnDiskWhenDoneSaysSo) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 3; ++step) {
+        ASSERT_TRUE(life.take(step));
+        const auto run = read_run_file(shop.run_files().at(0));
+        ASSERT_TRUE(run);
+        EXPECT_EQ(run->points.size(), static_cast<std::size_t>(step + 1));
+    }
+}
+
+// 2026-11-21: readings taken between two runs were kept and written into the next one.
+TEST_F(StationRuns, WhatWasReadBetweenTwoRunsIsInNeither) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.station->abort("first"));
+    life.run(60s);
+    const MonotonicTime between = life.scheduler.now();
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    ASSERT_EQ(shop.run_files().size(), 2U);
+    const auto second = read_run_file(shop.run_files().at(1));
+    ASSERT_TRUE(second);
+    ASSERT_FALSE(second->environment.empty());
+    EXPECT_GT(second->environment.front().at, between - 2s); // the sensors' period
+}
+
+TEST_F(StationRuns, ALostBeamEndsTheRunAndIsToldOnce) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    life.laser->quality = Quality::beam_lost;
+    life.run(1s);
+    life.laser->quality = Quality::good;
+    ++life.laser->epoch; // counts were lost meanwhile
+    life.run(1s);
+    EXPECT_EQ(life.status().run->state, "incomplete");
+    EXPECT_EQ(life.status().run->last_fault, "datum_lost");
+    EXPECT_FALSE(life.status().axis.position_mm);
+    EXPECT_FALSE(life.take(1));
+    ASSERT_EQ(life.port->refusals.size(), 1U);
+    EXPECT_EQ(life.port->refusals[0].first, 2);
+    EXPECT_EQ(life.status().run->last_fault, "datum_lost"); // and not "no run is armed"
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_EQ(std::ranges::count(run->events, Fault::datum_lost, &EventRecord::fault), 1);
+    EXPECT_TRUE(life.arm()) << "a new run ties a new datum";
+}
+
+TEST_F(StationRuns, AStaleSensorWithholdsThePointUntilItIsBack) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.air->silent = true;
+    life.run(61s);
+    EXPECT_FALSE(life.take(0));
+    ASSERT_EQ(life.port->refusals.size(), 1U);
+    EXPECT_EQ(life.port->refusals[0],
+              (std::pair<std::uint16_t, Fault>{1, Fault::environment_stale}));
+    EXPECT_FALSE(life.port->status.air_degC);
+    for (const ChannelView& channel : life.status().channels)
+        if (channel.instrument == "air") {
+            EXPECT_EQ(channel.quality, "stale");
+            EXPECT_FALSE(channel.value);
+        }
+    life.air->silent = false;
+    life.run(2s);
+    life.port->refusals.clear();
+    EXPECT_TRUE(life.take(0));
+    EXPECT_TRUE(life.status().run->last_fault.empty());
+}
+
+TEST_F(StationRuns, AMovingAxisTiesNoDatumAndTheNextArmDoes) {
+    Life life{shop};
+    shop.axis.speed_mm_per_s = 1;
+    shop.axis.go(900, life.scheduler.now());
+    const auto answer = life.begin_arm();
+    life.run(15s);
+    ASSERT_TRUE(*answer);
+    ASSERT_FALSE(**answer);
+    EXPECT_EQ((*answer)->error().fault, Fault::not_still);
+    EXPECT_EQ(life.port->armed, 0);
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_FALSE(run->complete);
+    EXPECT_NE(run->closing_reason.find("datum could not be tied"), std::string::npos);
+    shop.axis.speed_mm_per_s = 400;
+    EXPECT_TRUE(life.arm());
+}
+
+// 2026-11-21: a CNC that asked early spoiled the arming.
+TEST_F(StationRuns, ACncThatAsksTooEarlyDoesNotSpoilTheArming) {
+    Life life{shop};
+    const auto answer = life.begin_arm();
+    life.run(100ms);
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    EXPECT_EQ(life.port->refusals.back().second, Fault::no_run_armed);
+    life.run(3s);
+    ASSERT_TRUE(*answer);
+    EXPECT_TRUE(**answer);
+}
+
+TEST_F(StationRuns, TwoPeopleArmOneRun) {
+    Life life{shop};
+    const auto first = life.begin_arm(), second = life.begin_arm();
+    life.run(3s);
+    ASSERT_TRUE(*first && *second);
+    EXPECT_TRUE(**first);
+    ASSERT_FALSE(**second);
+    EXPECT_EQ((*second)->error().fault, Fault::busy);
+    EXPECT_EQ(shop.run_files().size(), 1U);
+    const auto third = life.begin_arm();
+    life.run(1s);
+    EXPECT_EQ((*third)->error().fault, Fault::busy);
+}
+
+TEST_F(StationRuns, AnAbortWhileTheDatumIsTiedEndsTheArming) {
+    Life life{shop};
+    const auto answer = life.begin_arm();
+    life.run(100ms);
+    ASSERT_TRUE(life.station->abort("the wrong machine"));
+    life.run(1s);
+    ASSERT_TRUE(*answer);
+    EXPECT_FALSE(**answer);
+    EXPECT_EQ(life.status().run->state, "incomplete");
+    EXPECT_EQ(life.port->armed, 0);
+    EXPECT_FALSE(life.station->abort("again"));
+}
+
+TEST_F(StationRuns, ArmingNeedsLaserBeamAndEnvironment) {
+    Life life{shop};
+    ArmRequest other_pass;
+    other_pass.pass = "stretch";
+    EXPECT_EQ(life.arm(other_pass).error().fault, Fault::bad_request);
+    ArmRequest unknown;
+    unknown.statements["operatr"] = "typed badly";
+    EXPECT_EQ(life.arm(unknown).error().field, "statements.operatr");
+    life.laser->quality = Quality::beam_lost;
+    EXPECT_EQ(life.arm().error().fault, Fault::beam_lost);
+    life.laser->silent = true;
+    EXPECT_EQ(life.arm().error().fault, Fault::link_timeout);
+    life.material->silent = true;
+    life.run(61s);
+    EXPECT_EQ(life.arm().error().fault, Fault::environment_stale);
+    EXPECT_TRUE(shop.run_files().empty());
+}
+
+/// The disk is full for this process: no file may grow.
+class FullDisk {
+public:
+    FullDisk() {
+        ::signal(SIGXFSZ, SIG_IGN);
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit none{0, before_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &none);
+    }
+    ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+TEST_F(StationRuns, AFullDiskAcknowledgesNothingAnyMore) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    {
+        const FullDisk full;
+        EXPECT_FALSE(life.take(1));
+    }
+    EXPECT_EQ(life.port->refusals.back(), (std::pair<std::uint16_t, Fault>{2, Fault::not_durable}));
+    EXPECT_EQ(life.status().run->state, "stopped");
+    EXPECT_TRUE(life.port->status.feed_hold);
+    EXPECT_FALSE(life.port->status.may_move);
+    life.port->refusals.clear();
+    EXPECT_FALSE(life.take(1)) << "also when the disk has room again";
+    EXPECT_EQ(life.port->done, 1);
+    ASSERT_TRUE(life.station->abort("disk full"));
+    life.run(1s);
+    EXPECT_EQ(life.status().run->state, "incomplete");
+}
+
+TEST_F(StationRuns, AMissingReportProgramIsToldAndTheRunKept) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step));
+    life.run_until([&] { return !life.status().run->last_sentence.empty(); });
+    EXPECT_EQ(life.status().run->state, "complete");
+    EXPECT_EQ(life.status().run->last_fault, "io");
+    EXPECT_EQ(life.notes_with("No certificate for run"), 1);
+    EXPECT_EQ(life.notes_with("axiscal export"), 1);
+}
+
+TEST_F(StationRuns, WithoutARunTheFirstNumberIsTheBaselineAndFurtherOnesAreRefused) {
+    Life life{shop};
+    TriggerEvent standing = Life::request_for(shop.plan().points[0], 17);
+    standing.standing = true;
+    life.ask(standing);
+    EXPECT_TRUE(life.port->refusals.empty());
+    for (int i = 0; i < 200; ++i)
+        life.ask(Life::request_for(shop.plan().points[0], 18));
+    EXPECT_EQ(life.port->refusals.back(),
+              (std::pair<std::uint16_t, Fault>{18, Fault::no_run_armed}));
+    EXPECT_EQ(life.notes_with("Request 18"), 1);
+    TriggerEvent idle;
+    const auto before = life.port->refusals.size();
+    life.ask(idle);
+    EXPECT_EQ(life.port->refusals.size(), before);
+}
+
+TEST_F(StationRuns, ATechniciansOwnTriggerAnswersForItselfOnly) {
+    Life life{shop};
+    EXPECT_EQ(life.station->trigger().error().fault, Fault::no_run_armed);
+    ASSERT_TRUE(life.arm());
+    life.ask(Life::request_for(shop.plan().points[3], 1)); // wrong target: refused for the CNC
+    EXPECT_EQ(life.port->refusals.back().second, Fault::wrong_target);
+    life.drive_to(shop.plan().points[0]);
+    ASSERT_TRUE(life.station->trigger()) << "the CNC's refusal is not the technician's";
+    EXPECT_EQ(life.station->trigger().error().fault, Fault::busy);
+    life.run(2s);
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run && run->points.size() == 1);
+    EXPECT_EQ(run->points[0].origin, TriggerOrigin::manual);
+    EXPECT_EQ(life.port->done, 1);
+}
+
+TEST_F(StationRuns, StatementsOfTheArmingReplaceThoseOfTheFile) {
+    Life life{shop};
+    ArmRequest request;
+    request.statements = {{"state", "as left"}, {"customer", "hall 4"}};
+    const auto id = life.arm(request);
+    ASSERT_TRUE(id);
+    EXPECT_EQ(*id, "bench-20261121T100007Z-X"); // armed 7 s after the virtual clock's zero
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->statements.state, "as left");
+    EXPECT_EQ(run->statements.customer, "hall 4");
+    EXPECT_EQ(run->statements.operator_name, "the station file's operator");
+    EXPECT_EQ(run->statements.axis, "X");
+    EXPECT_EQ(run->station_config, shop.config.text);
+    EXPECT_EQ(run->config_hash, sha256_hex(shop.config.text));
+    ASSERT_EQ(run->instruments.size(), 3U);
+    EXPECT_EQ(run->instruments[0].serial, "S-1");
+    EXPECT_NEAR(run->laser.vacuum_wavelength.in(nm), 632.991354, 1e-9);
+    EXPECT_EQ(run->channels.size(), 6U); // laser, three of the air, two contacts
+}
+
+TEST_F(StationRuns, TimeLeftComesFromThePaceOfThePoints) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.run(300s); // people have a coffee
+    ASSERT_TRUE(life.take(0));
+    EXPECT_FALSE(life.status().run->seconds_left);
+    const MonotonicTime first = life.scheduler.now();
+    ASSERT_TRUE(life.take(1));
+    ASSERT_TRUE(life.take(2));
+    const double pace = seconds_of(life.scheduler.now() - first) / 2;
+    ASSERT_TRUE(life.status().run->seconds_left);
+    EXPECT_NEAR(*life.status().run->seconds_left, 7 * pace, pace);
+}
+
+TEST_F(StationRuns, ABrokenPortIsToldOnceAndTriedAgain) {
+    Life life{shop};
+    EXPECT_EQ(life.port->runs, 1);
+    life.port->sink->on_cnc_silent(true);
+    EXPECT_TRUE(life.status().cnc_silent);
+    for (int i = 0; i < 30; ++i)
+        life.port->sink->on_port_note(Fault::io, "the address is taken");
+    EXPECT_EQ(life.notes_with("the address is taken"), 1);
+    EXPECT_NE(life.status().trigger_note.find("the address is taken"), std::string::npos);
+}
+
+TEST_F(StationRuns, StoppingEndsThePortFirstAndLeavesTheRunOpen) {
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        ASSERT_TRUE(life.take(0));
+        boost::asio::co_spawn(life.scheduler.loop(), life.station->stop(),
+                              [](const std::exception_ptr& bug) { EXPECT_FALSE(bug); });
+        life.run(3s);
+        EXPECT_TRUE(life.port->ended);
+        EXPECT_EQ(life.port->runs, 1);
+    }
+    EXPECT_EQ(open_run_files(shop.scratch.file("runs")).size(), 1U);
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->events.back().kind, EventKind::interrupted);
+}
+
+} // namespace
+} // namespace axiscal::testing

@@ -1,0 +1,106 @@
+// Back-off, judgement and quiet of the supervisor; one instrument disturbs no other.
+#include "tests/unit/station/station_bench.hpp"
+
+namespace axiscal::testing {
+namespace {
+
+class Supervision : public ::testing::Test {
+protected:
+    [[nodiscard]] const InstrumentView view(const std::string& name) const {
+        const auto views = life.status().instruments;
+        return *std::ranges::find(views, name, &InstrumentView::name);
+    }
+    Shop shop;
+    Life life{shop};
+};
+
+TEST_F(Supervision, PausesGrowToFourSecondsAndStartSmallAgain) {
+    life.run(10s); // ran well
+    life.air->opened_at.clear();
+    life.air->unplugged = true;
+    life.run(20s);
+    std::vector<double> pauses;
+    for (std::size_t i = 1; i < life.air->opened_at.size(); ++i)
+        pauses.push_back(seconds_of(life.air->opened_at[i] - life.air->opened_at[i - 1]));
+    ASSERT_GE(pauses.size(), 6U);
+    EXPECT_EQ(std::vector<double>(pauses.begin(), pauses.begin() + 6),
+              (std::vector<double>{0.5, 1, 2, 4, 4, 4}));
+    EXPECT_EQ(view("air").state, InstrumentState::unavailable);
+    EXPECT_EQ(view("laser").state, InstrumentState::available);
+    life.air->unplugged = false;
+    life.run(5s); // an unplugged cable is back within 5 s
+    EXPECT_EQ(view("air").state, InstrumentState::available);
+}
+
+TEST_F(Supervision, TheSameFaultIsToldOnce) {
+    life.air->unplugged = true;
+    life.run(120s);
+    EXPECT_EQ(life.notes_with("air is unavailable"), 1);
+    EXPECT_LE(life.notes_with("air: "), 2); // unplugged, then no such device
+    EXPECT_GT(view("air").repeats, 20U);
+    EXPECT_GT(view("air").restarts, 20U);
+}
+
+TEST_F(Supervision, SilenceIsUnavailableAndBadValuesAreFaulty) {
+    life.air->silent = true;
+    life.laser->quality = Quality::beam_lost;
+    life.run(9s);
+    EXPECT_EQ(view("air").state, InstrumentState::available);
+    life.run(3s);
+    EXPECT_EQ(view("air").state, InstrumentState::unavailable);
+    EXPECT_EQ(view("laser").state, InstrumentState::faulty);
+    life.air->silent = false;
+    life.laser->quality = Quality::good;
+    life.run(1s);
+    EXPECT_EQ(view("air").state, InstrumentState::available);
+    EXPECT_EQ(view("laser").state, InstrumentState::available);
+}
+
+// 2026-11-21: an instrument that never had a good value stayed "unavailable".
+TEST_F(Supervision, AnInstrumentThatNeverHadAGoodValueIsFaulty) {
+    Shop other;
+    Life late{other};
+    late.material->unplugged = true;
+    late.run(2s);
+    late.material->quality = Quality::absent;
+    late.material->unplugged = false;
+    late.run(8s);
+    const auto views = late.status().instruments;
+    EXPECT_EQ(views[2].state, InstrumentState::faulty);
+}
+
+TEST_F(Supervision, AFloodOfNotesDrownsNobody) {
+    life.air->notes_each_period = 1000;
+    life.run(20s);
+    EXPECT_LE(life.notes_with("garbage"), 11); // one in two seconds
+    EXPECT_GT(view("air").repeats, 1000U);
+    EXPECT_EQ(view("laser").state, InstrumentState::available);
+    EXPECT_TRUE(life.arm());
+}
+
+TEST_F(Supervision, AChannelThatNeverSentHasNoNumber) {
+    Shop other;
+    other.config.instruments[1].channels.push_back({});
+    Life young{other};
+    for (const ChannelView& channel : young.status().channels) {
+        EXPECT_EQ(channel.value.has_value(), channel.quality == "good") << channel.channel;
+        EXPECT_TRUE(channel.age_s);
+    }
+}
+
+TEST_F(Supervision, TheCorrectionOfTheCertificateIsAdded) {
+    Shop other;
+    ChannelConfig stated;
+    stated.channel = "air temperature";
+    stated.correction = -0.25;
+    stated.place = "beside the beam";
+    other.config.instruments[1].channels.push_back(stated);
+    Life corrected{other};
+    const auto channels = corrected.status().channels;
+    const auto air = std::ranges::find(channels, "air temperature", &ChannelView::channel);
+    EXPECT_EQ(air->value, 22.75);
+    EXPECT_EQ(air->place, "beside the beam");
+}
+
+} // namespace
+} // namespace axiscal::testing
