@@ -5,8 +5,8 @@ namespace axiscal {
 Length live_position(const LaserSetup& laser,
                      const DatumRecord& datum,
                      Length reading,
-                     double refractive_index_minus_1) {
-    const auto travelled = (reading - datum.reading) / (1.0 + refractive_index_minus_1);
+                     double scale_minus_1) {
+    const auto travelled = (reading - datum.reading) / (1.0 + scale_minus_1);
     return datum.coordinate + travelled * laser.sign;
 }
 

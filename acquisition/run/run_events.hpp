@@ -38,10 +38,11 @@ struct CommitFailed {
     std::string reason;
     MonotonicTime at;
 };
-/// Refractive index of air minus 1 from fresh readings, or why there is none
-/// (environment_stale). Until the first one the environment counts as stale.
+/// By what share a reading in vacuum wavelengths exceeds the length at 20 degC, from fresh air and
+/// material readings: n (1 + alpha (T - 20 degC)) - 1; or why it is not known (environment_stale).
+/// Until the first one the environment counts as stale.
 struct EnvironmentNow {
-    Result<double> refractive_index_minus_1;
+    Result<double> scale_minus_1;
 };
 /// The laser's driver says that something is wrong; datum_lost ends the run.
 struct LaserFault {

@@ -261,7 +261,7 @@ void RunMachine::on(const CommitFailed& failed, RunActions& out) {
 }
 
 void RunMachine::on(const EnvironmentNow& environment, RunActions& /*out*/) {
-    air_ = environment.refractive_index_minus_1;
+    scale_minus_1_ = environment.scale_minus_1;
 }
 
 void RunMachine::on(const LaserFault& fault, RunActions& out) {

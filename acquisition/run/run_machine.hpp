@@ -133,7 +133,8 @@ private:
     int datum_count_ = 0;
     MonotonicTime approach_since_{};
     std::vector<ClaimedTarget> first_claims_; ///< the first accepted targets, at most two
-    Result<double> air_ = fail(Fault::environment_stale, "No environment reading has come yet.");
+    Result<double> scale_minus_1_ =
+        fail(Fault::environment_stale, "No environment reading has come yet.");
     std::optional<Pending> pending_;
     std::optional<Close> wanted_close_; ///< waits for the outstanding commit
     std::uint64_t windows_ = 0;

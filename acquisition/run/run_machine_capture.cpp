@@ -58,7 +58,7 @@ void RunMachine::start_datum(const TriggerEvent& event, RunActions& out) {
                        {},
                        {}},
                       out);
-    if (!air_) return refuse(event, air_.error(), out);
+    if (!scale_minus_1_) return refuse(event, scale_minus_1_.error(), out);
     Pending pending;
     pending.purpose = Purpose::datum;
     pending.origin = event.origin;
@@ -114,7 +114,7 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     }
     if (const auto objection = objection_to_claim(event, *point))
         return refuse(event, *objection, out);
-    if (!air_) return refuse(event, air_.error(), out);
+    if (!scale_minus_1_) return refuse(event, scale_minus_1_.error(), out);
     Pending pending;
     pending.origin = event.origin;
     pending.sequence = event.sequence;
@@ -193,10 +193,10 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
         return close(false, "The laser's counter was restarted since the datum.", Fault::datum_lost,
                      out);
     }
-    if (!air_) return refuse_pending(air_.error(), capture.end, out);
+    if (!scale_minus_1_) return refuse_pending(scale_minus_1_.error(), capture.end, out);
     const auto planned = setup_.plan.points[static_cast<std::size_t>(pending_->step)];
     const auto target = setup_.plan.targets[static_cast<std::size_t>(planned.target_index)];
-    const auto position = live_position(setup_.laser, *datum_, capture.mean, *air_);
+    const auto position = live_position(setup_.laser, *datum_, capture.mean, *scale_minus_1_);
     if (const auto objection = objection_to_place(position, target))
         return refuse_pending(*objection, capture.end, out);
     const auto& way = capture.approach_travel;

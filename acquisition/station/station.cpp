@@ -151,7 +151,7 @@ void Station::take_reading(const Sample& sample) {
     if (const auto value = sample.value())
         port_->position(
             sample.at,
-            live_position(run_->header.laser, *datum_, metre(*value), refractivity_).in(mm));
+            live_position(run_->header.laser, *datum_, metre(*value), live_scale_).in(mm));
 }
 
 void Station::log_environment(int channel, const Sample& sample) {
@@ -228,7 +228,7 @@ bool Station::run_open() const {
     return run_ && !run_->closed;
 }
 
-Result<double> Station::refractivity_now() const {
+Result<double> Station::live_scale_now() const {
     const MonotonicTime now = scheduler_.now();
     const Duration oldest = config_.axis.air.oldest;
     AXISCAL_CHECK(watch_.check(now, oldest));
@@ -240,7 +240,11 @@ Result<double> Station::refractivity_now() const {
     air.vacuum_wavelength = run_ ? run_->header.laser.vacuum_wavelength : nm(632.991);
     air.co2_ppm = config_.axis.air.co2_ppm;
     AXISCAL_TRY(const Refractivity refractivity, refractivity_of(config_.axis.air.formula, air));
-    return refractivity.n_minus_1;
+    const Temperature material = Temperature::celsius(
+        *watch_.fresh_mean(EnvironmentRole::material_temperature, now, oldest));
+    const double growth =
+        (config_.axis.material.coefficient * (material - reference_temperature)).si();
+    return refractivity.n_minus_1 + growth + refractivity.n_minus_1 * growth;
 }
 
 } // namespace axiscal

@@ -133,7 +133,7 @@ private:
     [[nodiscard]] bool recording() const;
     [[nodiscard]] bool run_open() const;
     void refuse_on_port(std::uint16_t sequence, const Error& error);
-    [[nodiscard]] Result<double> refractivity_now() const;
+    [[nodiscard]] Result<double> live_scale_now() const;
 
     Scheduler& scheduler_;
     StationConfig config_;
@@ -157,7 +157,7 @@ private:
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
-    double refractivity_ = 0;       ///< n - 1, the last one known; for live positions only
+    double live_scale_ = 0;         ///< the last EnvironmentNow known; for live positions only
     std::string port_note_, refused_note_;
     std::deque<std::string> notes_;
     boost::asio::cancellation_signal end_port_;

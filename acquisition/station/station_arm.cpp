@@ -199,7 +199,7 @@ Task<Result<void>> Station::resume(std::string path, RunRecord run, std::string 
                                  : "while the computer was restarted";
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
-    feed(EnvironmentNow{refractivity_now()});
+    feed(EnvironmentNow{live_scale_now()});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
          " durable points.");

@@ -27,14 +27,14 @@ void Station::feed(RunInput input) {
 
 void Station::feed_with_air(RunInput input) {
     if (!machine_) return;
-    feed(EnvironmentNow{refractivity_now()});
+    feed(EnvironmentNow{live_scale_now()});
     feed(std::move(input));
 }
 
 void Station::handle(const RunInput& input) {
     if (const auto* environment = std::get_if<EnvironmentNow>(&input);
-        environment && environment->refractive_index_minus_1)
-        refractivity_ = *environment->refractive_index_minus_1;
+        environment && environment->scale_minus_1)
+        live_scale_ = *environment->scale_minus_1;
     for (RunAction& action : machine_->handle(input))
         std::visit([this](auto& step) { perform(std::move(step)); }, action);
     const RunView view = machine_->view();

@@ -69,7 +69,7 @@ AxisView Station::axis_view() const {
         axis.displacement_mm = metre(*value).in(mm);
         if (datum_ && run_open())
             axis.position_mm =
-                live_position(run_->header.laser, *datum_, metre(*value), refractivity_).in(mm);
+                live_position(run_->header.laser, *datum_, metre(*value), live_scale_).in(mm);
     }
     if (axis.position_mm && machine_)
         if (const auto next = machine_->view().next) {
