@@ -23,7 +23,8 @@ Json to_json(const ChannelView& channel) {
             {"value", or_null(channel.value)},
             {"unit", channel.unit},
             {"age_s", or_null(channel.age_s)},
-            {"quality", channel.quality}};
+            {"quality", channel.quality},
+            {"used", channel.used}};
 }
 
 Json to_json(const AxisView& axis) {

@@ -20,6 +20,7 @@ struct ChannelView {
     Medium medium = Medium::none;
     std::optional<double> value;
     std::optional<double> age_s;  ///< of the last sample, good or not
+    bool used = false;            ///< laser, or part of the run's environment
     std::string quality = "none"; ///< good | stale | signal_error | beam_lost | absent | none
 };
 

@@ -139,6 +139,9 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     view.unit = stored_unit_of(channel.kind);
     view.kind = channel.kind;
     view.medium = channel.medium;
+    const std::vector<int> environment = roles_.environment();
+    view.used = channel.id == roles_.laser ||
+                std::ranges::find(environment, channel.id) != environment.end();
     const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
     if (!sample) return view;
     const Duration age = scheduler_.now() - sample->at;

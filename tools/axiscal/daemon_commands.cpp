@@ -6,19 +6,22 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr auto repaint = std::chrono::milliseconds{500};
+constexpr auto repaint =
+    std::chrono::milliseconds{250}; // a reading twice a second, asking included
 
 int no_contact(const Error& error) {
     std::cerr << error.detail << (error.cause ? " (" + error.cause.message() + ")" : "") << "\n";
@@ -44,6 +47,10 @@ template <class Show> int ask(const Result<Reply>& reply, bool json, Show show) 
     return exit_ok;
 }
 
+int exit_code_of(const Json& run) {
+    return run.is_null() || run.at("state") == "complete" ? exit_ok : exit_incomplete;
+}
+
 int outcome(const Json& status) {
     const Json& run = status.at("run");
     if (run.is_null()) return std::cout << "No run is open.\n", exit_ok;
@@ -55,8 +62,39 @@ int outcome(const Json& status) {
     if (!run.at("sentence").get<std::string>().empty())
         std::cout << ": " << run.at("sentence").get<std::string>();
     std::cout << "\n";
-    return complete ? exit_ok : exit_incomplete;
+    return exit_code_of(run);
 }
+
+/// How `watch` shows one status after the other.
+class Frames {
+public:
+    explicit Frames(bool json)
+        : json_{json}
+        , screen_{!json && ::isatty(STDOUT_FILENO) != 0} {}
+
+    void show(const std::string& body, const Json& status) {
+        if (json_)
+            std::cout << body;
+        else if (screen_)
+            std::cout << "\x1b[H\x1b[2J" << status_text(status);
+        else if (const std::string news = news_of(status); news != std::exchange(last_, news))
+            std::cout << progress_line(status) << "\n";
+        std::cout << std::flush;
+    }
+    /// The last word, once there is nothing to wait for.
+    [[nodiscard]] int end(const Json& status) const {
+        return json_ ? exit_code_of(status.at("run")) : outcome(status);
+    }
+
+private:
+    /// In a log a line is worth a new point or a new sentence.
+    static std::string news_of(const Json& status) {
+        const Json& run = status.at("run");
+        return run.is_null() ? "" : run.at("step").dump() + run.at("sentence").dump();
+    }
+    bool json_, screen_;
+    std::string last_;
+};
 
 /// Still something to wait for: an open run, or a certificate that is not written yet.
 bool goes_on(const Json& status, bool until_published) {
@@ -78,8 +116,13 @@ Result<void> read_program_header(const std::string& path, Json& body) {
             const auto begin = at + key.size() + 1;
             return line.substr(begin, line.find_first_of(" )\r\n", begin) - begin);
         };
-        if (const std::string seed = value_of("seed"); !seed.empty() && seed != "none")
-            body["seed"] = std::stoull(seed);
+        if (const std::string seed = value_of("seed"); !seed.empty() && seed != "none") {
+            std::uint64_t number = 0;
+            const auto end = seed.data() + seed.size();
+            if (std::from_chars(seed.data(), end, number).ptr != end)
+                return fail(Fault::bad_request, path + ": its seed '" + seed + "' is no number");
+            body["seed"] = number;
+        }
         if (const std::string pass = value_of("pass"); !pass.empty())
             return body["pass"] = pass, Result<void>{};
     }
@@ -98,27 +141,14 @@ int command_devices(const StationClient& client, bool json) {
 }
 
 int command_watch(const StationClient& client, bool json, bool until_published) {
-    const bool screen = !json && ::isatty(STDOUT_FILENO) != 0;
-    std::string last;
+    Frames frames{json};
     for (;;) {
         const auto reply = client.get("/v1/status");
         if (!reply) return no_contact(reply.error());
         if (reply->status >= 300) return refused(*reply);
         const Json status = Json::parse(reply->body);
-        if (json) std::cout << reply->body << std::flush;
-        if (screen) std::cout << "\x1b[H\x1b[2J" << status_text(status) << std::flush;
-        const std::string line = progress_line(status),
-                          key = status.at("run").is_null()
-                                    ? ""
-                                    : status.at("run").at("step").dump() +
-                                          status.at("run").at("sentence").dump();
-        if (!json && !screen && key != last) std::cout << line << "\n" << std::flush;
-        last = key;
-        if (!goes_on(status, until_published))
-            return json ? (status.at("run").is_null() || status.at("run").at("state") == "complete"
-                               ? exit_ok
-                               : exit_incomplete)
-                        : outcome(status);
+        frames.show(reply->body, status);
+        if (!goes_on(status, until_published)) return frames.end(status);
         std::this_thread::sleep_for(repaint);
     }
 }

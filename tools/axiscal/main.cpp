@@ -1,10 +1,12 @@
 // The command line. Each command is documented where it is parsed: `axiscal COMMAND --help`.
+#include "config/measure.hpp"
 #include "tools/axiscal/daemon_commands.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
@@ -163,14 +165,24 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         app.add_subcommand("export", "certificate.json, .csv and .pdf of a closed run file");
     write->add_option("RUN", options.file, "run file")->required();
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
-    write->callback(
-        [&] { chosen = [&] { return command_export(options.file, options.out); }; });
+    write->callback([&] { chosen = [&] { return command_export(options.file, options.out); }; });
 
     auto* check = app.add_subcommand("check-config",
                                      "Every refusal of a station file at once, with its line");
     check->add_option("FILE", options.config, "station file")->capture_default_str();
     check->callback(
         [&] { chosen = [&] { return command_check_config(options.config, options.json); }; });
+}
+
+/// The first word is no command: says so, with the nearest one there is.
+void hint_at_command(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands({}))
+        known.push_back(command->get_name());
+    if (std::ranges::find(known, word) != known.end()) return;
+    const std::string near = nearest_word(word, known);
+    std::cerr << "'" << word << "' is no command"
+              << (near.empty() ? "" : "; did you mean '" + near + "'?") << "\n";
 }
 
 int run(int argc, char** argv) {
@@ -188,6 +200,7 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (argc > 1 && argv[1][0] != '-') hint_at_command(app, argv[1]);
         return app.exit(error) == 0 ? exit_ok : exit_usage;
     }
     return chosen();

@@ -19,8 +19,8 @@ struct ProgramRequest {
 /// Writes one file a pass and says how to arm it.
 int command_program(const ProgramRequest& request, bool json);
 
-/// certificate.json, .csv and .pdf of a closed run into `out_directory`/<run-id>/, by axiscal-report,
-/// whose line of JSON names the files.
+/// certificate.json, .csv and .pdf of a closed run into `out_directory`/<run-id>/, by
+/// axiscal-report, whose line of JSON names the files.
 int command_export(const std::string& run_file, const std::string& out_directory);
 
 /// Every refusal of the station file at once, with file:line.

@@ -60,21 +60,32 @@ std::string run_text(const Json& status) {
     return text;
 }
 
-std::string channel_text(const Json& channel) {
+/// A channel that nobody needs and that never said a number (a sensor the instrument was built
+/// without) only takes up a line.
+bool worth_showing(const Json& channel) {
+    return channel.at("used") == true || channel.at("value").is_number();
+}
+
+/// In the units of the shop floor.
+std::string value_text(const Json& channel) {
     const std::string unit = channel.at("unit");
-    const char* pattern = unit == "Pa" ? "%.0f" : "%.2f";
-    const std::string shown =
-        unit == "m" ? (channel.at("value").is_number()
-                           ? number_or_dashes(channel.at("value").get<double>() * 1e3, "%.6f", "mm")
-                           : "- - - mm")
-                    : number_or_dashes(channel.at("value"), pattern, unit == "degC" ? "°C" : unit);
+    Json value = channel.at("value");
+    const auto scaled = [&value](double factor) {
+        return value.is_number() ? Json(value.get<double>() * factor) : value;
+    };
+    if (unit == "m") return number_or_dashes(scaled(1e3), "%.4f", "mm");
+    if (unit == "Pa") return number_or_dashes(scaled(1e-2), "%.1f", "hPa");
+    return number_or_dashes(value, unit == "%" ? "%.1f" : "%.2f", unit == "degC" ? "°C" : unit);
+}
+
+std::string channel_text(const Json& channel) {
     const std::string age = channel.at("age_s").is_number()
                                 ? format("%.1f s", channel.at("age_s").get<double>())
                                 : "never";
     const std::string place = channel.at("place").get<std::string>();
     return format("  %-10s %-24s ", channel.at("instrument").get<std::string>().c_str(),
                   channel.at("channel").get<std::string>().c_str()) +
-           shown + "  (" + channel.at("quality").get<std::string>() + ", " + age +
+           value_text(channel) + "  (" + channel.at("quality").get<std::string>() + ", " + age +
            (place.empty() ? "" : ", " + place) + ")\n";
 }
 
@@ -124,7 +135,7 @@ std::string status_text(const Json& status) {
         text += "             " + trigger.at("note").get<std::string>() + "\n";
     text += "Channels\n";
     for (const Json& channel : status.at("channels"))
-        text += channel_text(channel);
+        if (worth_showing(channel)) text += channel_text(channel);
     text += "Instruments\n" + instruments_text(status.at("instruments"));
     text += format("Outbox       %d waiting\n", status.at("outbox_entries").get<int>());
     for (const Json& note : status.at("notes"))
@@ -144,7 +155,7 @@ std::string progress_line(const Json& status) {
     text += "x " + number_or_dashes(status.at("axis").at("position_mm"), "%9.4f", "mm") +
             "  last e " + number_or_dashes(run.at("last_deviation_um"), "%+7.2f", "µm");
     for (const Json& channel : status.at("channels"))
-        if (channel.at("kind") == "temperature")
+        if (channel.at("kind") == "temperature" && channel.at("used") == true)
             text += "  " + channel.at("medium").get<std::string>() + " " +
                     number_or_dashes(channel.at("value"), "%.2f", "°C");
     const Json& strength = status.at("axis").at("strength_percent");

@@ -171,10 +171,10 @@ TEST(StationConfig, RefusesTravelLimitsInTheWrongOrder) {
 
 TEST(StationConfig, WantsEitherAListOfTargetsOrAnInterval) {
     const std::string list = "targets = [\"0 mm\", \"200 mm\", \"410 mm\"]";
-    expect_refused_once(read_changed("interval = \"99 mm\"", "interval = \"99 mm\"\n" + list),
+    expect_refused_once(read_changed("interval = \"93 mm\"", "interval = \"93 mm\"\n" + list),
                         "cycle.interval: stands beside targets");
-    expect_refused_once(read_changed("interval = \"99 mm\"\n", "\n"), "cycle.interval: is missing");
-    const Reading both = read_changed("interval = \"99 mm\"\n", list + "\n");
+    expect_refused_once(read_changed("interval = \"93 mm\"\n", "\n"), "cycle.interval: is missing");
+    const Reading both = read_changed("interval = \"93 mm\"\n", list + "\n");
     EXPECT_NE(both.told.find("cycle.target_count: belongs to interval"), std::string::npos);
     EXPECT_NE(both.told.find("cycle.first_target: belongs to interval"), std::string::npos);
     EXPECT_EQ(count_lines(both.told), 2) << both.told;
@@ -338,8 +338,8 @@ std::string rotary_text() {
         {"travel_low = \"0 mm\"", "travel_low = \"-5 deg\""},
         {"travel_high = \"1000 mm\"", "travel_high = \"365 deg\""},
         {"feedback_pitch = \"10 mm\"", "feedback_pitch = \"72 arcsec\""},
-        {"interval = \"99 mm\"", "interval = \"30 deg\""},
-        {"first_target = \"4.5 mm\"", "first_target = \"0 deg\""},
+        {"interval = \"93 mm\"", "interval = \"30 deg\""},
+        {"first_target = \"33 mm\"", "first_target = \"0 deg\""},
         {"overrun = \"2 mm\"", "overrun = \"1 deg\""},
         {"feed = \"1000 mm/min\"", "feed = \"360 deg/min\""},
         {"spread_limit = \"2 um\"", "spread_limit = \"0.5 arcsec\""},
