@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""The command line as a shell sees it: exit codes, help, refusals, doors.
+
+axiscal_cli.py BIN_FOLDER SOURCE_FOLDER   writes only into a scratch folder of its own
+"""
+import json
+import math
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+EXAMPLE = os.path.join(SOURCE, "config", "station.example.toml")
+RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
+COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", "--pass"],
+            "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
+            "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out"],
+            "export": ["RUN", "--out"], "check-config": ["FILE"]}
+CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
+        "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
+        "forward": [[t + 0.001, t + 0.003] for t in (0, 100, 200, 300, 400)],
+        "backward": [[t - 0.001, t + 0.001] for t in (0, 100, 200, 300, 400)]}
+
+
+def example_text():
+    """The example, its profile found in the clone instead of /usr/share."""
+    with open(EXAMPLE, encoding="utf-8") as source:
+        text = source.read()
+    profile = os.path.join(SOURCE, "config", "profiles", "tm-th8.toml")
+    assert os.path.exists(profile)
+    return text.replace('profile = "tm-th8"', f'profile = "{profile}"')
+
+
+def run(*words, text=None, env=None):
+    return subprocess.run([os.path.join(BIN, "axiscal"), *words], input=text, text=True,
+                          capture_output=True, timeout=60, env={**os.environ, **(env or {})})
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="axiscal-cli-")
+        self.addCleanup(shutil.rmtree, self.folder, True)
+
+    def file(self, name, text=""):
+        path = os.path.join(self.folder, name)
+        with open(path, "w", encoding="utf-8") as out:
+            out.write(text)
+        return path
+
+    def expect(self, code, *words, **more):
+        got = run(*words, **more)
+        self.assertEqual(got.returncode, code, f"{words}: {got.stdout}{got.stderr}")
+        return got
+
+
+class Help(Scratch):
+    def test_every_command_names_its_arguments(self):
+        listed = self.expect(0, "--help").stdout
+        for command, arguments in COMMANDS.items():
+            self.assertIn(command, listed)
+            told = self.expect(0, command, "--help").stdout
+            for argument in arguments + ["--json"]:
+                self.assertIn(argument, told, command)
+
+    def test_exit_codes_are_told(self):
+        told = self.expect(0, "--help").stdout
+        for code in range(7):
+            self.assertRegex(told, rf"\b{code} ")
+
+    def test_wrong_usage_is_2_with_a_hint(self):
+        self.assertIn("did you mean 'status'", self.expect(2, "statsu").stderr)
+        self.expect(2)
+        self.expect(2, "analyze")
+        self.expect(2, "status", "--no-such-option")
+        self.expect(2, "arm", "--state-that", "no equals sign")
+
+
+class Analyze(Scratch):
+    def test_a_case_from_a_file_and_from_stdin(self):
+        text = json.dumps(CASE)
+        one = json.loads(self.expect(0, "analyze", self.file("case.json", text)).stdout)
+        two = json.loads(self.expect(0, "analyze", "-", text=text).stdout)
+        self.assertEqual(one, two)
+        # Forward mean 2 um, backward mean 0: B = 2 um; s = sqrt(2) um each, R = 4 sqrt(2) + ... by hand:
+        self.assertTrue(math.isclose(one["parameters"]["B"]["value"], 0.002, abs_tol=1e-12))
+        self.assertTrue(math.isclose(one["parameters"]["R_forward"]["value"], 4e-3 * math.sqrt(2),
+                                     abs_tol=1e-12))
+
+    def test_an_array_keeps_its_length_and_names_the_refused(self):
+        bad = {**CASE, "targets": [0, 100, 100, 300, 400]}
+        got = self.expect(3, "analyze", "-", text=json.dumps([CASE, bad, CASE]))
+        answers = json.loads(got.stdout)
+        self.assertEqual(len(answers), 3)
+        self.assertIn("field", answers[1]["refused"])
+        self.assertEqual(answers[0], answers[2])
+
+    def test_refused_and_missing_input(self):
+        for text in ("", "{", "[1]", '{"analysis":"positioning"}', json.dumps({**CASE, "forward": [[float("nan")]]})):
+            got = self.expect(3, "analyze", "-", text=text)
+            self.assertEqual(len(got.stderr.strip().splitlines()), 1, text)
+        self.expect(1, "analyze", os.path.join(self.folder, "nothing"))
+        self.expect(1, "analyze", self.folder)
+
+    def test_a_run_file_is_known_by_content(self):
+        renamed = os.path.join(self.folder, "looks-like-a-case.json")
+        shutil.copy(RUN, renamed)
+        document = json.loads(self.expect(0, "analyze", renamed).stdout)
+        self.assertIn("run", document)
+        self.assertEqual(json.loads(self.expect(0, "analyze", RUN).stdout)["parameters"], document["parameters"])
+
+
+class StationFile(Scratch):
+    def test_the_example_is_accepted(self):
+        path = self.file("station.toml", example_text())
+        self.assertIn("110 points", self.expect(0, "check-config", path).stdout)
+        self.assertEqual(json.loads(self.expect(0, "check-config", path, "--json").stdout)["refusals"], [])
+
+    def test_five_mistakes_are_named_at_once_with_their_lines(self):
+        text = example_text()
+        planted = [('kind = "linear"', 'kind = "linaer"'), ('sign = 1', 'sgin = 1'),
+                   ('overrun = "2 mm"', 'overrun = "2 s"'), ('spread_limit = "2 um"', 'spread_limit = 2'),
+                   ('driver = "umd"', 'driver = "udm"')]
+        for right, wrong in planted:
+            self.assertEqual(len(re.findall(rf"^{re.escape(right)}$", text, re.M)), 1, right)
+            text = re.sub(rf"^{re.escape(right)}$", wrong, text, flags=re.M)
+        path = self.file("station.toml", text)
+        lines = text.splitlines()
+        told = self.expect(3, "check-config", path).stderr
+        for _, wrong in planted:
+            line = lines.index(wrong) + 1
+            self.assertRegex(told, rf"{re.escape(path)}:{line}\b", f"{wrong}\n{told}")
+        for hint in ("linear", "sign", "umd"):
+            self.assertIn(hint, told)
+        answer = json.loads(run("check-config", path, "--json").stdout)
+        self.assertGreaterEqual(len(answer["refusals"]), 5)
+
+    def test_a_missing_file_is_refused(self):
+        self.expect(3, "check-config", os.path.join(self.folder, "nothing.toml"))
+
+
+class Program(Scratch):
+    def test_both_dialects(self):
+        for dialect, word in (("linuxcnc", "M66"), ("marlin", "G4 P")):
+            text = example_text()
+            if dialect == "marlin":  # no wire: the axis stands still
+                text = text.replace('shape = "sequence-block"', 'shape = "dwell"')
+                text = text.replace('transport = "tcp"\n', 'transport = "none"\nwindow = "0.5 mm"\nstability_range = "2 um"\nhysteresis = "0.2 mm"\n')
+                text = re.sub(r"^(host = \"127|port = 1502).*$", "", text, flags=re.M)
+            else:
+                text = text.replace('shape = "sequence-block"', 'shape = "single-register"')
+            config = self.file(dialect + ".toml", text)
+            got = run("program", "--config", config, "--dialect", dialect, "--out", self.folder,
+                      "--seed", "5", "--json")
+            self.assertEqual(got.returncode, 0, got.stdout + got.stderr)
+            written = json.loads(got.stdout)["programs"][0]
+            self.assertEqual(written["seed"], 5)
+            with open(written["file"], encoding="utf-8") as source:
+                self.assertIn(word, source.read())
+        self.expect(2, "program", "--config", config, "--dialect", "klingon", "--out", self.folder)
+
+
+class Export(Scratch):
+    def test_a_run_file_becomes_papers(self):
+        self.expect(0, "export", RUN, "--out", self.folder)
+        found = [name for _, _, names in os.walk(self.folder) for name in names]
+        for ending in (".json", ".csv", ".pdf"):
+            self.assertTrue(any(name.endswith(ending) for name in found), found)
+        self.assertNotEqual(run("export", self.file("x.axiscal", "no run"), "--out", self.folder).returncode, 0)
+
+
+class Daemon(Scratch):
+    """A real axiscald whose instruments are not there."""
+
+    def setUp(self):
+        super().setUp()
+        text = example_text()
+        with socket.socket() as probe:  # free now; nothing else asks for it in the next second
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self.socket = os.path.join(self.folder, "d.sock")
+        text = text.replace('# state_directory = "/var/lib/axiscal"', f'state_directory = "{self.folder}/state"')
+        text = text.replace("[console]\n", f'[console]\nsocket = "{self.socket}"\ngroup = ""\nport = {self.port}\n')
+        text = re.sub(r"^port = 1502$", f"port = {self.free_port()}", text, flags=re.M)
+        config = self.file("station.toml", text)
+        self.log = open(os.path.join(self.folder, "log"), "w", encoding="utf-8")
+        self.daemon = subprocess.Popen([os.path.join(BIN, "axiscald"), "--config", config],
+                                       stderr=self.log, stdout=self.log)
+        self.addCleanup(self.end)
+        for _ in range(200):
+            if os.path.exists(self.socket) and run("status", "--socket", self.socket).returncode == 0:
+                return
+            self.assertIsNone(self.daemon.poll(), "axiscald ended")
+            time.sleep(0.05)
+        self.fail("axiscald does not answer")
+
+    @staticmethod
+    def free_port():
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            return probe.getsockname()[1]
+
+    def end(self):
+        self.daemon.terminate()
+        self.assertEqual(self.daemon.wait(20), 0)
+        self.log.close()
+
+    def test_doors_and_rights(self):
+        local, tcp = ["--socket", self.socket], ["--host", f"127.0.0.1:{self.port}"]
+        shown = self.expect(0, "status", *local).stdout
+        self.assertIn("- - -", shown)
+        self.assertNotIn(" 0.00 °C", shown)
+        self.expect(0, "devices", *tcp)
+        self.expect(0, "watch", *tcp)
+        self.assertEqual(json.loads(self.expect(0, "status", "--json", *tcp).stdout)["protocol"], "axiscal/1")
+        without = self.expect(4, "arm", *tcp)
+        self.assertIn("token", without.stderr)
+        token = ["--token-file", os.path.join(self.folder, "state", "token")]
+        within = self.expect(4, "arm", *tcp, *token)  # reaches the station: nothing is plugged in
+        self.assertNotIn("token", within.stderr)
+        self.assertEqual(within.stderr, self.expect(4, "arm", *local).stderr)
+        self.expect(4, "trigger", *local)
+        self.expect(4, "abort", *local)
+        self.expect(3, "arm", "--program", self.file("other.ngc", "(nothing)\n"), *local)
+        self.expect(3, "arm", "--program", self.file("odd.ngc", "(seed=x pass=whole)\n"), *local)
+
+    def test_a_second_daemon_is_refused(self):
+        second = subprocess.run([os.path.join(BIN, "axiscald"), "--config", os.path.join(self.folder, "station.toml")],
+                                capture_output=True, text=True, timeout=20)
+        self.assertEqual(second.returncode, 1)
+        self.assertIn("another axiscald", second.stderr)
+
+
+class NoDaemon(Scratch):
+    def test_it_is_said_where_it_was_looked_for(self):
+        nowhere = os.path.join(self.folder, "none.sock")
+        for words in (["status"], ["devices"], ["watch"], ["arm"], ["trigger"], ["abort"]):
+            self.assertIn(nowhere, self.expect(5, *words, "--socket", nowhere).stderr)
+        self.expect(5, "status", env={"AXISCAL_SOCKET": nowhere})
+        self.expect(0, "devices", "--drivers")
+
+
+class Incomplete(Scratch):
+    """`watch` against a door that answers with a run that was broken off."""
+
+    def test_an_incomplete_run_ends_watch_with_6(self):
+        body = json.dumps({"run_open": False, "axis": {"position_mm": None, "strength_percent": None},
+                           "channels": [], "run": {"id": "r", "state": "incomplete", "step": 3, "steps": 10,
+                           "next": None, "last_deviation_um": None, "seconds_left": None,
+                           "sentence": "broken off", "certificate": ""}}).encode()
+        path = os.path.join(self.folder, "fake.sock")
+        door = socket.socket(socket.AF_UNIX)
+        door.bind(path)
+        door.listen(4)
+        self.addCleanup(door.close)
+        for words in (["watch"], ["watch", "--json"]):
+            child = subprocess.Popen([os.path.join(BIN, "axiscal"), *words, "--socket", path],
+                                     stdout=subprocess.PIPE, text=True)
+            client, _ = door.accept()
+            client.recv(65536)
+            client.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
+            client.close()
+            shown, _ = child.communicate(timeout=20)
+            self.assertEqual(child.returncode, 6)
+            self.assertIn("broken off", shown)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]] + sys.argv[3:])
