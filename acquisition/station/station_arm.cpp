@@ -92,9 +92,10 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
 }
 
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
-    run_.emplace();
-    run_->header = std::move(header);
-    run_->path = std::move(path);
+    CurrentRun fresh;
+    fresh.header = std::move(header);
+    fresh.path = std::move(path);
+    run_ = std::move(fresh);
     machine_.emplace(std::move(machine));
     last_receipt_.reset();
     left_over_fault_.reset();
