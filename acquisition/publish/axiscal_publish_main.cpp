@@ -160,6 +160,7 @@ int run(int count, char** words) {
     CLI::App app{"Copies finished results from the outbox to a share.", "axiscal-publish"};
     Options options;
     describe_options(app, options);
+    app.set_version_flag("--version", AXISCAL_VERSION);
     try {
         app.parse(count, words);
         if (options.config.empty() && options.outbox.empty())
