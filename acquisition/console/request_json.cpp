@@ -1,0 +1,82 @@
+#include "acquisition/console/api_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array statement_keys{"certificate_number",
+                                    "customer",
+                                    "place",
+                                    "operator",
+                                    "approver",
+                                    "procedure",
+                                    "state",
+                                    "warm_up",
+                                    "offsets",
+                                    "idle_axes",
+                                    "sensor_note",
+                                    "next_due",
+                                    "control_compensation"};
+
+Result<void> read_statements(const Json& given, ArmRequest& request) {
+    if (!given.is_object())
+        return refuse(Fault::bad_request, "statements", "must be an object of texts");
+    for (const auto& [key, value] : given.items()) {
+        if (std::ranges::find(statement_keys, key) == statement_keys.end())
+            return refuse(Fault::bad_request, "statements." + key,
+                          "is not a statement; docs/api.md lists them");
+        if (!value.is_string())
+            return refuse(Fault::bad_request, "statements." + key, "must be a text");
+        request.statements[key] = value.get<std::string>();
+    }
+    return {};
+}
+
+Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
+    if (key == "datum_mm" && value.is_number())
+        return request.datum_mm = value.get<double>(), Result<void>{};
+    if (key == "pass" && value.is_string())
+        return request.pass = value.get<std::string>(), Result<void>{};
+    if (key == "seed" && value.is_number_unsigned())
+        return request.seed = value.get<std::uint64_t>(), Result<void>{};
+    if (key == "datum_by_cnc" && value.is_boolean())
+        return request.datum_by_cnc = value.get<bool>(), Result<void>{};
+    if (key == "statements") return read_statements(value, request);
+    const bool known = key == "datum_mm" || key == "pass" || key == "seed" || key == "datum_by_cnc";
+    return refuse(Fault::bad_request, key,
+                  known ? "has the wrong type"
+                        : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements");
+}
+
+Result<Json> parse_object(const std::string& body) {
+    Json parsed = Json::parse(body.empty() ? "{}" : body, nullptr, false);
+    if (parsed.is_discarded()) return refuse(Fault::bad_request, "body", "is not JSON");
+    if (!parsed.is_object()) return refuse(Fault::bad_request, "body", "must be a JSON object");
+    return parsed;
+}
+
+} // namespace
+
+Result<ArmRequest> arm_request_from_json(const std::string& body) {
+    AXISCAL_TRY(const Json parsed, parse_object(body));
+    ArmRequest request;
+    for (const auto& [key, value] : parsed.items())
+        AXISCAL_CHECK(read_arm_field(key, value, request));
+    return request;
+}
+
+Result<std::string> abort_reason_from_json(const std::string& body) {
+    AXISCAL_TRY(const Json parsed, parse_object(body));
+    if (!parsed.contains("reason")) return std::string{"aborted by the operator"};
+    if (!parsed["reason"].is_string())
+        return refuse(Fault::bad_request, "reason", "must be a text");
+    return parsed["reason"].get<std::string>();
+}
+
+} // namespace axiscal
