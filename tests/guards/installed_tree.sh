@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# `cmake --install` into a scratch root: all that a station needs is there, and the programs run.
+#   installed_tree.sh BUILD_DIR SOURCE_DIR VERSION
+set -euo pipefail
+build=$1 source=$2 version=$3
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+fail() { echo "FAILED: $*"; exit 1; }
+
+DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" \
+    || { cat "$root/install.log"; fail "cmake --install"; }
+
+wanted=(/usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
+for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
+for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
+while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md')
+for file in "${wanted[@]}"; do
+    [ -s "$root$file" ] || fail "not installed: $file"
+done
+# These stand where this system's systemd and udev look for them.
+for name in axiscald.service axiscal-publish.service 70-axiscal.rules; do
+    [ "$(find "$root" -name "$name" -size +0 | wc -l)" = 1 ] || fail "not installed once: $name"
+done
+
+# What helps to test or to play is no part of a measuring PC.
+while read -r file; do
+    case $file in
+    */axiscal-simulate | */modbus_peer_host | *_tests | */fuzz_* | *.a | *.hpp) fail "installed, but belongs to the tests: $file" ;;
+    esac
+done < <(find "$root" -type f)
+
+for program in axiscald axiscal axiscal-publish axiscal-report; do
+    said=$("$root/usr/bin/$program" --version) || fail "$program --version ends with $?"
+    [[ $said == *"$version"* ]] || fail "$program --version says: $said"
+done
+for program in "$root"/usr/bin/axiscal*; do
+    "$program" --help >"$root/help.txt" || fail "${program##*/} --help ends with $?"
+    ! grep -aqF "$build" "$root/help.txt" || fail "${program##*/} --help names the build folder"
+done
+echo "${#wanted[@]} files and 3 services' files are installed; programs say $version"
