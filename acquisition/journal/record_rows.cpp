@@ -119,8 +119,8 @@ ChainedRow chained(std::string_view table, Row row) {
 ChainedRow row_of_plan(const RunPlan& plan) {
     const auto& [axis_kind, cycle, pass, remark, targets, approaches, bidirectional, interval, seed,
                  overrun, near_tolerance, datum, points] = plan;
-    const Value seed_value =
-        seed ? Value{std::bit_cast<std::int64_t>(*seed)} : Value{std::monostate{}};
+    Value seed_value;
+    if (seed) seed_value = std::bit_cast<std::int64_t>(*seed);
     return chained("plan", {text(name_of(axis_kind)), text(name_of(cycle)), pass, remark,
                             whole(approaches), whole(bidirectional), interval.si(), seed_value,
                             overrun.si(), near_tolerance.si(), datum.si()});
@@ -140,7 +140,8 @@ ChainedRow row_of_laser(const LaserSetup& laser) {
 
 ChainedRow row_of_material(const MaterialSetup& material) {
     const auto& [coefficient, uncertainty, feedback, form] = material;
-    const Value u = uncertainty ? Value{uncertainty->si()} : Value{std::monostate{}};
+    Value u;
+    if (uncertainty) u = uncertainty->si();
     return chained("material", {coefficient.si(), u, feedback, text(name_of(form))});
 }
 
