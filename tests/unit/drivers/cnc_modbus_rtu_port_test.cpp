@@ -141,7 +141,8 @@ TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
 TEST_F(ModbusRtu, IsDeafToOthersAndToDamagedFrames) {
     reach();
     received.clear();
-    send(with_crc({18, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}));   // another slave
+    send(with_crc({18, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}));   // to another slave
+    send(with_crc({18, 16, 0, 1, 0, 2}));                  // and its answer
     send(with_crc({0, 16, 0, 1, 0, 2, 4, 0, 2, 0, 2}));    // to everybody
     send({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 3, 0xBA, 0xD0}); // wrong checksum
     // Answers come in the order of the requests: the first one to come is this one's.
