@@ -108,6 +108,7 @@ private:
     [[nodiscard]] Result<void> ready_to_measure() const;
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
     Task<Result<void>> await_datum();
+    [[nodiscard]] bool instruments_returned() const;
     Task<Result<void>> resume_or_close(std::string path);
     Task<double> laser_rate_hz(MonotonicTime limit);
     Task<Result<void>> resume(std::string path, RunRecord run, std::string proof);

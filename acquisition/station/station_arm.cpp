@@ -145,6 +145,11 @@ Result<std::vector<std::string>> Station::open_runs() const {
     return open_run_files(folder);
 }
 
+bool Station::instruments_returned() const {
+    const auto reading = history_.newest();
+    return reading && reading->value() && live_scale_now();
+}
+
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunRecord run, read_run_file(path));
     if (run_open()) {
@@ -152,8 +157,9 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
                                  Fault::busy);
         co_return Result<void>{};
     }
+    // A request may stand in the CNC already: it must not meet sensors that have not spoken yet.
     const MonotonicTime limit = scheduler_.now() + return_limit;
-    while ((!history_.newest() || !history_.newest()->value()) && scheduler_.now() < limit)
+    while (!instruments_returned() && scheduler_.now() < limit)
         co_await scheduler_.sleep_for(look_every);
     StationNow now;
     now.config_hash = config_hash_;
