@@ -1,0 +1,143 @@
+"""LinuxCNC, axiscald and the simulated instruments on one bench: what the tests beside it share.
+
+A missing LinuxCNC is a failure unless AXISCAL_MAY_SKIP names linuxcnc (then exit 77)."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+PATIENCE_S = 30  # only ends a failing test
+RUN_LIMIT_S = 300
+OTHERS_LIMIT_S = 250  # another bench may have LinuxCNC just now
+
+
+def until(condition, what, alive, patience_s=PATIENCE_S):
+    end = time.monotonic() + patience_s
+    while not condition():
+        for process in alive:
+            assert process.poll() is None, f"{process.args[0]} ended with {process.returncode}"
+        assert time.monotonic() < end, f"never came: {what}"
+        time.sleep(0.05)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Bench:
+    """All programs of one run, in one scratch folder; leaving ends them and removes it."""
+
+    def __init__(self, source, build, shape):
+        self.source, self.shape = source, shape
+        self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="axiscal-peer-"))
+        self.scratch.chmod(0o711)  # LinuxCNC's real-time part is another user
+        self.port = free_port()
+        self.programs = {"axiscald": build / "bin/axiscald",
+                         "axiscal": build / "bin/axiscal",
+                         "simulate": build / "bin/axiscal-simulate"}
+        self.environment = {**os.environ, "TMPDIR": str(self.scratch),
+                            "AXISCAL_SOCKET": str(self.scratch / "axiscald.sock"),
+                            "AXISCAL_PROFILE_PATH": str(source / "config/profiles")}
+        self.running = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, failure, *_):
+        for process in reversed(self.running):
+            process.terminate()
+            try:
+                process.wait(PATIENCE_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+        for log in sorted(self.scratch.glob("*.log")) if failure else []:
+            print(f"--- {log.name}\n{log.read_text(errors='replace')[-4000:]}")
+        shutil.rmtree(self.scratch)
+
+    def start(self, *words):
+        with open(self.scratch / f"{pathlib.Path(words[0]).stem}.log", "w") as log:
+            process = subprocess.Popen([str(word) for word in words], cwd=self.scratch, stdout=log,
+                                       stdin=subprocess.DEVNULL, stderr=subprocess.STDOUT,
+                                       env=self.environment)
+        self.running.append(process)
+        return process
+
+    def axiscal(self, *words, limit_s=PATIENCE_S):
+        done = subprocess.run([self.programs["axiscal"], *map(str, words)], cwd=self.scratch,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=limit_s, env=self.environment)
+        assert done.returncode == 0, f"axiscal {words}: {done.stdout}{done.stderr}"
+        return done.stdout
+
+    def said(self, name, words):
+        file = self.scratch / name
+        return file.exists() and words in file.read_text(errors="replace")
+
+    def write_station(self):
+        text = (self.source / "tools/demo.d/station.toml.in").read_text()
+        for key, value in {"SCRATCH": self.scratch, "SHARE": self.scratch / "share",
+                           "SHAPE": self.shape, "PORT": self.port}.items():
+            text = text.replace(f"@{key}@", str(value))
+        station = self.scratch / "station.toml"
+        station.write_text(text)
+        return station
+
+    def start_station(self, station):
+        daemon = self.start(self.programs["axiscald"], "--config", station)
+        until(lambda: self.said("axiscald.log", "ready"), "axiscald", [daemon])
+        return daemon
+
+    def start_cnc(self, program, pipe):
+        """@returns LinuxCNC, waiting at the datum."""
+        cnc = self.start(self.source / "tools/linuxcnc/run_linuxcnc.sh", "--program", program,
+                         "--shape", self.shape, "--port", self.port, "--positions", pipe,
+                         "--scratch", self.scratch)
+        until(lambda: self.said("cnc.events", "waiting"), "the program at its datum", self.running,
+              OTHERS_LIMIT_S)
+        return cnc
+
+    def begin_run(self):
+        """Everything up to `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
+        station = self.write_station()
+        self.axiscal("program", "--config", station, "--out", self.scratch)
+        program = self.scratch / "X-whole.ngc"
+        pipe = self.scratch / "positions"
+        os.mkfifo(pipe)
+        simulator = self.start(self.programs["simulate"], "--scenario", scenario(self.source),
+                               "--positions", pipe)
+        until(lambda: self.said("axiscal-simulate.log", '"ready"'), "instruments", [simulator])
+        daemon = self.start_station(station)
+        cnc = self.start_cnc(program, pipe)
+        until(lambda: "unavailable" not in self.axiscal("devices"), "all instruments", [daemon, cnc])
+        self.axiscal("arm", "--program", program)
+        return daemon, cnc, program
+
+    def truth(self, program):
+        file = self.scratch / "truth.json"
+        subprocess.run([self.programs["simulate"], "truth", "--scenario", scenario(self.source),
+                        "--program", program, "--truth", file], check=True, timeout=PATIENCE_S)
+        return json.loads(file.read_text())["parameters"]
+
+
+def scenario(source):
+    return source / "tests/peers/linuxcnc/quiet-axis.toml"
+
+
+def run_in_bench(test):
+    """For main(): test(bench) with the arguments SOURCE_DIR BUILD_DIR SHAPE. @returns exit code."""
+    source, build, shape = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    if not shutil.which("linuxcnc"):
+        print("linuxcnc is not installed (apt-get install linuxcnc-uspace)")
+        return 77 if "linuxcnc" in os.environ.get("AXISCAL_MAY_SKIP", "").split(",") else 1
+    with Bench(source, build, shape) as bench:
+        test(bench)
+    return 0

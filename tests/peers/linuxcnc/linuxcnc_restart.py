@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+"""axiscald is killed in mid-program: linuxcnc_restart.py SOURCE_DIR BUILD_DIR SHAPE
+
+LinuxCNC stands at its request meanwhile. The restarted station goes on with the open run, takes
+the standing request, and LinuxCNC goes on as if nothing had been. mb2hal is linked anew as
+docs/trigger.md says."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+from linuxcnc_bench import PATIENCE_S, run_in_bench, until
+
+BEFORE, AFTER = 3, 8  # points
+
+
+def run_of(bench):
+    run = json.loads(bench.axiscal("status", "--json"))["run"]
+    assert run, "no run is open"
+    return run
+
+
+def link_anew(bench):
+    recipe = (bench.source / f"tools/linuxcnc/{bench.shape}.hal").read_text().splitlines()
+    again = [line for line in recipe if line.startswith(("loadusr", "net"))]
+    (bench.scratch / "again.hal").write_text("\n".join(["unloadusr mb2hal", *again, ""]))
+    environment = dict(os.environ)
+    if os.geteuid() == 0:  # as run_linuxcnc.sh started it
+        meeting = next(bench.scratch.glob("axiscal-cnc.*"))
+        environment |= {"RTAPI_UID": os.environ.get("RTAPI_UID", "65534"),
+                        "RTAPI_FIFO_PATH": str(meeting / "fifo")}
+    with open(bench.scratch / "again.log", "w") as log:  # mb2hal keeps it and writes much
+        subprocess.run(["halcmd", "-f", "again.hal"], cwd=bench.scratch, env=environment,
+                       check=True, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                       timeout=PATIENCE_S)
+
+
+def restart(bench):
+    daemon, cnc, _ = bench.begin_run()
+    until(lambda: run_of(bench)["done"] >= BEFORE, f"{BEFORE} points", [daemon, cnc])
+    before = run_of(bench)
+    daemon.kill()
+    daemon.wait(PATIENCE_S)
+    bench.running.remove(daemon)
+    daemon = bench.start_station(bench.scratch / "station.toml")
+    link_anew(bench)
+    until(lambda: run_of(bench)["done"] >= AFTER, f"{AFTER} points", [daemon, cnc])
+    assert run_of(bench)["id"] == before["id"], "another run"
+    print(f"killed after {before['done']} points, the same run went on to {run_of(bench)['done']}")
+
+
+sys.exit(run_in_bench(restart))
