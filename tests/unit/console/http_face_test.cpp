@@ -78,9 +78,9 @@ protected:
     template <class Socket> static std::string talk(Socket& socket, const std::string& request) {
         timeval limit{10, 0};
         ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-        asio::write(socket, asio::buffer(request));
+        boost::system::error_code end; // the station may hang up on a body that is too long
+        asio::write(socket, asio::buffer(request), end);
         std::string reply;
-        boost::system::error_code end;
         asio::read(socket, asio::dynamic_buffer(reply), end);
         return reply;
     }
