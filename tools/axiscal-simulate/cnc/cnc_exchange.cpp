@@ -65,6 +65,8 @@ std::unique_ptr<CncClient::Line> CncClient::connect() {
     modbus_set_slave(context, cnc_.unit);
     modbus_set_response_timeout(context, 0, response_timeout_us);
     if (modbus_connect(context) != 0) return nullptr;
+    // An answer that came too late would be taken for that of the next request, for ever.
+    modbus_flush(context);
     return line;
 }
 
