@@ -204,15 +204,21 @@ Json compensation_of(const Certificate& certificate) {
     return object;
 }
 
+/// An object of its own: a new member of `document` may move those that are being read.
+Json not_evaluated_for(const Json& document) {
+    Json uncertainty = Json::object();
+    for (const auto& [key, value] : document.at("parameters").items())
+        uncertainty[key] = "not evaluated";
+    return uncertainty;
+}
+
 } // namespace
 
 Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
     document["compensation"] = compensation_of(certificate);
     document["preliminary"] = certificate.preliminary;
-    if (certificate.preliminary)
-        for (const auto& [key, value] : document["parameters"].items())
-            document["expanded_uncertainty"][key] = "not evaluated";
+    if (certificate.preliminary) document["expanded_uncertainty"] = not_evaluated_for(document);
     document["run"] = run_of(certificate);
     document["environment"] = environment_of(certificate);
     return document;
