@@ -47,11 +47,13 @@ template <class Show> int ask(const Result<Reply>& reply, bool json, Show show) 
     return exit_ok;
 }
 
-int exit_code_of(const Json& run) {
-    return run.is_null() || run.at("state") == "complete" ? exit_ok : exit_incomplete;
+int exit_code_of(const Json& run, bool until_published) {
+    if (run.is_null()) return exit_ok;
+    if (run.at("state") != "complete") return exit_incomplete;
+    return until_published && run.at("certificate") == "" ? exit_failed : exit_ok;
 }
 
-int outcome(const Json& status) {
+int outcome(const Json& status, bool until_published) {
     const Json& run = status.at("run");
     if (run.is_null()) return std::cout << "No run is open.\n", exit_ok;
     const bool complete = run.at("state") == "complete";
@@ -62,14 +64,15 @@ int outcome(const Json& status) {
     if (!run.at("sentence").get<std::string>().empty())
         std::cout << ": " << run.at("sentence").get<std::string>();
     std::cout << "\n";
-    return exit_code_of(run);
+    return exit_code_of(run, until_published);
 }
 
 /// How `watch` shows one status after the other.
 class Frames {
 public:
-    explicit Frames(bool json)
+    Frames(bool json, bool until_published)
         : json_{json}
+        , until_published_{until_published}
         , screen_{!json && ::isatty(STDOUT_FILENO) != 0} {}
 
     void show(const std::string& body, const Json& status) {
@@ -83,7 +86,8 @@ public:
     }
     /// The last word, once there is nothing to wait for.
     [[nodiscard]] int end(const Json& status) const {
-        return json_ ? exit_code_of(status.at("run")) : outcome(status);
+        return json_ ? exit_code_of(status.at("run"), until_published_)
+                     : outcome(status, until_published_);
     }
 
 private:
@@ -92,7 +96,7 @@ private:
         const Json& run = status.at("run");
         return run.is_null() ? "" : run.at("step").dump() + run.at("sentence").dump();
     }
-    bool json_, screen_;
+    bool json_, until_published_, screen_;
     std::string last_;
 };
 
@@ -141,7 +145,7 @@ int command_devices(const StationClient& client, bool json) {
 }
 
 int command_watch(const StationClient& client, bool json, bool until_published) {
-    Frames frames{json};
+    Frames frames{json, until_published};
     for (;;) {
         const auto reply = client.get("/v1/status");
         if (!reply) return no_contact(reply.error());

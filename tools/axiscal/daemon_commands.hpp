@@ -11,7 +11,8 @@ namespace axiscal {
 
 int command_status(const StationClient& client, bool json);
 int command_devices(const StationClient& client, bool json);
-/// Shows progress until the open run ends: 0 complete, 6 incomplete. Twice a second and more on
+/// Shows progress until the open run ends: 0 complete, 6 incomplete; 1 if `until_published` waited
+/// for a certificate that cannot be written. Twice a second and more on
 /// a terminal, one line a point elsewhere, each status whole with `json`.
 int command_watch(const StationClient& client, bool json, bool until_published);
 
