@@ -4,7 +4,7 @@ A Bench is one station in a scratch folder: axiscal-simulate with its ptys and p
 file, axiscald. Everything is waited for by condition and deadline; whatever was started is ended
 and the folder removed, also when the test fails (then the logs are printed first).
 
-    AXISCAL_PATH  folders with the programs, AXISCAL_SOURCE  the source tree (CMake sets both)
+    AXISCAL_PATH  folder of the programs, AXISCAL_SOURCE  the source tree (CMake sets both)
 """
 
 import contextlib
@@ -204,11 +204,7 @@ class Bench:
         done = subprocess.run(
             [self.program("axiscal"), *map(str, words)],
             cwd=self.folder,
-            env={
-                **os.environ,
-                "AXISCAL_SOCKET": self.socket,
-                "PATH": f"{os.environ['AXISCAL_PATH']}:{os.environ['PATH']}",  # axiscal-report
-            },
+            env={**os.environ, "AXISCAL_SOCKET": self.socket},
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,

@@ -106,6 +106,20 @@ def wrong_direction(b):
     )
 
 
+@sentence("RefusedSingleRegisterHoldsTheCncUntilItsTimeOut")
+def single_register_holds(b):
+    b.trigger("single-register", "tcp")
+    b.inject("out-of-order", 3)
+    b.begin_run()
+    run = b.wait_for_refusal("out_of_order")
+    expect(run["done"] == 2, f"done moved: {run}")
+    seen = bench.wait_until(
+        "the CNC gives up", lambda: (s := b.sim("status"))["program"] == "failed" and s, 30
+    )
+    expect("no answer for request 3" in seen["message"], f"{seen}")
+    expect(b.run()["done"] == seen["done"] == 2, f"done moved: {b.run()}")
+
+
 def first_targets_tell(b, motion_fault, words):
     """A set-up that is wrong is told in one sentence before the third point."""
     b.scenario["cnc"]["motion_fault"] = motion_fault

@@ -107,6 +107,38 @@ def laser_off(b):
     bench.wait_until("the laser is back", b.channels_are_good, 30)
 
 
+def laser_fails_among_sensors(b, behaviour):
+    """Air and material are read on; the laser comes back by itself and a run can be armed."""
+    b.start()
+    b.sim(f"sensor laser {behaviour}")
+    sensors = ("air", "material")
+    before = {name: b.instrument(name)["samples"] for name in sensors}
+    bench.wait_until(
+        "the sensors go on",
+        lambda: all(b.instrument(name)["samples"] >= before[name] + 6 for name in sensors),
+        20,
+    )
+    for name in sensors:
+        one = b.instrument(name)
+        expect(one["state"] == "available" and one["restarts"] == 0, f"{one}")
+    b.sim("sensor laser on")
+    bench.wait_until("the laser is back", b.channels_are_good, 20)
+    b.write_program()
+    b.go_to_datum()
+    b.arm()
+    b.wait_for_points(2)
+
+
+@sentence("LaserThatSendsGarbageDisturbsNoSensor")
+def laser_garbage(b):
+    laser_fails_among_sensors(b, "garbage")
+
+
+@sentence("LaserThatFloodsDisturbsNoSensor")
+def laser_flood(b):
+    laser_fails_among_sensors(b, "flood")
+
+
 @sentence("RecordsThatTheLaserSkippedAreCounted")
 def skipped_records(b):
     b.start()
