@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <fcntl.h>
 #include <filesystem>
@@ -32,6 +33,33 @@ TEST(Pty, NobodyReadingNeverBlocksAndIsCounted) {
     for (int i = 0; i < 5000; ++i)
         pty->write(record);
     EXPECT_GT(pty->dropped(), 0U);
+}
+
+TEST(Pty, KeepsEverythingForAReaderThatIsLate) {
+    const ScratchFolder scratch;
+    const std::string link = (scratch.path / "tty").string();
+    auto pty = Pty::open(link);
+    ASSERT_TRUE(pty);
+    const int reader = ::open(link.c_str(), O_RDWR | O_NOCTTY);
+    ASSERT_GE(reader, 0);
+    std::string sent, got;
+    const auto write = [&](int i) {
+        const std::string record = std::to_string(1'000'000 + i) + std::string(40, ' ') + "\r\n";
+        pty->write(record);
+        sent += record;
+    };
+    for (int i = 0; i < 1000; ++i) // one second of a laser: eleven times what a pty holds
+        write(i);
+    for (int i = 1000; got.size() < 49'000 && i < 2000; ++i) {
+        char bytes[4096];
+        const ssize_t n = ::read(reader, bytes, sizeof bytes);
+        got.append(bytes, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+        write(i);
+    }
+    EXPECT_EQ(pty->dropped(), 0U);
+    EXPECT_GE(got.size(), 49'000U);
+    EXPECT_EQ(got, sent.substr(0, got.size()));
+    ::close(reader);
 }
 
 TEST(Pty, CarriesBytesUnchangedBothWays) {

@@ -13,6 +13,10 @@ namespace axiscal::simulate {
 
 namespace {
 
+/// As much as the tty layer of Linux keeps for a reader that is late: about 1.5 s of a laser.
+constexpr std::size_t largest_rest = 65536;
+constexpr auto patience = std::chrono::milliseconds{1500};
+
 std::error_code last_error() {
     return {errno, std::generic_category()};
 }
@@ -54,7 +58,8 @@ Pty::Pty(Pty&& other) noexcept
     , slave_{std::exchange(other.slave_, -1)}
     , link_{std::exchange(other.link_, "")}
     , rest_{std::move(other.rest_)}
-    , dropped_{other.dropped_} {}
+    , dropped_{other.dropped_}
+    , stuck_since_{other.stuck_since_} {}
 
 Pty::~Pty() {
     if (slave_ >= 0) ::close(slave_);
@@ -62,30 +67,26 @@ Pty::~Pty() {
     if (!link_.empty()) ::unlink(link_.c_str());
 }
 
+/// Writes as much as the line takes; false when it takes nothing.
 bool Pty::flush_rest() {
-    if (rest_.empty()) return true;
     const ssize_t n = ::write(master_, rest_.data(), rest_.size());
     if (n > 0) rest_.erase(0, static_cast<std::size_t>(n));
-    return rest_.empty();
+    return n > 0;
 }
 
 void Pty::drop() {
     ++dropped_;
-    const auto now = std::chrono::steady_clock::now();
-    if (!full_) full_since_ = now;
-    full_ = true;
-    if (now - full_since_ < std::chrono::milliseconds{500}) return;
     ::tcflush(slave_, TCIFLUSH);
     rest_.clear();
-    full_ = false;
+    stuck_since_.reset();
 }
 
 void Pty::write(std::string_view record) {
-    if (!flush_rest()) return drop();
-    const ssize_t n = ::write(master_, record.data(), record.size());
-    if (n <= 0) return drop();
-    full_ = false;
-    rest_ = record.substr(static_cast<std::size_t>(n));
+    rest_ += record;
+    if (flush_rest()) return stuck_since_.reset();
+    const auto now = std::chrono::steady_clock::now();
+    if (!stuck_since_) stuck_since_ = now;
+    if (rest_.size() > largest_rest || now - *stuck_since_ >= patience) drop();
 }
 
 std::string Pty::read(std::chrono::milliseconds wait) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,9 +21,9 @@ public:
     Pty& operator=(Pty&&) = delete;
     ~Pty();
 
-    /// A whole record goes out or none: when the buffer is full the record is dropped and counted,
-    /// as the instruments' firmware does. A buffer that nobody empties for half a second is
-    /// emptied here, so that a late reader does not find an old hour.
+    /// A late reader finds everything of the last 1.5 s (64 KiB), as behind the kernel's tty layer.
+    /// What nobody reads for longer is thrown away as a whole, and counted once, so that the next
+    /// reader finds whole records and not an old hour.
     void write(std::string_view record);
     /// What has come in, up to 4096 bytes; waits at most this long.
     std::string read(std::chrono::milliseconds wait);
@@ -39,8 +40,7 @@ private:
     int master_ = -1, slave_ = -1; ///< our own slave handle keeps the line raw between readers
     std::string link_, rest_;
     std::uint64_t dropped_ = 0;
-    std::chrono::steady_clock::time_point full_since_{};
-    bool full_ = false;
+    std::optional<std::chrono::steady_clock::time_point> stuck_since_;
 };
 
 } // namespace axiscal::simulate
