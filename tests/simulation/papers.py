@@ -86,6 +86,20 @@ def share_away(b):
     expect((b.share / run_id / "certificate.pdf").is_file(), "it is published later")
 
 
+@sentence("CertificateThatCannotBeWrittenIsToldAndCanBeExportedLater")
+def no_room_for_the_certificate(b):
+    b.begin_run()
+    outbox = b.folder / "state/outbox"
+    outbox.rmdir()
+    outbox.write_text("no folder")
+    b.axiscal("watch", "--until-published", code=1)
+    run = b.run()
+    expect(run["state"] == "complete" and run["step"] == 20, f"{run}")
+    expect(run["certificate"] == "" and "outbox" in run["sentence"], f"{run}")
+    b.axiscal("export", run["file"], "--out", b.folder)
+    expect(list(b.folder.rglob("certificate.pdf")), "nothing is lost")
+
+
 def pull_the_cable_at_a_request(b):
     """Until the CNC stands at a target with a request that the station has not heard."""
     lines = Path(b.plan["file"]).read_text().splitlines()
