@@ -51,7 +51,7 @@ def late(b):
     b.begin_run()
 
     def told():
-        notes = [n for n in b.status()["notes"] if "Refused request 3" in n]
+        notes = [n for n in b.status()["notes"] if "Request 3 is refused" in n]
         return notes and notes[-1]
 
     note = bench.wait_until("request 3 is refused", told, 30)
