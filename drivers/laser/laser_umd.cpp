@@ -23,7 +23,9 @@ namespace {
 constexpr std::size_t longest_record = 352;
 /// One USB frame between the end of a sample period and the host.
 constexpr Duration usb_latency = std::chrono::milliseconds{1};
-constexpr Duration patience = std::chrono::seconds{2};
+/// Longer than a host may stall: opening the line anew costs the datum, waiting costs nothing. That
+/// the laser is silent is seen by the age of its samples.
+constexpr Duration patience = std::chrono::seconds{8};
 constexpr std::string_view umd0_greeting = "Minimalist Homodyne Test:";
 
 std::vector<Channel> channels_of(const UmdSetup& setup) {
