@@ -1,0 +1,136 @@
+#include "tools/axiscal/cases/case_reader.hpp"
+
+#include "tools/axiscal/case_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace axiscal {
+
+using nlohmann::json;
+
+namespace {
+
+/// Keys that carry words only and can change no figure.
+constexpr std::array<std::string_view, 14> remark_keys{
+    "comment", "customer", "date",     "description", "id",  "instrument", "machine",
+    "name",    "note",     "operator", "place",       "run", "source",     "title"};
+
+/// Letters to insert, delete or replace to turn one word into the other, case aside.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string hint_for(const std::string& key, const Words& known) {
+    constexpr std::size_t longest_key = 32, near = 2;
+    if (key.size() <= longest_key)
+        for (const std::string& word : known)
+            if (edit_distance(key, word) <= near) return "did you mean '" + word + "'?";
+    return "remarks go under 'comment'";
+}
+
+} // namespace
+
+Result<void> check_object(const json& object, const std::string& field, const Words& known) {
+    if (!object.is_object())
+        return refuse(Fault::bad_case, field.empty() ? "case" : field, "must be an object");
+    const std::string prefix = field.empty() ? "" : field + ".";
+    for (const auto& [key, value] : object.items()) {
+        if (std::ranges::find(known, key) != known.end()) continue;
+        if (std::ranges::find(remark_keys, key) != remark_keys.end()) continue;
+        return refuse(Fault::bad_case, prefix + printable(key),
+                      "is not a key of a case; " + hint_for(key, known));
+    }
+    return {};
+}
+
+Result<const json*> member(const json& object, const std::string& key, const std::string& field) {
+    const auto found = object.find(key);
+    if (found == object.end()) return refuse(Fault::bad_case, field, "is missing");
+    return &*found;
+}
+
+Result<std::string> text_of(const json& object, const std::string& key, const std::string& field) {
+    AXISCAL_TRY(const json* value, member(object, key, field));
+    if (!value->is_string() || !not_finite_token(*value).empty())
+        return refuse(Fault::bad_case, field, "must be a text");
+    return value->get<std::string>();
+}
+
+Result<std::string>
+one_of(const json& object, const std::string& key, const std::string& field, const Words& allowed) {
+    AXISCAL_TRY(std::string word, text_of(object, key, field));
+    if (std::ranges::find(allowed, word) != allowed.end()) return word;
+    std::string list;
+    for (const std::string& item : allowed)
+        list += (list.empty() ? "\"" : ", \"") + item + '"';
+    return refuse(Fault::bad_case, field,
+                  (allowed.size() == 1 ? "must be " : "must be one of ") + list);
+}
+
+std::string indexed(const std::string& field, std::size_t index) {
+    return field + "[" + std::to_string(index) + "]";
+}
+
+Result<double> number_of(const json& value, const std::string& field) {
+    if (value.is_number()) return value.get<double>();
+    if (const std::string token = not_finite_token(value); !token.empty())
+        return refuse(Fault::bad_case, field, token + " is not a finite number");
+    return refuse(Fault::bad_case, field,
+                  std::string{"must be a number, not "} + value.type_name());
+}
+
+Result<double> number_at(const json& object, const std::string& key, const std::string& field) {
+    AXISCAL_TRY(const json* value, member(object, key, field));
+    return number_of(*value, field);
+}
+
+Result<double>
+number_or(const json& object, const std::string& key, const std::string& field, double missing) {
+    return object.contains(key) ? number_at(object, key, field) : Result<double>{missing};
+}
+
+Result<std::vector<double>> numbers_of(const json& array, const std::string& field) {
+    if (!array.is_array()) return refuse(Fault::bad_case, field, "must be an array of numbers");
+    std::vector<double> numbers;
+    numbers.reserve(array.size());
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        AXISCAL_TRY(const double number, number_of(array[i], indexed(field, i)));
+        numbers.push_back(number);
+    }
+    return numbers;
+}
+
+Result<std::vector<double>>
+numbers_at(const json& object, const std::string& key, const std::string& field) {
+    AXISCAL_TRY(const json* array, member(object, key, field));
+    return numbers_of(*array, field);
+}
+
+Result<Rows> rows_of(const json& array, const std::string& field) {
+    if (!array.is_array() || array.empty())
+        return refuse(Fault::bad_case, field, "must be an array of one row a target");
+    Rows rows;
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        AXISCAL_TRY(auto row, numbers_of(array[i], indexed(field, i)));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+} // namespace axiscal

@@ -1,0 +1,13 @@
+#pragma once
+// Every analysis that a case can ask for: one function in a file of its own, one line here and one
+// in the table of analyze_case.cpp. Pure: a JSON object in, the document "axiscal.result/1" out.
+
+#include "analysis/quantity/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace axiscal {
+
+Result<nlohmann::ordered_json> positioning_case(const nlohmann::json& object);
+
+} // namespace axiscal
