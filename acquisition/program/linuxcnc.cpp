@@ -25,7 +25,7 @@ public:
             if (move.point) announce(++sequence == 0 ? ++sequence : sequence, move);
             line("G1 " + coordinate_word(order_.axis, move.coordinate_mm));
             if (move.point)
-                capture(sequence);
+                capture(sequence, move);
             else if (sequence == 0)
                 begin();
         }
@@ -73,27 +73,53 @@ private:
         line("M68 E4 Q" + std::to_string(move.point->approach));
         line(format("M68 E5 Q%.1f", order_.feed.in(mm_per_minute)));
     }
-    void capture(std::uint16_t sequence) {
+    /// Asks; where the station withholds, comes to the target once more and asks again. One
+    /// disturbed halt (a beam crossed, a PC that stood still) must not cost the whole program.
+    void capture(std::uint16_t sequence, const ProgramMove& move) {
         dwell(seconds_of(order_.dwell));
         if (!handshake()) return;
-        if (coil())
-            line("M64 P0");
-        else
-            line("M68 E0 Q" + std::to_string(sequence));
-        if (!coil()) dwell(comparison_s);
-        wait("P0 L3", seconds_of(order_.answer_limit),
-             "no answer for request " + std::to_string(sequence));
+        const std::string complaint = "no answer for request " + std::to_string(sequence);
+        ask(sequence);
+        const std::string again = next_label();
+        line(again + " if [#5399 EQ -1]");
+        line("(MSG,axiscal: " + complaint + ", the target is approached again)");
+        come_again(move);
+        ask(sequence);
+        abort_unless_answered(complaint);
+        line(again + " endif");
         if (!coil()) return;
         line("M65 P0");
         wait("P0 L4", seconds_of(order_.answer_limit), "the acknowledge stays high");
     }
+    void ask(std::uint16_t sequence) {
+        if (coil())
+            line("M64 P0");
+        else {
+            line("M68 E0 Q" + std::to_string(sequence));
+            dwell(comparison_s);
+        }
+        line(format("M66 P0 L3 Q%.1f", seconds_of(order_.answer_limit)));
+    }
+    /// Takes the request back, as a repeated one needs it, and approaches from the planned side.
+    void come_again(const ProgramMove& move) {
+        line(coil() ? "M65 P0" : "M68 E0 Q0");
+        const double side = move.point->direction == Direction::positive ? 1 : -1;
+        const double behind_mm = move.coordinate_mm - side * order_.plan.overrun.in(mm);
+        line("G1 " + coordinate_word(order_.axis, behind_mm));
+        line("G1 " + coordinate_word(order_.axis, move.coordinate_mm));
+        dwell(seconds_of(order_.dwell));
+    }
     void wait(const std::string& input, double limit_s, const std::string& complaint) {
-        const std::string label = "o" + std::to_string(++labels_);
         line("M66 " + input + format(" Q%.1f", limit_s));
+        abort_unless_answered(complaint);
+    }
+    void abort_unless_answered(const std::string& complaint) {
+        const std::string label = next_label();
         line(label + " if [#5399 EQ -1]");
         line("  (ABORT,axiscal: " + complaint + ")");
         line(label + " endif");
     }
+    std::string next_label() { return "o" + std::to_string(++labels_); }
 
     const ProgramOrder& order_;
     std::string text_;

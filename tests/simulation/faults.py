@@ -110,14 +110,25 @@ def wrong_direction(b):
 def single_register_holds(b):
     b.trigger("single-register", "tcp")
     b.inject("out-of-order", 3)
+    b.inject("out-of-order", 4)  # the same point, approached again
     b.begin_run()
     run = b.wait_for_refusal("out_of_order")
     expect(run["done"] == 2, f"done moved: {run}")
     seen = bench.wait_until(
-        "the CNC gives up", lambda: (s := b.sim("status"))["program"] == "failed" and s, 30
+        "the CNC gives up", lambda: (s := b.sim("status"))["program"] == "failed" and s, 60
     )
     expect("no answer for request 3" in seen["message"], f"{seen}")
     expect(b.run()["done"] == seen["done"] == 2, f"done moved: {b.run()}")
+
+
+@sentence("AWithheldPointIsApproachedAgainByTheProgram")
+def approached_again(b):
+    """One disturbed halt costs one approach, not the program."""
+    b.inject("wrong-target", 3)
+    b.begin_run()
+    b.wait_for_refusal("wrong_target")
+    bench.wait_until("point 3 is taken at the second approach", lambda: b.run()["done"] >= 4, 60)
+    expect(b.run()["sentence"] == "", f"the refusal stands still: {b.run()}")
 
 
 def first_targets_tell(b, motion_fault, words):

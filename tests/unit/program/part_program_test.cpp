@@ -55,6 +55,27 @@ ProgramOrder order_of(RunPlan plan, TriggerShape shape) {
     return order;
 }
 
+/// The lines that a control executes when every wait is answered (`withheld` 0), or when the wait
+/// of that ordinal, from 1, is not: the bodies of the other `if [#5399 EQ -1]` are skipped.
+std::string executed(const std::string& program, int withheld = 0) {
+    std::string lines, skipped_until;
+    std::istringstream all{program};
+    int waits = 0;
+    for (std::string line; std::getline(all, line);) {
+        const std::string label = line.substr(0, line.find(' '));
+        if (!skipped_until.empty()) {
+            if (line == skipped_until) skipped_until.clear();
+            continue;
+        }
+        if (line.starts_with("M66")) ++waits;
+        if (line.ends_with("if [#5399 EQ -1]") && waits != withheld)
+            skipped_until = label + " endif";
+        else
+            lines += line + "\n";
+    }
+    return lines;
+}
+
 /// What a control would do: stops of the axis in mm, those with a dwell marked. Knows G-code, not
 /// the writer.
 struct Stop {
@@ -63,7 +84,7 @@ struct Stop {
 };
 std::vector<Stop> read_stops(const std::string& program, double dwell_unit_s) {
     std::vector<Stop> stops;
-    std::istringstream lines{program};
+    std::istringstream lines{executed(program)};
     for (std::string line; std::getline(lines, line);) {
         double value = 0;
         if (std::sscanf(line.c_str(), "G1 X%lf", &value) == 1) stops.push_back({value, 0});
@@ -141,13 +162,36 @@ TEST(PartProgram, SequencesCountFromOneAfterAZero) {
         order_of(plan_of({10, 60, 110, 160, 210}, 2), TriggerShape::single_register));
     ASSERT_TRUE(text);
     std::vector<int> written;
-    std::istringstream lines{*text};
+    std::istringstream lines{executed(*text)};
     for (std::string line; std::getline(lines, line);)
         if (int value = 0; std::sscanf(line.c_str(), "M68 E0 Q%d", &value) == 1)
             written.push_back(value);
     ASSERT_EQ(written.size(), 21U);
     for (int i = 0; i < 21; ++i)
         EXPECT_EQ(written[static_cast<std::size_t>(i)], i);
+}
+
+TEST(PartProgram, AWithheldAnswerBringsTheAxisBackFromItsSideAndAsksAgain) {
+    // wait 1 is for arming, wait 7 for the sixth point: P5 from above, over-travel 2 mm
+    const auto text = write_linuxcnc(
+        order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::single_register));
+    ASSERT_TRUE(text);
+    const std::string lines = executed(*text, 7);
+    EXPECT_NE(lines.find("M68 E0 Q6\nG4 P0.050\nM66 P0 L3 Q10.0\no"), std::string::npos);
+    EXPECT_NE(lines.find("M68 E0 Q0\nG1 X212.0000\nG1 X210.0000\nG4 P4.000\nM68 E0 Q6\nG4 P0.050\n"
+                         "M66 P0 L3 Q10.0\n"),
+              std::string::npos);
+    EXPECT_EQ(lines.find("ABORT"), std::string::npos);
+}
+
+TEST(PartProgram, AWithheldCoilIsDroppedAndRaisedAgain) {
+    // two waits a point: the third is that of the second point's acknowledge
+    const auto text =
+        write_linuxcnc(order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::coil_and_index));
+    ASSERT_TRUE(text);
+    const std::string lines = executed(*text, 4);
+    EXPECT_NE(lines.find("M65 P0\nG1 X58.0000\nG1 X60.0000\nG4 P4.000\nM64 P0\nM66 P0 L3 Q10.0\n"),
+              std::string::npos);
 }
 
 TEST(PartProgram, TheIndexIsWrittenBeforeTheMoveAndTheCoilAfterTheDwell) {
