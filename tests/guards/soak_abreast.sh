@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# tools/soak on parsers that are scripts: it searches as many at a time as there are cores, keeps what
+# they say and find apart, and its last line and status tell of the one that broke.
+#   soak_abreast.sh SOURCE_DIR
+set -euo pipefail
+root=$(mktemp -d)
+trap 'rm -rf "$root"' EXIT
+fail() { echo "FAILED: $*"; cat "$root/said" 2>/dev/null; exit 1; }
+
+mkdir -p "$root"/{tools,bin,build/soak/bin} "$root"/tests/fuzz/corpus/{first,second,third}
+cp "$1/tools/soak" "$root/tools/soak"
+printf '#!/bin/sh\n' | tee "$root/tools/install-dependencies" "$root/bin/cmake" >/dev/null
+printf '#!/bin/sh\necho 2\n' >"$root/bin/nproc"
+# Each counts who is at work beside it; the first two wait for each other, which one alone never sees.
+cat >"$root/build/soak/bin/fuzz_first" <<'SCRIPT'
+#!/bin/bash
+name=${0##*fuzz_}
+touch "at_work.$name"
+[ "$(ls at_work.* | wc -l)" -le 2 ] || touch too_many
+touch "met.$name"
+for ((i = 0; i < 200; i++)); do [ -e met.first ] && [ -e met.second ] && break; sleep 0.05; done
+[ -e met.first ] && [ -e met.second ] || { rm "at_work.$name"; echo "ERROR: alone"; exit 2; }
+for word in "$@"; do case $word in -artifact_prefix=*) found=${word#*=} ;; esac; done
+rm "at_work.$name"
+if [ "$name" = third ]; then echo bad >"${found}crash-1"; echo "ERROR: third broke"; exit 77; fi
+echo "stat::number_of_executed_units: 20"
+SCRIPT
+cp "$root"/build/soak/bin/fuzz_{first,second}
+cp "$root"/build/soak/bin/fuzz_{first,third}
+chmod +x "$root"/{tools,bin,build/soak/bin}/*
+
+soak() { (cd "$root" && PATH=$root/bin:$PATH tools/soak "$@" >said 2>&1); }
+soak 1 && fail "a broken parser ends well"
+[ "$(tail -n 1 "$root/said")" = "3 targets searched for 1 s each, 40 inputs tried, 1 broken: third" ] || fail "last line"
+grep -q "ERROR: third broke" "$root/said" || fail "what broke is not told"
+[ ! -e "$root/too_many" ] || fail "more at a time than cores"
+[ "$(cat "$root/build/soak/found/third/crash-1")" = bad ] || fail "what was found is not kept apart"
+[ -z "$(ls "$root/build/soak/found/first")" ] || fail "a find in the wrong folder"
+
+soak 1 first second || fail "two sound parsers end badly"
+[ "$(tail -n 1 "$root/said")" = "2 targets searched for 1 s each, 40 inputs tried, 0 broken" ] || fail "last line of two"
