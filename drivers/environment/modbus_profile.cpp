@@ -241,7 +241,11 @@ std::vector<std::string> profile_folders() {
         rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
         if (!folder.empty()) folders.emplace_back(folder);
     }
-    folders.emplace_back(AXISCAL_PROFILE_FOLDER);
+    // Beside the program, wherever it was installed; nothing of the build is remembered.
+    std::error_code unreadable;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unreadable);
+    folders.push_back(
+        (program.parent_path() / "../share/axiscal/profiles").lexically_normal().string());
     return folders;
 }
 

@@ -64,7 +64,7 @@ Result<ModbusProfile> load_profile(const std::string& path);
 /// @errors Fault::not_found naming the folders and the profiles that are there.
 Result<std::string> find_profile(const std::string& name, const std::vector<std::string>& folders);
 
-/// $AXISCAL_PROFILE_PATH (folders separated by ':'), then the installed folder.
+/// $AXISCAL_PROFILE_PATH (folders separated by ':'), then ../share/axiscal/profiles of the program.
 std::vector<std::string> profile_folders();
 
 } // namespace axiscal

@@ -37,4 +37,7 @@ for program in "$root"/usr/bin/axiscal*; do
     "$program" --help >"$root/help.txt" || fail "${program##*/} --help ends with $?"
     ! grep -aqF "$build" "$root/help.txt" || fail "${program##*/} --help names the build folder"
 done
+# The example names a profile: found beside the programs, not where the build was meant to go.
+env -u AXISCAL_PROFILE_PATH "$root/usr/bin/axiscal" check-config "$root/usr/share/axiscal/station.example.toml" \
+    || fail "the installed example is refused by the installed program"
 echo "${#wanted[@]} files and 3 services' files are installed; programs say $version"
