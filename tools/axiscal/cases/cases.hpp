@@ -9,5 +9,8 @@
 namespace axiscal {
 
 Result<nlohmann::ordered_json> positioning_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> air_index_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> expansion_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> drift_case(const nlohmann::json& object);
 
 } // namespace axiscal
