@@ -19,9 +19,11 @@ struct Analysis {
     std::string_view name;
     Result<ordered_json> (*evaluate)(const json& object);
 };
-constexpr std::array analyses{Analysis{"positioning", positioning_case},
-                              Analysis{"air_index", air_index_case},
-                              Analysis{"expansion", expansion_case}, Analysis{"drift", drift_case}};
+constexpr std::array analyses{
+    Analysis{"positioning", positioning_case},   Analysis{"air_index", air_index_case},
+    Analysis{"expansion", expansion_case},       Analysis{"drift", drift_case},
+    Analysis{"straightness", straightness_case}, Analysis{"squareness", squareness_case},
+    Analysis{"angular", angular_case},           Analysis{"diagonals", diagonals_case}};
 
 Result<ordered_json> analyze_one(const json& object, const std::string* repeated_key) {
     if (repeated_key)

@@ -12,5 +12,9 @@ Result<nlohmann::ordered_json> positioning_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> air_index_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> expansion_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> drift_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> straightness_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> squareness_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> angular_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> diagonals_case(const nlohmann::json& object);
 
 } // namespace axiscal
