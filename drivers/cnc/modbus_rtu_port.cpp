@@ -2,29 +2,39 @@
 
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/cnc/modbus_answer.hpp"
+#include "drivers/cnc/rtu_framer.hpp"
 
 #include <boost/asio/post.hpp>
 
 #include <algorithm>
 #include <cerrno>
 #include <exception>
+#include <poll.h>
+#include <unistd.h>
 
 namespace axiscal {
 namespace {
 
 constexpr auto listen_slice = std::chrono::milliseconds{100}; // bounds how long stop() waits
-constexpr auto byte_silence = std::chrono::milliseconds{100}; // a frame with such a hole is dropped
+/// A frame with such a hole is dropped: longer than an adapter holds bytes back (16 ms), shorter
+/// than a master waits for its answer. The 3.5 characters of the protocol are added.
+constexpr auto adapter_hole = std::chrono::milliseconds{50};
+constexpr int characters_of_silence = 4, bits_of_character = 11;
 constexpr auto loop_patience = std::chrono::seconds{1};
 constexpr Duration first_pause = std::chrono::milliseconds{250},
                    longest_pause = std::chrono::seconds{5};
 constexpr std::size_t crc_bytes = 2, address_bytes = 1;
+constexpr std::uint8_t exception_bit = 0x80; // in the function code of answers alone
+constexpr std::size_t kernel_buffer = 4096;  // what one read can find at most
 
-std::uint32_t microseconds(Duration span) {
-    return static_cast<std::uint32_t>(
-        std::chrono::duration_cast<std::chrono::microseconds>(span).count());
+Duration silence_at(int baud) {
+    return adapter_hole + std::chrono::microseconds{std::int64_t{1'000'000} * bits_of_character *
+                                                    characters_of_silence / baud};
 }
 
-/// The thread's side: owns the libmodbus context, touches nothing of the loop but by posting.
+/// The thread's side: owns the line, touches nothing of the loop but by posting. libmodbus opens
+/// it and writes the answers. It does not read: after a request to another slave it takes the next
+/// frame for that slave's answer, and where none comes the next request to us is lost (3.1.6).
 class RtuLine {
 public:
     RtuLine(TriggerConfig config,
@@ -65,34 +75,58 @@ private:
         context_.reset(modbus_new_rtu(config_.serial_path.c_str(), config_.baud, config_.parity, 8,
                                       config_.stop_bits));
         if (!context_ || modbus_set_slave(context_.get(), config_.unit_id) != 0) return false;
-        modbus_set_indication_timeout(context_.get(), 0, microseconds(listen_slice));
-        modbus_set_byte_timeout(context_.get(), 0, microseconds(byte_silence));
         return modbus_connect(context_.get()) == 0;
+    }
+
+    /// Empty: nothing came for so long. None: the line failed, errno says how.
+    std::optional<std::span<const std::uint8_t>> read(Duration patience) {
+        const auto wait = std::chrono::ceil<std::chrono::milliseconds>(patience);
+        for (;;) {
+            pollfd line{modbus_get_socket(context_.get()), POLLIN, 0};
+            const int ready = ::poll(&line, 1, static_cast<int>(wait.count()));
+            if (ready == 0) return std::span<const std::uint8_t>{};
+            const ssize_t count = ready < 0 ? -1 : ::read(line.fd, came_.data(), came_.size());
+            if (count > 0) return std::span{came_}.first(static_cast<std::size_t>(count));
+            if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+            if (count == 0) errno = ECONNRESET; // the adapter was pulled
+            return std::nullopt;
+        }
     }
 
     /// Returns with the line's error in errno, or when stopped.
     void serve() {
-        std::array<std::uint8_t, MODBUS_RTU_MAX_ADU_LENGTH> frame{};
+        RtuFramer framer{static_cast<std::uint8_t>(config_.unit_id)};
         while (!mailbox_->stopped()) {
-            const int length = modbus_receive(context_.get(), frame.data());
-            if (length > 0)
-                answer({frame.data(), static_cast<std::size_t>(length)}, monotonic_now());
-            else if (length < 0 && !is_only_noise(errno))
-                break;
+            const bool within = framer.pending();
+            const auto arrived = read(within ? silence_at(config_.baud) : listen_slice);
+            if (!arrived) break;
+            if (arrived->empty())
+                framer.silence();
+            else
+                framer.feed(*arrived);
+            answer_last(framer, monotonic_now());
         }
         const int cause = errno;
         modbus_close(context_.get());
         errno = cause;
     }
 
-    static bool is_only_noise(int error) {
-        return error == ETIMEDOUT || error == EMBBADCRC || error == EMBBADDATA ||
-               error == EMBBADSLAVE || error == EINTR || error == EAGAIN;
+    /// Nobody waits any more for the answer to a request that has something behind it: the master
+    /// has gone on, and the answer would be taken for another one's.
+    void answer_last(RtuFramer& framer, MonotonicTime at) {
+        std::vector<std::uint8_t> last;
+        while (auto frame = framer.next()) {
+            if (is_request_to_us(last)) post([](PortCounters& counters) { ++counters.overtaken; });
+            last = *std::move(frame);
+        }
+        if (is_request_to_us(last)) answer(last, at);
+    }
+
+    [[nodiscard]] bool is_request_to_us(std::span<const std::uint8_t> frame) const {
+        return !frame.empty() && frame[0] == config_.unit_id && frame[1] < exception_bit;
     }
 
     void answer(std::span<const std::uint8_t> frame, MonotonicTime at) {
-        if (frame.size() < address_bytes + crc_bytes + 1) return;
-        if (frame[0] == MODBUS_BROADCAST_ADDRESS) return; // meant for others: nobody is answered
         const auto pdu = frame.subspan(address_bytes, frame.size() - address_bytes - crc_bytes);
         const auto request = parse_modbus_request(pdu);
         auto verdict = request ? space_.check(*request) : request.error();
@@ -103,7 +137,10 @@ private:
         RegisterImage content = image.value_or(RegisterImage{});
         content.stamp(monotonic_now());
         answer_request(context_.get(), frame, verdict, content);
-        post_count(verdict);
+        post([verdict](PortCounters& counters) {
+            ++counters.requests;
+            if (verdict != ModbusException::none) ++counters.exceptions;
+        });
     }
 
     void post_write(const ModbusRequest& request, MonotonicTime at) {
@@ -113,11 +150,8 @@ private:
             mailbox->count_write();
         });
     }
-    void post_count(ModbusException verdict) {
-        boost::asio::post(loop_, [desk = desk_, verdict] {
-            ++desk->counters.requests;
-            if (verdict != ModbusException::none) ++desk->counters.exceptions;
-        });
+    template <class Count> void post(Count count) {
+        boost::asio::post(loop_, [desk = desk_, count] { count(desk->counters); });
     }
     void post_note(Fault fault, std::string sentence) {
         boost::asio::post(loop_, [desk = desk_, fault, text = std::move(sentence)] {
@@ -132,6 +166,7 @@ private:
     std::shared_ptr<TriggerDesk> desk_; // used on the loop only, inside posts
     std::shared_ptr<RtuMailbox> mailbox_;
     ModbusContext context_;
+    std::array<std::uint8_t, kernel_buffer> came_{};
     std::uint64_t posted_writes_ = 0;
 };
 

@@ -17,6 +17,7 @@ struct PortCounters {
     std::uint64_t hung_up = 0;      ///< clients cut off: garbage, silence in a frame, not reading
     std::uint64_t reconnects = 0;   ///< lines opened again after an error
     std::uint64_t torn_reads = 0;   ///< mirrored: the block changed between its two readings
+    std::uint64_t overtaken = 0;    ///< RTU: something followed the request, so nobody was answered
     std::uint64_t late_indices = 0; ///< coil-and-index: the index came after its coil
 };
 

@@ -12,4 +12,14 @@ std::uint16_t crc16_xmodem(std::string_view bytes) {
     return static_cast<std::uint16_t>(crc & 0xFFFFu);
 }
 
+std::uint16_t crc16_modbus(std::span<const std::uint8_t> bytes) {
+    unsigned crc = 0xFFFFu;
+    for (const std::uint8_t byte : bytes) {
+        crc ^= byte;
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 1u) != 0 ? (crc >> 1) ^ 0xA001u : crc >> 1;
+    }
+    return static_cast<std::uint16_t>(crc);
+}
+
 } // namespace axiscal

@@ -32,13 +32,15 @@ Bytes with_crc(Bytes frame) {
 
 /// The line has a thread and real time: waiting ends as soon as the awaited thing happens, the
 /// bound on turns only ends a failing test.
-class ModbusRtu : public ::testing::Test {
+class ModbusRtuLine : public ::testing::Test {
 protected:
     void SetUp() override {
         folder = std::filesystem::temp_directory_path() /
                  ("axiscal-rtu-" + std::to_string(std::random_device{}()));
         std::filesystem::create_directory(folder);
         plug_in();
+    }
+    void start() {
         TriggerConfig config;
         config.transport = TriggerTransport::rtu_server;
         config.serial_path = folder / "tty";
@@ -115,13 +117,21 @@ protected:
     Bytes received;
 };
 
+class ModbusRtu : public ModbusRtuLine {
+protected:
+    void SetUp() override {
+        ModbusRtuLine::SetUp();
+        start();
+        reach();
+    }
+};
+
 TEST(RtuChecksum, OfTheTestIsTheOneOfTheStandard) {
     // Modbus over serial line V1.02, appendix B: 02 07 has the CRC 41 12
     EXPECT_EQ(with_crc({0x02, 0x07}), (Bytes{0x02, 0x07, 0x41, 0x12}));
 }
 
 TEST_F(ModbusRtu, CarriesOneRequestFromBlockWriteToAcknowledge) {
-    reach();
     EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8), with_crc({17, 16, 0, 1, 0, 2}));
     EXPECT_EQ(running->sink.events.size(), 1U) << "an answer comes only when the loop knows";
     EXPECT_EQ(ask({17, 3, 0, 18, 0, 2}, 9), with_crc({17, 3, 4, 0, 1, 0, 0}));
@@ -131,7 +141,6 @@ TEST_F(ModbusRtu, CarriesOneRequestFromBlockWriteToAcknowledge) {
 }
 
 TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
-    reach();
     EXPECT_EQ(ask({17, 3, 0, 40, 0, 1}, 5), with_crc({17, 0x83, 2}));
     EXPECT_EQ(ask({17, 6, 0, 18, 0, 1}, 5), with_crc({17, 0x86, 2}));
     EXPECT_EQ(ask({17, 1, 0, 0, 0, 1}, 5), with_crc({17, 0x81, 1}));
@@ -139,8 +148,6 @@ TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
 }
 
 TEST_F(ModbusRtu, IsDeafToOthersAndToDamagedFrames) {
-    reach();
-    received.clear();
     send(with_crc({18, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}));   // to another slave
     send(with_crc({18, 16, 0, 1, 0, 2}));                  // and its answer
     send(with_crc({0, 16, 0, 1, 0, 2, 4, 0, 2, 0, 2}));    // to everybody
@@ -150,16 +157,36 @@ TEST_F(ModbusRtu, IsDeafToOthersAndToDamagedFrames) {
     EXPECT_TRUE(running->sink.events.empty());
 }
 
-TEST_F(ModbusRtu, FindsBackIntoStepAfterATornFrame) {
-    reach();
+TEST_F(ModbusRtu, AnswersTheFirstRequestAfterATornFrame) {
     send({17, 16, 0});
-    reach();
     EXPECT_EQ(ask({17, 3, 0, 18, 0, 1}, 7), with_crc({17, 3, 2, 0xFF, 0xFF})); // never armed
     EXPECT_TRUE(running->sink.events.empty());
 }
 
+// 2026-11-24: libmodbus takes what follows a request to another slave for that slave's answer.
+TEST_F(ModbusRtu, AnswersAfterARequestThatAnotherSlaveLeavesUnanswered) {
+    send(with_crc({18, 3, 0, 0, 0, 1}));
+    EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8), with_crc({17, 16, 0, 1, 0, 2}));
+    send(with_crc({18, 16, 0, 1, 0, 1, 2, 0, 7}));
+    send(with_crc({19, 43, 14, 1, 0})); // a function whose length we do not know
+    EXPECT_EQ(ask({17, 3, 0, 18, 0, 1}, 7), with_crc({17, 3, 2, 0, 1}));
+    ASSERT_EQ(running->sink.events.size(), 1U);
+    EXPECT_EQ(running->sink.events[0].sequence, 1);
+}
+
+TEST_F(ModbusRtu, DoesNotAnswerAMasterThatHasGoneOn) {
+    Bytes both = with_crc({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1});
+    const Bytes again = with_crc({17, 3, 0, 18, 0, 2});
+    both.insert(both.end(), again.begin(), again.end());
+    received.clear();
+    send(both);
+    EXPECT_TRUE(receives(9));
+    EXPECT_EQ(received, with_crc({17, 3, 4, 0xFF, 0xFF, 0, 0})) << "the last one alone is answered";
+    EXPECT_TRUE(pump_until([&] { return port->counters().overtaken == 1; }));
+    EXPECT_TRUE(running->sink.events.empty());
+}
+
 TEST_F(ModbusRtu, OpensTheLineAgainAfterItWasPulled) {
-    reach();
     EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8).size(), 8U);
     line.reset();
     ASSERT_TRUE(pump_until([&] { return !running->sink.notes.empty(); }));
