@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <exception>
 #include <poll.h>
+#include <termios.h>
 #include <unistd.h>
 
 namespace axiscal {
@@ -20,6 +21,7 @@ constexpr auto listen_slice = std::chrono::milliseconds{100}; // bounds how long
 /// than a master waits for its answer. The 3.5 characters of the protocol are added.
 constexpr auto adapter_hole = std::chrono::milliseconds{50};
 constexpr int characters_of_silence = 4, bits_of_character = 11;
+constexpr auto longest_forgetting = std::chrono::milliseconds{500}; // a line may never be silent
 constexpr auto loop_patience = std::chrono::seconds{1};
 constexpr Duration first_pause = std::chrono::milliseconds{250},
                    longest_pause = std::chrono::seconds{5};
@@ -75,7 +77,20 @@ private:
         context_.reset(modbus_new_rtu(config_.serial_path.c_str(), config_.baud, config_.parity, 8,
                                       config_.stop_bits));
         if (!context_ || modbus_set_slave(context_.get(), config_.unit_id) != 0) return false;
-        return modbus_connect(context_.get()) == 0;
+        return modbus_connect(context_.get()) == 0 && forget_what_was_before();
+    }
+
+    /// What lies in the kernel or the adapter was for whoever listened before, and its master waits
+    /// no more: until the line was silent once, nothing is a request.
+    bool forget_what_was_before() {
+        ::tcflush(modbus_get_socket(context_.get()), TCIFLUSH);
+        const MonotonicTime limit = monotonic_now() + longest_forgetting;
+        while (!mailbox_->stopped() && monotonic_now() < limit) {
+            const auto arrived = read(silence_at(config_.baud));
+            if (!arrived) return false;
+            if (arrived->empty()) break;
+        }
+        return true;
     }
 
     /// Empty: nothing came for so long. None: the line failed, errno says how.

@@ -186,6 +186,16 @@ TEST_F(ModbusRtu, DoesNotAnswerAMasterThatHasGoneOn) {
     EXPECT_TRUE(running->sink.events.empty());
 }
 
+TEST_F(ModbusRtuLine, TakesNothingForARequestThatWasThereBeforeItOpened) {
+    send(with_crc({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}));
+    start();
+    EXPECT_FALSE(pump_until([&] { return !running->sink.events.empty(); }, 250));
+    reach();
+    EXPECT_TRUE(running->sink.events.empty());
+    EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8).size(), 8U);
+    EXPECT_EQ(running->sink.events.size(), 1U);
+}
+
 TEST_F(ModbusRtu, OpensTheLineAgainAfterItWasPulled) {
     EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8).size(), 8U);
     line.reset();
