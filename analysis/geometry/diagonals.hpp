@@ -32,7 +32,8 @@ struct DiagonalResult {
     double length_error = 0;        ///< slope_least_squares * length
 };
 
-/// Worst of the diagonals of one kind; R_d only with repetition, B_d only with both directions.
+/// Worst of the diagonals of one kind; R_d only with repetition, B_d only with both directions. A
+/// test from one side counts by its E and R of that side.
 struct DiagonalMachine {
     double E_d = 0;
     std::optional<double> B_d, R_d;

@@ -47,6 +47,15 @@ TEST(DriftCase, TiltDoesNotDependOnTheUnitOfTheReadings) {
                 answer_to(spindle()).at("tilts")[0].at("total").at("range").get<double>(), 1e-18);
 }
 
+TEST(DriftCase, ChangeFromFirstToLastIsHeldAgainstItsLimit) {
+    const json answer = answer_to(with(spindle(), "/allowed_change", 5));
+    EXPECT_EQ(answer.at("channels")[0].at("end").at("within_allowed_change"), false); // 7
+    EXPECT_EQ(answer.at("channels")[1].at("end").at("within_allowed_change"), true);  // 3
+    EXPECT_FALSE(
+        answer_to(spindle()).at("channels")[0].at("end").contains("within_allowed_change"));
+    EXPECT_EQ(refused_field(with(spindle(), "/allowed_change", 0)), "allowed_change");
+}
+
 TEST(DriftCase, AShortTemperatureRecordSaysSo) {
     const json answer = answer_to(with(spindle(), "/temperatures/0/slope_window_min", 500));
     EXPECT_EQ(answer.at("temperatures")[0].at("settled"), false);

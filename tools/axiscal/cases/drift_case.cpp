@@ -5,6 +5,8 @@
 #include "tools/axiscal/cases/cases.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace axiscal {
@@ -22,6 +24,7 @@ struct DriftCase {
     std::vector<Channel> channels, temperatures;
     double window_min = 60;
     std::vector<double> at_min{60};
+    std::optional<double> allowed_change; ///< of the last reading against the first
 };
 
 Result<Channel> channel_of(const json& object,
@@ -90,6 +93,9 @@ Result<DriftCase> case_of(const json& object) {
     AXISCAL_TRY(out.window_min, span_of(object, "window_min", "window_min", 60));
     if (object.contains("at_min")) {
         AXISCAL_TRY(out.at_min, numbers_at(object, "at_min", "at_min"));
+    }
+    if (object.contains("allowed_change")) {
+        AXISCAL_TRY(out.allowed_change, span_of(object, "allowed_change", "allowed_change", 0));
     }
     return out;
 }
@@ -223,8 +229,8 @@ add_tilts(const json& object, const DriftCase& stated, double unit_mm, ordered_j
 
 Result<ordered_json> drift_case(const json& object) {
     AXISCAL_CHECK(check_object(object, "",
-                               {"analysis", "unit", "time_min", "window_min", "at_min", "channels",
-                                "tilts", "temperatures"}));
+                               {"analysis", "unit", "time_min", "window_min", "at_min",
+                                "allowed_change", "channels", "tilts", "temperatures"}));
     std::string unit = "um";
     if (object.contains("unit") || object.contains("channels")) {
         AXISCAL_TRY(unit, one_of(object, "unit", "unit", {"um", "mm", "nm"}));
@@ -236,9 +242,12 @@ Result<ordered_json> drift_case(const json& object) {
     answer["window_min"] = stated.window_min;
     answer["channels"] = ordered_json::array();
     for (const Channel& channel : stated.channels) {
-        ordered_json one{{"name", channel.name}};
-        one.update(drift_json(channel.series, stated));
-        answer["channels"].push_back(std::move(one));
+        ordered_json figures{{"name", channel.name}};
+        figures.update(drift_json(channel.series, stated));
+        if (stated.allowed_change)
+            figures["end"]["within_allowed_change"] =
+                std::abs(figures["end"]["change"].get<double>()) <= *stated.allowed_change;
+        answer["channels"].push_back(std::move(figures));
     }
     const double unit_mm = unit == "mm" ? 1 : unit == "um" ? 1e-3 : 1e-6;
     AXISCAL_CHECK(add_tilts(object, stated, unit_mm, answer));
