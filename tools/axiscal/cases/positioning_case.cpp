@@ -2,6 +2,7 @@
 #include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/uncertainty_member.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,8 +62,8 @@ Result<DeviationTable> table_of(const json& object) {
 }
 
 Result<Case> case_of(const json& object) {
-    const Words known{"analysis", "standard", "axis",     "unit",        "readings",
-                      "targets",  "forward",  "backward", "compensation"};
+    const Words known{"analysis", "standard", "axis",     "unit",         "readings",
+                      "targets",  "forward",  "backward", "compensation", "uncertainty"};
     if (auto good = check_object(object, "", known); !good) return tl::unexpected(good.error());
     AXISCAL_TRY(const Standard standard, standard_of(object));
     AXISCAL_TRY(std::string unit, unit_of(object));
@@ -86,8 +87,15 @@ Result<nlohmann::ordered_json> positioning_case(const json& object) {
     AXISCAL_TRY(Case stated, case_of(object));
     AXISCAL_TRY(const RunAt20C run,
                 declare_at_20C(std::move(stated.table), "a case is taken as measured at 20 degC"));
-    return result_to_json(
-        evaluate_positioning(run, std::string{stated.standard.name}, stated.standard.cover_factor));
+    const PositioningResult result =
+        evaluate_positioning(run, std::string{stated.standard.name}, stated.standard.cover_factor);
+    nlohmann::ordered_json document = result_to_json(result);
+    if (object.contains("uncertainty")) {
+        const AxisKind kind = run.unit() == "deg" ? AxisKind::rotary : AxisKind::linear;
+        AXISCAL_TRY(auto asked, uncertainty_member(object.at("uncertainty"), kind));
+        AXISCAL_CHECK(add_uncertainty(document, std::move(asked), run, result));
+    }
+    return document;
 }
 
 } // namespace axiscal

@@ -1,0 +1,187 @@
+#include "tools/axiscal/analyze_case.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace axiscal {
+namespace {
+
+using nlohmann::json;
+
+json good_case() {
+    return json::parse(R"({"analysis":"positioning","standard":"ISO 230-2:2014",
+        "axis":{"name":"X","kind":"linear"},"unit":"mm","readings":"deviations",
+        "targets":[0,900,1750],
+        "forward":[[-0.001,0,0.001,0.002,0.003],[0.002,0.003,0.003,0.003,0.004],[0.1,0.1,0.1,0.1,0.1]],
+        "backward":[[-0.003,-0.002,-0.001,0,0.001],[0.002,0.004,0.004,0.004,0.006],[0.09,0.09,0.09,0.09,0.09]],
+        "uncertainty":{"device_U_um":1.2,"k":2,"length_m":1.75,"misalignment_mm":1,"alpha_um_per_m_K":12,
+          "temperature_width_K":0.7,"temperature_offset_K":1,"alpha_width_um_per_m_K":2,"eve_um":1.7}})");
+}
+
+json rotary_case() {
+    json request = good_case();
+    request["axis"]["kind"] = "rotary";
+    request["unit"] = "deg";
+    request["uncertainty"] = {{"device_width_arcsec", 2}, {"eve_arcsec", 0.5}};
+    return request;
+}
+
+json answer_to(const json& request) {
+    const CaseAnswer answer = analyze_cases(request.dump());
+    EXPECT_EQ(answer.exit_code, 0) << answer.error_line;
+    return answer.exit_code == 0 ? json::parse(answer.output) : json{};
+}
+
+std::string refusal_of(const json& request) {
+    const CaseAnswer answer = analyze_cases(request.dump());
+    EXPECT_EQ(answer.exit_code, 3);
+    return answer.error_line;
+}
+
+double expanded(const json& answer, const std::string& key) {
+    const json& parameter = answer.at("parameters").at(key);
+    EXPECT_EQ(parameter.at("expanded_uncertainty").at("k"), 2);
+    return parameter.at("expanded_uncertainty").at("value").get<double>();
+}
+
+/// The member of the contract for a request of the reference file.
+json member_of(const json& request) {
+    const std::map<std::string, std::string> contract{
+        {"U_device", "device_U_um"},
+        {"k_device", "k"},
+        {"width_device", "device_width_um"},
+        {"L_m", "length_m"},
+        {"width_misalign_mm", "misalignment_mm"},
+        {"delta_rad", "misalignment_rad"},
+        {"alpha_um_mK", "alpha_um_per_m_K"},
+        {"width_theta_K", "temperature_width_K"},
+        {"delta_T_K", "temperature_offset_K"},
+        {"width_alpha_um_mK", "alpha_width_um_per_m_K"},
+        {"EVE", "eve_um"},
+        {"n", "n"},
+        {"eve_model", "eve_model"}};
+    json member;
+    for (const auto& [key, value] : request.items())
+        if (key != "task") member[contract.at(key)] = value;
+    return member;
+}
+
+TEST(UncertaintyMember, GivesEveryUOfTheReferenceInTheUnitOfTheCase) {
+    const std::map<std::string, std::string> keys{{"R_uni", "R_backward"}, {"B", "B"}, {"R", "R"},
+                                                  {"E", "E_forward"},      {"M", "M"}, {"A", "A"}};
+    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} +
+                       "/tests/reference/uncertainty_thermal.json"};
+    const json reference = json::parse(file);
+    for (const json& entry : reference.at("uncertainty")) {
+        SCOPED_TRACE(entry.at("id"));
+        json request = good_case();
+        request["uncertainty"] = member_of(entry.at("request"));
+        for (const auto& [unit, um] :
+             std::map<std::string, double>{{"mm", 1e3}, {"um", 1}, {"m", 1e6}}) {
+            request["unit"] = unit;
+            const json answer = answer_to(request);
+            for (const auto& [name, U] : entry.at("recomputed").at("U").items())
+                EXPECT_NEAR(expanded(answer, keys.at(name)) * um, U.get<double>(), 1e-13) << name;
+        }
+    }
+}
+
+TEST(UncertaintyMember, RotaryAxisIsStatedInArcsecondsAndAnsweredInDegrees) {
+    const json answer = answer_to(rotary_case());
+    // the reference's rotary entry
+    EXPECT_NEAR(expanded(answer, "A") * 3600, 1.2974333637352378, 1e-13);
+    EXPECT_NEAR(expanded(answer, "R") * 3600, 0.6055300708194984, 1e-13);
+    EXPECT_EQ(answer.at("budget").at("source"), "ISO 230-2 annex B, rotary axis");
+    EXPECT_TRUE(answer.at("budget").at("not_stated").empty());
+}
+
+TEST(UncertaintyMember, ChangesNoFigureOfTheCase) {
+    json without = good_case();
+    without.erase("uncertainty");
+    const json plain = answer_to(without), full = answer_to(good_case());
+    EXPECT_EQ(plain.at("positions"), full.at("positions"));
+    for (const auto& [key, parameter] : plain.at("parameters").items()) {
+        EXPECT_EQ(parameter.at("value"), full.at("parameters").at(key).at("value")) << key;
+        EXPECT_TRUE(full.at("parameters").at(key).contains("expanded_uncertainty")) << key;
+    }
+    EXPECT_FALSE(plain.contains("budget"));
+}
+
+TEST(UncertaintyMember, BudgetOfEachParameterAddsUpToItsU) {
+    const json answer = answer_to(good_case());
+    for (const auto& [key, parameter] : answer.at("parameters").items()) {
+        double square = 0;
+        for (const json& term : parameter.at("budget").at("terms")) {
+            EXPECT_FALSE(term.at("formula").get<std::string>().empty());
+            EXPECT_FALSE(term.at("status").get<std::string>().empty());
+            square += std::pow(term.at("factor").get<double>() * term.at("u").get<double>(), 2);
+        }
+        EXPECT_NEAR(2 * std::sqrt(square), expanded(answer, key), 1e-15) << key;
+    }
+    EXPECT_EQ(answer.at("budget").at("terms").size(), 5u);
+    EXPECT_EQ(answer.at("parameters").at("R").at("budget").at("terms").size(), 1u);
+}
+
+TEST(UncertaintyMember, NCountsTheApproachesOfTheReadingsUnlessStated) {
+    json request = good_case();
+    const double five = expanded(answer_to(request), "R_forward");
+    request["uncertainty"]["n"] = 17;
+    EXPECT_NEAR(expanded(answer_to(request), "R_forward") / five, 0.5, 1e-14);
+    request["uncertainty"]["n"] = 1;
+    EXPECT_FALSE(answer_to(request).at("parameters").at("A").contains("expanded_uncertainty"));
+}
+
+TEST(UncertaintyMember, LengthIsTheSpanOfTheTargetsUnlessStated) {
+    json request = good_case();
+    const json stated = answer_to(request);
+    request["uncertainty"].erase("length_m");
+    EXPECT_EQ(answer_to(request).at("parameters"), stated.at("parameters"));
+    request["uncertainty"]["length_m"] = 3.5;
+    EXPECT_GT(expanded(answer_to(request), "E"), 1.9 * expanded(stated, "E"));
+}
+
+TEST(UncertaintyMember, TargetUncertaintyIsMetOrNot) {
+    json request = good_case();
+    request["uncertainty"]["target_uncertainty"] = {{"A", 0.02}, {"B", 0.0001}};
+    const json parameters = answer_to(request).at("parameters");
+    EXPECT_EQ(parameters.at("A").at("target_uncertainty"), json({{"value", 0.02}, {"met", true}}));
+    EXPECT_EQ(parameters.at("B").at("target_uncertainty").at("met"), false);
+    EXPECT_FALSE(parameters.at("M").contains("target_uncertainty"));
+}
+
+TEST(UncertaintyMemberRefuses, ByTheFieldAsItWasWritten) {
+    const auto with = [](const std::string& key, const json& value) {
+        json request = good_case();
+        request["uncertainty"][key] = value;
+        return refusal_of(request);
+    };
+    const auto starts = [](const std::string& line, const std::string& field) {
+        EXPECT_TRUE(line.starts_with("refused: uncertainty" + field + ": ")) << line;
+    };
+    starts(with("eve_um", -1), ".eve_um");
+    starts(with("eve_um", "1"), ".eve_um");
+    starts(with("eve", 1), ".eve");
+    starts(with("eve_arcsec", 1), ".eve_arcsec");
+    starts(with("device_width_um", 1), ".device_width_um");
+    starts(with("n", 2.5), ".n");
+    starts(with("n", 0), ".n");
+    starts(with("eve_model", "both"), ".eve_model");
+    starts(with("target_uncertainty", {{"Z", 1}}), ".target_uncertainty.Z");
+    starts(with("target_uncertainty", {{"A", -1}}), ".target_uncertainty.A");
+    starts(with("length_m", 0), ".length_m");
+    json request = good_case();
+    request["uncertainty"].erase("k");
+    starts(refusal_of(request), ".k");
+    request["uncertainty"] = 5;
+    starts(refusal_of(request), "");
+    request = rotary_case();
+    request["uncertainty"]["length_m"] = 1;
+    starts(refusal_of(request), ".length_m");
+}
+
+} // namespace
+} // namespace axiscal
