@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 """Every figure of analysis/README.md has a clause, a function, a case, and the origin it claims.
 
-figure_table.py SOURCE_FOLDER   checks the tables whose first column is called Figure
-figure_table.py --self-test     proves that planted mistakes are seen
+figure_table.py SOURCE_FOLDER            checks the tables whose first column is called Figure
+figure_table.py SOURCE_FOLDER AXISCAL    every number of every case's result stands in such a table, or in a
+                                         paragraph that begins with "Told back:"
+figure_table.py --self-test              proves that planted mistakes are seen
 """
 import json
 import pathlib
 import re
+import subprocess
 import sys
 
 HEAD = ["Figure", "Clause", "Function", "Cases", "Weakest origin"]
@@ -75,6 +78,40 @@ def complaints(page, cases, sources):
     return found + ([] if rows else ["there is no table of figures"])
 
 
+def numbers_of(value, place=""):
+    """The place of every number below `value`."""
+    steps = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for step, below in steps:
+        yield from numbers_of(below, f"{place}/{str(step).replace('~', '~0').replace('/', '~1')}")
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield place
+
+
+def known_places(page):
+    cells = [cells[0] for _, cells in rows_of(page)]
+    told_back = re.findall(r"^Told back:.*?(?=^\s*$|\Z)", page, re.S | re.M)
+    return [place for text in cells + told_back for place in quoted(text) if place.startswith("/")]
+
+
+def unknown_numbers(page, results):
+    """results: id -> document; each unknown place once, indices as `*`."""
+    known, found = known_places(page), {}
+    for name, result in results.items():
+        for place in numbers_of(result):
+            if not any(matches(pattern, place) for pattern in known):
+                found.setdefault(re.sub(r"/\d+(?=/|$)", "/*", place), name)
+    return [f"{place} (as in {name}) stands in no row" for place, name in sorted(found.items())]
+
+
+def results_of(axiscal, cases):
+    results = {}
+    for name, case in cases.items():
+        ran = subprocess.run([axiscal, "analyze", "-"], input=json.dumps(case["case"]), text=True,
+                             capture_output=True, timeout=120, check=True)
+        results[name] = json.loads(ran.stdout)
+    return results
+
+
 def load(root):
     folder = root / "tests/reference/conformance"
     cases = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
@@ -96,6 +133,10 @@ def self_test():
             for name, row in planted.items()}
     missed = [name for name, found in seen.items() if not found]
     missed += complaints(head + right, cases, "int make(int x);")
+    page, result = head + right + "\n\nTold back: `/t`,\n`/u/*`.\n\nnot `/v`\n", {"t": 1, "u": [2, 3], "a": [{"b": 4}]}
+    missed += unknown_numbers(page, {"x": {**result, "c": 5, "text": "6", "flag": True}})
+    seen = unknown_numbers(page, {"x": {**result, "v": 7, "a": [{"b": 4, "q": 8}, {"b": 4, "q": 8}]}})
+    missed += [] if [text.split()[0] for text in seen] == ["/a/*/q", "/v"] else [f"numbers: {seen}"]
     print("missed:", missed)
     return missed
 
@@ -104,6 +145,10 @@ def main():
     if sys.argv[1] == "--self-test":
         return 1 if self_test() else 0
     page, cases, sources = load(pathlib.Path(sys.argv[1]))
+    if len(sys.argv) > 2:
+        found = unknown_numbers(page, results_of(sys.argv[2], cases))
+        print("\n".join(found) or f"{len(cases)} results hold no number without a row")
+        return 1 if found else 0
     found = complaints(page, cases, sources)
     print("\n".join(found) or f"{len(rows_of(page))} rows hold: figure, clause, function, case, origin")
     return 1 if found else 0

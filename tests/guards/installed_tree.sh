@@ -13,7 +13,9 @@ DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" \
 wanted=(/usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
-while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md')
+while read -r file; do wanted+=("/usr/share/axiscal/conformance/${file#"$source"/tests/reference/conformance/}")
+done < <(find "$source/tests/reference/conformance" -name '*.json' -o -name '*.py')
+while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md' -o -name '*.schema.json')
 for file in "${wanted[@]}"; do
     [ -s "$root$file" ] || fail "not installed: $file"
 done
@@ -33,6 +35,7 @@ for program in axiscald axiscal axiscal-publish axiscal-report; do
     said=$("$root/usr/bin/$program" --version) || fail "$program --version ends with $?"
     [[ $said == *"$version"* ]] || fail "$program --version says: $said"
 done
+said=$("$root/usr/bin/axiscal" conformance --brief) || fail "the installed cases: $said"
 for program in "$root"/usr/bin/axiscal*; do
     "$program" --help >"$root/help.txt" || fail "${program##*/} --help ends with $?"
     ! grep -aqF "$build" "$root/help.txt" || fail "${program##*/} --help names the build folder"

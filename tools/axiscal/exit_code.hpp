@@ -11,6 +11,7 @@ enum ExitCode : int {
     exit_forbidden = 4,  ///< the station's state or rights forbid it
     exit_no_contact = 5, ///< no daemon at that door
     exit_incomplete = 6, ///< the run ended without all its points
+    exit_disagrees = 7,  ///< a figure of the conformance kit is not what it must be
 };
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 // The command line. Each command is documented where it is parsed: `axiscal COMMAND --help`.
 #include "config/measure.hpp"
+#include "tools/axiscal/conformance.hpp"
 #include "tools/axiscal/daemon_commands.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
@@ -25,7 +26,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
 
 Exit codes: 0 done; 1 a file or the disk failed; 2 wrong usage; 3 input refused (case, run file,
 station file); 4 the station refuses (rights, busy, not armed); 5 axiscald does not answer;
-6 the run ended incomplete.)";
+6 the run ended incomplete; 7 a figure of the conformance kit disagrees.)";
 
 struct Options {
     bool json = false;
@@ -37,6 +38,7 @@ struct Options {
     ArmOrder arm;
     std::vector<std::string> statements;
     ProgramRequest program;
+    ConformanceOrder conformance;
 };
 
 StationClient client_of(Options& options) {
@@ -174,6 +176,35 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         [&] { chosen = [&] { return command_check_config(options.config, options.json); }; });
 }
 
+constexpr const char* conformance_footer = R"(Examples:
+  axiscal conformance                                        this program, every case, every figure
+  axiscal conformance --brief --against "python3 mine.py"    another program, only what disagrees
+  axiscal conformance --only 'circle-*' positioning-hand-1   some cases
+
+Another program reads one case as JSON from standard input, writes the result as JSON to standard output
+and ends with 0. One that crashes, hangs or writes anything else fails that case; the next one is run.
+Figures stand as: digits of agreement, place in the result, value. The last line counts cases by the
+origin of their figures. Exit 7: a figure disagrees. Exit 3: a file is no case. See docs/conformance.md.)";
+
+void add_conformance_command(CLI::App& app, Options& options, Command& chosen) {
+    ConformanceOrder& order = options.conformance;
+    auto* command = app.add_subcommand(
+        "conformance", "Hold this program, or another, against cases with known figures");
+    command->add_option("--against", order.command,
+                        "another program, as a line for the shell; default: this one");
+    command->add_option("--cases", order.folder,
+                        "folder of cases; default: $AXISCAL_CONFORMANCE_PATH, else the installed");
+    command->add_option("--only", order.only, "ids of cases, or patterns as 'circle-*'");
+    command
+        ->add_option("--timeout", order.seconds, "seconds that another program may take for a case")
+        ->check(CLI::Range(0.001, 86400.0))
+        ->capture_default_str();
+    command->add_flag("--brief", order.brief, "print only what disagrees, and the last line");
+    command->footer(conformance_footer);
+    command->callback(
+        [&] { chosen = [&] { return command_conformance(options.conformance, options.json); }; });
+}
+
 /// The first word is no command: says so, with the nearest one there is.
 void hint_at_command(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
@@ -195,6 +226,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", AXISCAL_VERSION);
     add_daemon_commands(app, options, chosen);
     add_offline_commands(app, options, chosen);
+    add_conformance_command(app, options, chosen);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag("--json", options.json, "print JSON for programs");
     try {
