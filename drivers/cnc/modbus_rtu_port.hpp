@@ -16,6 +16,8 @@ class ModbusRtuPort final : public MappedPort {
 public:
     ModbusRtuPort(std::unique_ptr<RegisterMap> map, TriggerConfig config);
     ~ModbusRtuPort() override;
+    ModbusRtuPort(const ModbusRtuPort&) = delete;
+    ModbusRtuPort& operator=(const ModbusRtuPort&) = delete;
     Task<Result<void>> run(TriggerContext context) override;
     [[nodiscard]] std::string describe() const override;
 

@@ -163,7 +163,7 @@ TEST_F(ModbusRtu, AnswersTheFirstRequestAfterATornFrame) {
     EXPECT_TRUE(running->sink.events.empty());
 }
 
-// 2026-11-24: libmodbus takes what follows a request to another slave for that slave's answer.
+// 2026-11-21: libmodbus takes what follows a request to another slave for that slave's answer.
 TEST_F(ModbusRtu, AnswersAfterARequestThatAnotherSlaveLeavesUnanswered) {
     send(with_crc({18, 3, 0, 0, 0, 1}));
     EXPECT_EQ(ask({17, 16, 0, 1, 0, 2, 4, 0, 2, 0, 1}, 8), with_crc({17, 16, 0, 1, 0, 2}));
