@@ -17,7 +17,7 @@ Contribution device_of(const UncertaintyStatement& s) {
         return {UncertaintyTerm::device, rectangular(*s.device_width), "R_D / (2 sqrt 3)",
                 "S (text), R (formula)"};
     return {UncertaintyTerm::device, *s.device_U / *s.device_k, "U_cal / k",
-            "S (text), R (formula)"};
+            "S (text), R (formula)", Distribution::normal};
 }
 
 /// One-sided: the beam reads short by something between nothing and dL, so the full width is dL.
@@ -186,6 +186,10 @@ std::vector<std::string> missing_terms(const UncertaintyBudget& budget) {
 
 std::string_view name_of(EveModel model) {
     return model == EveModel::difference ? "difference" : "mean";
+}
+
+std::string_view name_of(Distribution distribution) {
+    return distribution == Distribution::normal ? "normal" : "rectangular";
 }
 
 std::string_view name_of(UncertaintyTerm term) {

@@ -57,11 +57,16 @@ enum class UncertaintyTerm : std::uint8_t {
 };
 std::string_view name_of(UncertaintyTerm term);
 
+/// What is known of the size of an error; the simulation draws from it.
+enum class Distribution : std::uint8_t { rectangular, normal };
+std::string_view name_of(Distribution distribution);
+
 struct Contribution {
     UncertaintyTerm term = UncertaintyTerm::device;
     double u = 0;        ///< standard uncertainty, um or arcsec
     std::string formula; ///< in the symbols of the annex
     std::string status;  ///< "S", "R", "S (text), R (formula)"
+    Distribution distribution = Distribution::rectangular;
 };
 
 /// One parameter under its contract key ("A_forward"). Its square is the sum over the contributions

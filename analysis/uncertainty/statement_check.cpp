@@ -37,7 +37,7 @@ Fields fields_of(const UncertaintyStatement& s) {
 
 /// Every stated number is finite and of a size that instruments have; an offset may be below 20.
 Result<void> check_sizes(const Fields& fields) {
-    constexpr double largest = 1e9;
+    constexpr double largest = 1e9, smallest = 1e-6; // of what others are divided by
     for (const auto& [key, value, linear_only] : fields) {
         if (!value) continue;
         const bool may_be_negative = key.ends_with("temperature_offset_K");
@@ -45,8 +45,8 @@ Result<void> check_sizes(const Fields& fields) {
             return refuse(Fault::bad_case, key,
                           may_be_negative ? "must be a number of magnitude up to 1e9"
                                           : "must be a number from 0 to 1e9");
-        if (*value == 0 && (key == "k" || key == "length_m"))
-            return refuse(Fault::bad_case, key, "must be above 0");
+        if (*value < smallest && (key == "k" || key == "length_m"))
+            return refuse(Fault::bad_case, key, "must be above 1e-6");
     }
     return {};
 }

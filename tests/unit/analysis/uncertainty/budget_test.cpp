@@ -207,6 +207,8 @@ TEST(UncertaintyBudgetRefuses, WhatIsIncompleteTwiceOrOfTheOtherAxis) {
     EXPECT_EQ(with([](auto& s) { s.device_k.reset(); }), "k");
     EXPECT_EQ(with([](auto& s) { s.device_U.reset(); }), "device_U_um");
     EXPECT_EQ(with([](auto& s) { s.device_k = 0; }), "k");
+    EXPECT_EQ(with([](auto& s) { s.device_k = 1e-300; }), "k");
+    EXPECT_EQ(with([](auto& s) { s.length_m = 1e-300; }), "length_m");
     EXPECT_EQ(with([](auto& s) { s.device_width = 1; }), "device_width_um");
     EXPECT_EQ(with([](auto& s) { s.length_m.reset(); }), "length_m");
     EXPECT_EQ(with([](auto& s) { s.length_m = 0; }), "length_m");
