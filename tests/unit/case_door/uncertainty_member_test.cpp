@@ -1,4 +1,4 @@
-#include "tools/axiscal/analyze_case.hpp"
+#include "tests/unit/case_door/asked.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -30,11 +30,7 @@ json rotary_case() {
     return request;
 }
 
-json answer_to(const json& request) {
-    const CaseAnswer answer = analyze_cases(request.dump());
-    EXPECT_EQ(answer.exit_code, 0) << answer.error_line;
-    return answer.exit_code == 0 ? json::parse(answer.output) : json{};
-}
+using test::answer_to;
 
 std::string refusal_of(const json& request) {
     const CaseAnswer answer = analyze_cases(request.dump());
@@ -153,6 +149,49 @@ TEST(UncertaintyMember, TargetUncertaintyIsMetOrNot) {
     EXPECT_FALSE(parameters.at("M").contains("target_uncertainty"));
 }
 
+TEST(UncertaintyMember, SimulationStandsBesideTheFormulasUnlessDeclined) {
+    json request = good_case();
+    const json simulated = answer_to(request);
+    EXPECT_EQ(simulated.at("monte_carlo").at("trials"), 100'000);
+    EXPECT_EQ(simulated.at("monte_carlo").at("seed"), 1);
+    for (const auto& [key, parameter] : simulated.at("parameters").items()) {
+        const json& drawn = parameter.at("monte_carlo");
+        EXPECT_GT(drawn.at("u"), 0) << key;
+        for (const char* interval : {"interval_95", "shortest_95"}) {
+            EXPECT_LT(drawn.at(interval)[0], drawn.at("mean")) << key;
+            EXPECT_GT(drawn.at(interval)[1], drawn.at("mean")) << key;
+        }
+    }
+    request["uncertainty"]["monte_carlo"] = {{"trials", 100'000}, {"seed", 1}};
+    EXPECT_EQ(answer_to(request), simulated);
+    request["uncertainty"]["monte_carlo"]["seed"] = 2;
+    EXPECT_NE(answer_to(request), simulated);
+    request["uncertainty"]["monte_carlo"] = false;
+    const json declined = answer_to(request);
+    EXPECT_FALSE(declined.contains("monte_carlo"));
+    EXPECT_FALSE(declined.at("parameters").at("A").contains("monte_carlo"));
+    EXPECT_EQ(declined.at("budget"), simulated.at("budget"));
+}
+
+TEST(UncertaintyMember, SaysByHowMuchTheSourceFormulaOfRIsConservative) {
+    const json answer = answer_to(good_case());
+    const json& two_way = answer.at("parameters").at("R");
+    const double ratio = two_way.at("budget").at("u").get<double>() /
+                         two_way.at("monte_carlo").at("u").get<double>();
+    const std::string percent = std::to_string(std::lround((ratio - 1) * 100)) + " % above";
+    const std::string remarks = answer.at("monte_carlo").at("remarks").dump();
+    EXPECT_NE(remarks.find(percent), std::string::npos) << remarks;
+    EXPECT_GT(ratio, 1.2);
+}
+
+TEST(UncertaintyMember, AnswersOrRefusesWhateverNumbersComeAndNeverGivesNaN) {
+    for (json request : {good_case(), rotary_case()}) {
+        request["uncertainty"]["monte_carlo"] = {{"trials", 1000}, {"seed", 1}};
+        request["uncertainty"]["target_uncertainty"] = {{"A", 0.01}};
+        test::expect_numbers_in_numbers_out(request);
+    }
+}
+
 TEST(UncertaintyMemberRefuses, ByTheFieldAsItWasWritten) {
     const auto with = [](const std::string& key, const json& value) {
         json request = good_case();
@@ -173,6 +212,12 @@ TEST(UncertaintyMemberRefuses, ByTheFieldAsItWasWritten) {
     starts(with("target_uncertainty", {{"Z", 1}}), ".target_uncertainty.Z");
     starts(with("target_uncertainty", {{"A", -1}}), ".target_uncertainty.A");
     starts(with("length_m", 0), ".length_m");
+    starts(with("monte_carlo", true), ".monte_carlo");
+    starts(with("monte_carlo", {{"trial", 2000}}), ".monte_carlo.trial");
+    starts(with("monte_carlo", {{"trials", 999}}), ".monte_carlo.trials");
+    starts(with("monte_carlo", {{"trials", 2000.5}}), ".monte_carlo.trials");
+    starts(with("monte_carlo", {{"seed", -1}}), ".monte_carlo.seed");
+    starts(with("monte_carlo", {{"seed", 1e300}}), ".monte_carlo.seed");
     json request = good_case();
     request["uncertainty"].erase("k");
     starts(refusal_of(request), ".k");

@@ -81,6 +81,7 @@ ordered_json term_json(const Contribution& term, double divisor) {
     object["u"] = term.u / divisor;
     object["formula"] = term.formula;
     object["status"] = term.status;
+    object["distribution"] = name_of(term.distribution);
     return object;
 }
 
@@ -145,7 +146,7 @@ Result<UncertaintyMember> uncertainty_member(const json& member, AxisKind kind) 
     UncertaintyMember out;
     out.statement.axis_kind = kind;
     const auto numbers = numbers_of(out.statement);
-    Words known{"n", "eve_model", "target_uncertainty"};
+    Words known{"n", "eve_model", "target_uncertainty", "monte_carlo"};
     for (const auto& [key, place] : numbers)
         known.push_back(key);
     AXISCAL_CHECK(check_object(member, "uncertainty", known));
@@ -163,6 +164,9 @@ Result<UncertaintyMember> uncertainty_member(const json& member, AxisKind kind) 
     }
     if (member.contains("target_uncertainty")) {
         AXISCAL_TRY(out.target_uncertainty, targets_of(member));
+    }
+    if (member.contains("monte_carlo")) {
+        AXISCAL_TRY(out.monte_carlo, monte_carlo_member(member.at("monte_carlo")));
     }
     return out;
 }
@@ -182,7 +186,8 @@ Result<void> add_uncertainty(ordered_json& document,
             found != document["parameters"].end())
             add_to_parameter(*found, member, *budget, figure, divisor);
     document["budget"] = budget_json(*budget, result.unit, divisor);
-    return {};
+    if (!member.monte_carlo.asked) return {};
+    return add_monte_carlo(document, member.monte_carlo, *budget, run, result, divisor);
 }
 
 } // namespace axiscal

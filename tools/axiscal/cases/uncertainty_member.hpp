@@ -4,6 +4,7 @@
 
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/uncertainty/budget.hpp"
+#include "tools/axiscal/cases/monte_carlo_member.hpp"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ struct UncertaintyMember {
     UncertaintyStatement statement;
     std::optional<int> approaches;                    ///< "n"; absent: that of the readings
     std::map<std::string, double> target_uncertainty; ///< U_T by parameter, in the case's unit
+    MonteCarloMember monte_carlo;
 };
 
 /// Lengths are micrometres (keys ending in _um), on a rotary axis seconds of arc (_arcsec).
@@ -24,8 +26,9 @@ Result<UncertaintyMember> uncertainty_member(const nlohmann::json& member, AxisK
 
 /// Each parameter of `document` that the budget knows gains "expanded_uncertainty" {value, k} and
 /// "budget", in the unit of the case; the document gains "budget". A length that is not stated is
-/// the span of the targets. Figures already in the document stay as they are.
-/// @errors those of make_budget(), with the field below "uncertainty".
+/// the span of the targets. Unless declined, the simulation of add_monte_carlo() stands beside it.
+/// Figures already in the document stay as they are.
+/// @errors those of make_budget() and simulate_sessions(), with the field below "uncertainty".
 Result<void> add_uncertainty(nlohmann::ordered_json& document,
                              UncertaintyMember member,
                              const RunAt20C& run,
