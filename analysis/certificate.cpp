@@ -28,6 +28,7 @@ EnvironmentSummary summarise(const ChannelRecord& channel,
     summary.place = channel.place;
     summary.kind = channel.kind;
     summary.medium = channel.medium;
+    summary.correction = channel.correction;
     summary.readings = static_cast<int>(readings.size());
     if (readings.empty()) return summary;
     const auto [low, high] = std::ranges::minmax(readings, {}, &EnvironmentReading::value);

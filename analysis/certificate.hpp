@@ -16,8 +16,9 @@ struct EnvironmentSummary {
     std::string channel, place;
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
+    double correction = 0; ///< already in every value
     int readings = 0;
-    double first = 0, last = 0, minimum = 0, maximum = 0; ///< in stored_unit_of(kind)
+    double first = 0, last = 0, minimum = 0, maximum = 0; ///< all in stored_unit_of(kind)
 };
 
 struct EnvironmentTrace { ///< for the plot: seconds since the first point, value

@@ -13,7 +13,7 @@ class Settings;
 /// How one channel of the instrument is used here.
 struct ChannelConfig {
     std::string channel;          ///< the driver's channel name
-    std::string name;             ///< name on certificate and screens
+    std::string name;             ///< name on certificate and screens; empty: the driver's
     std::optional<Medium> medium; ///< air | material, as stated; checked against the use
     std::string place;            ///< "spindle nose", "table left"
     double correction = 0;        ///< added, in stored_unit_of(kind)

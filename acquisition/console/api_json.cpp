@@ -14,6 +14,7 @@ template <class T> Json or_null(const std::optional<T>& value) {
 Json to_json(const ChannelView& channel) {
     return {{"instrument", channel.instrument},
             {"channel", channel.channel},
+            {"name", channel.name},
             {"place", channel.place},
             {"kind", name_of(channel.kind)},
             {"medium", name_of(channel.medium)},

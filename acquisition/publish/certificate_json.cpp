@@ -162,9 +162,7 @@ Json environment_of(const Certificate& certificate) {
         object["quantity"] = name_of(summary.kind);
         object["medium"] = name_of(summary.medium);
         object["unit"] = stored_unit_of(summary.kind);
-        for (const ChannelRecord& channel : certificate.run.channels)
-            if (channel.name == summary.channel && channel.kind == summary.kind)
-                object["correction"] = channel.correction;
+        object["correction"] = summary.correction;
         object["readings"] = summary.readings;
         const bool read = summary.readings > 0;
         object["first"] = read ? Json(summary.first) : Json{};

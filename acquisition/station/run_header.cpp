@@ -64,7 +64,7 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     for (const int id : ids) {
         const StationChannel& channel = parts.supervisor.channels()[static_cast<std::size_t>(id)];
         records.push_back({.id = id,
-                           .name = channel.name,
+                           .name = channel.shown,
                            .instrument = channel.instrument_name,
                            .place = channel.place,
                            .kind = channel.kind,

@@ -15,7 +15,9 @@ namespace axiscal {
 
 /// One channel as it stands now; `value` is empty unless good and fresh.
 struct ChannelView {
-    std::string instrument, channel, place, unit;
+    std::string instrument, channel; ///< as the station file speaks of it
+    std::string name;                ///< for people
+    std::string place, unit;
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
     std::optional<double> value;

@@ -135,6 +135,7 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     ChannelView view;
     view.instrument = channel.instrument_name;
     view.channel = channel.name;
+    view.name = channel.shown;
     view.place = channel.place;
     view.unit = stored_unit_of(channel.kind);
     view.kind = channel.kind;

@@ -37,11 +37,12 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
         StationChannel entry;
         entry.id = first_id++;
         entry.instrument = index;
-        entry.name = channel.name;
+        entry.name = entry.shown = channel.name;
         entry.instrument_name = config.name;
         entry.kind = channel.kind;
         entry.medium = channel.medium;
         if (const ChannelConfig* stated = find_stated(config, channel.name)) {
+            if (!stated->name.empty()) entry.shown = stated->name;
             entry.place = stated->place;
             entry.correction = stated->correction;
             entry.medium = stated->medium.value_or(channel.medium);

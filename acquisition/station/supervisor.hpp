@@ -20,7 +20,9 @@ std::string_view name_of(InstrumentState state);
 struct StationChannel {
     int id = 0;
     int instrument = 0; ///< index
-    std::string name, instrument_name, place;
+    std::string name;   ///< the driver's, by which the station file speaks of it
+    std::string shown;  ///< on certificate and screens; the driver's where none is configured
+    std::string instrument_name, place;
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
     double correction = 0;

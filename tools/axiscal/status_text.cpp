@@ -84,7 +84,7 @@ std::string channel_text(const Json& channel) {
                                 : "never";
     const std::string place = channel.at("place").get<std::string>();
     return format("  %-10s %-24s ", channel.at("instrument").get<std::string>().c_str(),
-                  channel.at("channel").get<std::string>().c_str()) +
+                  channel.at("name").get<std::string>().c_str()) +
            value_text(channel) + "  (" + channel.at("quality").get<std::string>() + ", " + age +
            (place.empty() ? "" : ", " + place) + ")\n";
 }

@@ -19,16 +19,6 @@ void draw_environment(Sheet& sheet, const Certificate& certificate) {
     sheet.advance(height + 8);
 }
 
-std::string correction_of(const Certificate& certificate, const EnvironmentSummary& summary) {
-    const auto& channels = certificate.run.channels;
-    const auto channel = std::ranges::find_if(channels, [&](const ChannelRecord& record) {
-        return record.name == summary.channel && record.kind == summary.kind;
-    });
-    const ChannelPaper paper = paper_of(summary.kind, summary.medium);
-    return channel == channels.end() ? "–"
-                                     : fixed(channel->correction * paper.factor, paper.decimals);
-}
-
 void draw_environment_table(Sheet& sheet, const Certificate& certificate) {
     const std::vector<TableColumn> columns{{"Channel", "", Align::left, true},
                                            {"Place of the sensor", "", Align::left, true},
@@ -49,7 +39,8 @@ void draw_environment_table(Sheet& sheet, const Certificate& certificate) {
         };
         rows.push_back({summary.channel, stated(summary.place), paper.quantity, paper.unit,
                         value(summary.first), value(summary.last), value(summary.minimum),
-                        value(summary.maximum), correction_of(certificate, summary),
+                        value(summary.maximum),
+                        fixed(summary.correction * paper.factor, paper.decimals),
                         std::to_string(summary.readings)});
     }
     sheet.table(columns, rows, 7);

@@ -29,6 +29,7 @@ public:
         status.axis.name = "X";
         status.channels.push_back({.instrument = "air",
                                    .channel = "pressure",
+                                   .name = "air pressure",
                                    .place = {},
                                    .unit = "Pa",
                                    .kind = ChannelKind::pressure,

@@ -45,6 +45,24 @@ TEST(CertificateJson, BringsEveryDoubleBackExactly) {
     EXPECT_EQ(read, certificate_to_json(certificate));
 }
 
+// 2026-11-21: the last of several channels with one name gave all of them its correction.
+TEST(CertificateJson, EachChannelHasItsOwnCorrectionAlsoUnderTheSameName) {
+    RunRecord run = test::synthetic_run();
+    for (ChannelRecord& channel : run.channels)
+        if (channel.medium == Medium::material) {
+            channel.name = "contact 1"; // of two instruments
+            channel.correction = 0.01 * channel.id;
+        }
+    const Json document = certificate_to_json(test::certificate_of(run));
+    std::vector<double> printed, stated;
+    for (const Json& channel : document.at("environment").at("channels"))
+        if (channel.at("channel") == "contact 1") printed.push_back(channel.at("correction"));
+    for (const ChannelRecord& channel : run.channels)
+        if (channel.medium == Medium::material) stated.push_back(channel.correction);
+    ASSERT_GE(stated.size(), 2U);
+    EXPECT_EQ(printed, stated);
+}
+
 TEST(CertificateJson, WritesNullForWhatNobodyStated) {
     RunRecord run = test::synthetic_run();
     run.statements = {};

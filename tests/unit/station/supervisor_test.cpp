@@ -102,5 +102,28 @@ TEST_F(Supervision, TheCorrectionOfTheCertificateIsAdded) {
     EXPECT_EQ(air->place, "beside the beam");
 }
 
+TEST_F(Supervision, TheConfiguredNameStandsOnScreensAndInTheRunFile) {
+    Shop other;
+    ChannelConfig named, placed;
+    named.channel = "contact 1";
+    named.name = "screw, left";
+    placed.channel = "contact 2"; // no name of its own
+    placed.place = "bearing block";
+    other.config.instruments[2].channels = {named, placed};
+    Life life_with_names{other};
+    const auto shown = life_with_names.status().channels;
+    const auto left = std::ranges::find(shown, "contact 1", &ChannelView::channel);
+    const auto right = std::ranges::find(shown, "contact 2", &ChannelView::channel);
+    EXPECT_EQ(left->name, "screw, left");
+    EXPECT_EQ(right->name, "contact 2");
+    ASSERT_TRUE(life_with_names.arm());
+    const auto run = read_run_file(other.run_files().at(0));
+    ASSERT_TRUE(run);
+    std::vector<std::string> names;
+    for (const ChannelRecord& channel : run->channels)
+        if (channel.instrument == "material") names.push_back(channel.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"screw, left", "contact 2"}));
+}
+
 } // namespace
 } // namespace axiscal::testing
