@@ -168,11 +168,26 @@ class Program(Scratch):
 
 class Export(Scratch):
     def test_a_run_file_becomes_papers(self):
-        self.expect(0, "export", RUN, "--out", self.folder)
-        found = [name for _, _, names in os.walk(self.folder) for name in names]
-        for ending in (".json", ".csv", ".pdf"):
-            self.assertTrue(any(name.endswith(ending) for name in found), found)
-        self.assertNotEqual(run("export", self.file("x.axiscal", "no run"), "--out", self.folder).returncode, 0)
+        told = self.expect(0, "export", RUN, "--out", self.folder).stdout
+        [entry] = [entry.path for entry in os.scandir(self.folder)]
+        files = sorted(os.listdir(entry))
+        first, *listed = [line.strip() for line in told.splitlines()]
+        self.assertIn(entry, first)
+        for ending in (".json", ".csv", ".pdf", ".axiscal"):
+            self.assertTrue(any(name.endswith(ending) for name in listed), told)
+        self.assertLessEqual(set(listed), set(files))
+
+    def test_json_names_the_papers(self):
+        papers = json.loads(self.expect(0, "export", RUN, "--out", self.folder, "--json").stdout)
+        self.assertEqual(list(papers), ["entry", "json", "csv", "pdf", "run_file"])
+        for path in papers.values():
+            self.assertTrue(os.path.exists(path), path)
+
+    def test_what_is_no_run_is_refused_with_a_sentence(self):
+        for words in ([], ["--json"]):
+            got = self.expect(3, "export", self.file("x.axiscal", "no run"), "--out", self.folder, *words)
+            self.assertEqual(got.stdout, "")
+            self.assertIn("x.axiscal", got.stderr)
 
 
 class Daemon(Scratch):

@@ -167,7 +167,8 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         app.add_subcommand("export", "certificate.json, .csv and .pdf of a closed run file");
     write->add_option("RUN", options.file, "run file")->required();
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
-    write->callback([&] { chosen = [&] { return command_export(options.file, options.out); }; });
+    write->callback(
+        [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });
 
     auto* check = app.add_subcommand("check-config",
                                      "Every refusal of a station file at once, with its line");

@@ -4,7 +4,6 @@
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
-#include "acquisition/station/certificate_writer.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/exit_code.hpp"
@@ -16,9 +15,6 @@
 #include <iostream>
 #include <iterator>
 #include <random>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace axiscal {
 namespace {
@@ -140,27 +136,6 @@ int command_program(const ProgramRequest& request, bool json) {
     }
     if (json) std::cout << Json{{"programs", std::move(list)}}.dump() << "\n";
     return exit_ok;
-}
-
-int command_export(const std::string& run_file, const std::string& out_directory) {
-    const std::string program = sibling_program("axiscal-report");
-    std::vector<std::string> words{program, run_file, "--to", out_directory};
-    std::vector<char*> arguments;
-    for (std::string& word : words)
-        arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    std::cout << std::flush;
-    pid_t child = -1;
-    if (const int failed =
-            ::posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ);
-        failed != 0)
-        return complain(
-            {Fault::io, "cannot start " + program, {failed, std::generic_category()}, {}});
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    return good ? exit_ok : WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
 }
 
 int command_check_config(const std::string& station_file, bool json) {

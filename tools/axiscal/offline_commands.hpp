@@ -20,8 +20,8 @@ struct ProgramRequest {
 int command_program(const ProgramRequest& request, bool json);
 
 /// certificate.json, .csv and .pdf of a closed run into `out_directory`/<run-id>/, by
-/// axiscal-report, whose line of JSON names the files.
-int command_export(const std::string& run_file, const std::string& out_directory);
+/// axiscal-report; its line of JSON, or the same for people, names the files.
+int command_export(const std::string& run_file, const std::string& out_directory, bool json);
 
 /// Every refusal of the station file at once, with file:line.
 int command_check_config(const std::string& station_file, bool json);

@@ -1,0 +1,90 @@
+// `axiscal export`: the report program draws, this one says where the papers lie.
+#include "acquisition/station/certificate_writer.hpp"
+#include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/offline_commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <filesystem>
+#include <iostream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+int failed_to_start(const std::string& program, int reason) {
+    std::cerr << "cannot start " << program << " (" << std::generic_category().message(reason)
+              << ")\n";
+    return exit_failed;
+}
+
+std::string read_to_end(int descriptor) {
+    std::string text;
+    std::array<char, 4096> piece{};
+    for (;;) {
+        const ssize_t count = ::read(descriptor, piece.data(), piece.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return text;
+        text.append(piece.data(), static_cast<std::size_t>(count));
+    }
+}
+
+/// Runs to the end; its complaints go where ours go. @returns its exit code
+int run_program(std::vector<std::string> words, std::string& said) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return failed_to_start(words.front(), errno);
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    pid_t child = -1;
+    const int failed =
+        ::posix_spawnp(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    if (failed == 0) said = read_to_end(ends[0]);
+    ::close(ends[0]);
+    if (failed != 0) return failed_to_start(words.front(), failed);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
+}
+
+/// The report program's line names a folder and the files in it.
+bool print_papers(const std::string& line) {
+    const Json papers = Json::parse(line, nullptr, false);
+    if (!papers.is_object() || !papers.contains("entry")) return false;
+    std::cout << "The certificate lies in " << papers["entry"].get<std::string>() << ":\n";
+    for (const auto& [key, path] : papers.items())
+        if (key != "entry")
+            std::cout << "  " << std::filesystem::path(path.get<std::string>()).filename().string()
+                      << "\n";
+    return true;
+}
+
+} // namespace
+
+int command_export(const std::string& run_file, const std::string& out_directory, bool json) {
+    const std::string program = sibling_program("axiscal-report");
+    std::string said;
+    const int code = run_program({program, run_file, "--to", out_directory}, said);
+    if (code != exit_ok) return code;
+    if (json) return std::cout << said << std::flush, exit_ok;
+    if (print_papers(said)) return exit_ok;
+    std::cerr << program << " said nothing of its papers: " << said << "\n";
+    return exit_failed;
+}
+
+} // namespace axiscal
