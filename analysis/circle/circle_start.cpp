@@ -1,0 +1,77 @@
+#include "analysis/circle/circle_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace axiscal::circle {
+namespace {
+
+/// Smallest root, from 0, of Taubin's characteristic polynomial of the moments about the mean.
+double taubin_root(const Moments& m) {
+    const double z = m.xx + m.yy, determinant = m.xx * m.yy - m.xy * m.xy;
+    const double variance = m.zz - z * z;
+    const double a3 = 4 * z, a2 = -3 * z * z - m.zz;
+    const double a1 = variance * z + 4 * determinant * z - m.xz * m.xz - m.yz * m.yz;
+    const double a0 = m.xz * (m.xz * m.yy - m.yz * m.xy) + m.yz * (m.yz * m.xx - m.xz * m.xy) -
+                      variance * determinant;
+    double root = 0, value = a0;
+    for (int i = 0; i < 99; ++i) {
+        const double slope = a1 + root * (2 * a2 + 3 * a3 * root);
+        const double next = root - value / slope;
+        if (next == root || !std::isfinite(next)) break;
+        const double next_value = a0 + next * (a1 + next * (a2 + next * a3));
+        if (std::fabs(next_value) >= std::fabs(value)) break;
+        root = next;
+        value = next_value;
+    }
+    return root;
+}
+
+double spread_across(const Moments& m) {
+    const double half_trace = (m.xx + m.yy) / 2;
+    const double half_width = std::hypot((m.xx - m.yy) / 2, m.xy);
+    return (m.xx * m.yy - m.xy * m.xy) / (half_trace + half_width);
+}
+
+double angle_of_spread(const Moments& m) {
+    return std::atan2(2 * m.xy, m.xx - m.yy) / 2;
+}
+
+/// Whether rounding of the coordinates alone can explain every distance from the line along the
+/// greatest spread. Points that are plainly no line are not looked at again.
+bool is_line(Values x, Values y, const CheckedPoints& points, const Moments& m) {
+    constexpr double plainly = 1e-9;
+    if (spread_across(m) > plainly * (m.xx + m.yy)) return false;
+    const double angle = angle_of_spread(m), along_x = std::cos(angle), along_y = std::sin(angle);
+    double low = 0, high = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double across = (y[i] - y[0]) * along_x - (x[i] - x[0]) * along_y;
+        low = std::min(low, across);
+        high = std::max(high, across);
+    }
+    return high - low <= 4 * std::numeric_limits<double>::epsilon() * points.box.magnitude();
+}
+
+} // namespace
+
+Result<SeenCircle> starting_circle(Values x, Values y, const CheckedPoints& points) {
+    // the mean of long lists has a rounding of its own: the moments say what is left
+    const Moments m = moments_about(x, y, points.mean_x, points.mean_y);
+    if (is_line(x, y, points, m)) return refuse_line();
+    const double root = taubin_root(m);
+    const double xx = m.xx - root, yy = m.yy - root;
+    const double determinant = xx * yy - m.xy * m.xy;
+    const double a = (m.xz * yy - m.yz * m.xy) / determinant / 2;
+    const double b = (m.yz * xx - m.xz * m.xy) / determinant / 2;
+    const double radius = std::sqrt(a * a + b * b + m.xx + m.yy);
+    const double extent = points.box.extent();
+    if (std::isfinite(radius) && radius < largest_radius_in_extents * extent)
+        return seen_from(points.mean_x, points.mean_y, a, b, radius);
+    // nearly straight: a flat arc along the greatest spread, for the refinement to bend
+    const double angle = angle_of_spread(m), far = 10 * extent;
+    return seen_from(points.mean_x, points.mean_y, -far * std::sin(angle), far * std::cos(angle),
+                     far);
+}
+
+} // namespace axiscal::circle

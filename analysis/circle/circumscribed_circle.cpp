@@ -1,0 +1,91 @@
+// The smallest circle around all points stands on two or three of them. The point that lies
+// furthest outside joins the circle's own; the smallest circle of those (four at most) is the next:
+// radii only grow, so that no set comes twice (E. Welzl's problem, solved by pivots as B. Gaertner
+// does, Fast and robust smallest enclosing balls, 1999).
+
+#include "analysis/circle/candidate_kernels.hpp"
+#include "analysis/circle/circle_fit.hpp"
+#include "analysis/circle/circle_start.hpp"
+#include "analysis/circle/point_check.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace axiscal {
+namespace {
+
+using namespace circle;
+
+struct Place {
+    double x, y;
+};
+
+struct Around {
+    PlainCircle circle;
+    std::vector<Place> support;
+};
+
+double distance(const PlainCircle& c, const Place& p) {
+    return std::hypot(p.x - c.x, p.y - c.y);
+}
+
+PlainCircle through(const Place& p, const Place& q) {
+    return {(p.x + q.x) / 2, (p.y + q.y) / 2, std::hypot(q.x - p.x, q.y - p.y) / 2};
+}
+
+/// Not finite for three on a line.
+PlainCircle through(const Place& p, const Place& q, const Place& r) {
+    const double bx = q.x - p.x, by = q.y - p.y, cx = r.x - p.x, cy = r.y - p.y;
+    const double twice = 2 * (bx * cy - by * cx), b = bx * bx + by * by, c = cx * cx + cy * cy;
+    const double x = (cy * b - by * c) / twice, y = (bx * c - cx * b) / twice;
+    return {p.x + x, p.y + y, std::hypot(x, y)};
+}
+
+bool holds(const PlainCircle& circle, const std::vector<Place>& support) {
+    constexpr double rounding = 1e-14;
+    for (const Place& p : support)
+        if (!(distance(circle, p) <= circle.radius * (1 + rounding))) return false;
+    return true;
+}
+
+/// The smallest circle around the support and the new point, which it stands on.
+Around grown(const std::vector<Place>& support, const Place& added) {
+    Around best{{0, 0, std::numeric_limits<double>::infinity()}, {}};
+    const auto consider = [&](const PlainCircle& circle, std::vector<Place> stands_on) {
+        if (circle.radius < best.circle.radius && holds(circle, support))
+            best = {circle, std::move(stands_on)};
+    };
+    for (std::size_t i = 0; i < support.size(); ++i) {
+        consider(through(added, support[i]), {added, support[i]});
+        for (std::size_t j = 0; j < i; ++j)
+            consider(through(added, support[i], support[j]), {added, support[i], support[j]});
+    }
+    return best;
+}
+
+} // namespace
+
+Result<PlainCircle> fit_minimum_circumscribed_circle(Values x, Values y) {
+    AXISCAL_TRY(const CheckedPoints points, check_points(x, y));
+    AXISCAL_CHECK(starting_circle(x, y, points));
+    const double origin_x = points.mean_x, origin_y = points.mean_y;
+    const auto furthest_from = [&](const PlainCircle& c) {
+        const std::size_t i = find_furthest({x, y, origin_x + c.x, origin_y + c.y});
+        return Place{x[i] - origin_x, y[i] - origin_y};
+    };
+    const Place first = furthest_from({});
+    const Place second = furthest_from({first.x, first.y, 0});
+    Around now{through(first, second), {first, second}};
+    constexpr int most_pivots = 1000; // about ten are needed
+    for (int i = 0; i < most_pivots; ++i) {
+        const Place outside = furthest_from(now.circle);
+        if (distance(now.circle, outside) <= now.circle.radius) break;
+        const Around next = grown(now.support, outside);
+        if (!(next.circle.radius > now.circle.radius)) break;
+        if (next.support.empty()) break;
+        now = next;
+    }
+    return PlainCircle{origin_x + now.circle.x, origin_y + now.circle.y, now.circle.radius};
+}
+
+} // namespace axiscal

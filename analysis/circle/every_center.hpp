@@ -1,0 +1,22 @@
+#pragma once
+// Every centre that a few points can define. Pure.
+
+#include "analysis/circle/circle_fit.hpp"
+#include "analysis/circle/point_check.hpp"
+#include "analysis/circle/seen_circle.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace axiscal::circle {
+
+/// A minimum zone has two points on each circle: its centre lies on the bisectors of two pairs.
+/// Tries all of them (n^4 / 8) and gives up to eight of the narrowest, narrower than `width`.
+std::vector<SeenCircle>
+narrowest_centers(Values x, Values y, double origin_x, double origin_y, double width);
+
+/// The largest circle with three of the points on it, none in it, and its centre surrounded by the
+/// three; larger than `radius`. Tries all of them (n^3 / 6).
+std::optional<PlainCircle> largest_empty_circle(Values x, Values y, double radius);
+
+} // namespace axiscal::circle

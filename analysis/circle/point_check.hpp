@@ -1,0 +1,34 @@
+#pragma once
+// What every circle fit asks of its points first. Pure.
+
+#include "analysis/quantity/result.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace axiscal::circle {
+
+using Values = std::span<const double>;
+
+struct Box {
+    double low_x = 0, high_x = 0, low_y = 0, high_y = 0;
+    [[nodiscard]] double extent() const;    ///< of its diagonal
+    [[nodiscard]] double magnitude() const; ///< largest |coordinate|
+};
+
+struct CheckedPoints {
+    Box box;
+    double mean_x = 0, mean_y = 0;
+    /// Indices of the first distinct points, four at most: three are enough to be a circle's own.
+    std::vector<std::size_t> distinct;
+};
+
+/// @errors Fault::bad_case: lists of different length, a coordinate that is not finite or beyond
+/// 1e12 ("points[7]"), fewer than three distinct points ("points").
+Result<CheckedPoints> check_points(Values x, Values y);
+
+/// What a fit that found no circle says.
+tl::unexpected<Error> refuse_line();
+
+} // namespace axiscal::circle

@@ -1,0 +1,125 @@
+#include "analysis/circle/circle_fit.hpp"
+#include "tests/unit/analysis/circle_points.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace axiscal {
+namespace {
+
+using test::arc;
+using test::listed;
+using test::Points;
+using test::points_of;
+
+MinimumZoneCircle zone(const Points& points) {
+    const auto circle = fit_minimum_zone_circle(points.x, points.y);
+    EXPECT_TRUE(circle.has_value()) << circle.error().detail;
+    return circle.value_or(MinimumZoneCircle{});
+}
+
+double largest_magnitude(const Points& points) {
+    double largest = 0;
+    for (const auto* values : {&points.x, &points.y})
+        for (const double value : *values)
+            largest = std::max(largest, std::fabs(value));
+    return largest;
+}
+
+void expect_certified(const Points& points, const MinimumZoneCircle& c) {
+    const double scale = std::max(c.outer_radius, largest_magnitude(points));
+    EXPECT_GE(c.gap, 0);
+    EXPECT_LE(c.gap, 1e-12 * scale);
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+        const double d = std::hypot(points.x[i] - c.x, points.y[i] - c.y);
+        low = std::min(low, d);
+        high = std::max(high, d);
+    }
+    EXPECT_NEAR(c.outer_radius, high, 2e-15 * scale);
+    EXPECT_NEAR(c.inner_radius, low, 2e-15 * scale);
+    EXPECT_NEAR(c.width, high - low, 4e-15 * scale);
+    for (const ControlPoint& p : c.control_points)
+        EXPECT_NEAR(std::hypot(points.x[p.index] - c.x, points.y[p.index] - c.y),
+                    p.side == ZoneSide::outer ? high : low, 1e-12 * scale);
+}
+
+TEST(MinimumZoneCircle, IsNeverWiderThanTheThirdPartyProgramOnNistsSets) {
+    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+        SCOPED_TRACE(set.at("id"));
+        const Points points = points_of(set.at("points"));
+        const auto circle = zone(points);
+        const double theirs = set.at("alglib_3_19").at("mzc_width").get<double>();
+        EXPECT_LE(circle.width, theirs + 1e-13);
+        EXPECT_GE(circle.width, theirs - 5e-9); // it stops at a tolerance of its own
+        const auto& exhaustive = set.at("recomputed");
+        if (exhaustive.contains("mzc_width_exhaustive")) {
+            EXPECT_NEAR(circle.width, exhaustive.at("mzc_width_exhaustive").get<double>(), 1e-13);
+        }
+        expect_certified(points, circle);
+        EXPECT_FALSE(circle.wide);
+        EXPECT_FALSE(circle.strip);
+    }
+}
+
+TEST(MinimumZoneCircle, HasTheWidthOfLobedCirclesInClosedForm) {
+    for (const auto& set : test::reference_json("circles.json").at("sets")) {
+        if (!set.contains("exact")) continue;
+        SCOPED_TRACE(set.at("id"));
+        const Points points = points_of(set.at("points"));
+        const auto circle = zone(points);
+        EXPECT_NEAR(circle.width, set.at("exact").at("mzc_width").get<double>(), 1e-13);
+        EXPECT_NEAR(circle.x, set.at("exact").at("mzc")[0].get<double>(), 1e-13);
+        EXPECT_NEAR(circle.y, set.at("exact").at("mzc")[1].get<double>(), 1e-13);
+        expect_certified(points, circle);
+    }
+}
+
+TEST(MinimumZoneCircle, FindsTheNarrowestZoneOfGandersPointsAndSaysThatItIsWide) {
+    const Points points = listed({{1, 7}, {2, 6}, {5, 8}, {7, 7}, {9, 5}, {3, 7}});
+    const auto circle = zone(points);
+    EXPECT_NEAR(circle.width, 1.3536150616046267, 1e-13); // a local search stops at 1.3879
+    EXPECT_TRUE(circle.wide);
+    EXPECT_EQ(circle.search, ZoneSearch::exhaustive);
+    expect_certified(points, circle);
+}
+
+TEST(MinimumZoneCircle, OfThreePointsHasNoWidth) {
+    const Points points = listed({{0, 0}, {4, 0}, {0, 3}, {4, 0}});
+    const auto circle = zone(points);
+    EXPECT_EQ(circle.width, 0);
+    EXPECT_EQ(circle.gap, 0);
+    EXPECT_EQ(circle.outer_radius, circle.inner_radius);
+    EXPECT_NEAR(circle.x, 2, 1e-14);
+    EXPECT_NEAR(circle.y, 1.5, 1e-14);
+    expect_certified(points, circle);
+}
+
+TEST(MinimumZoneCircleRefuses, LinesAndFewerThanThreeDistinctPoints) {
+    for (const Points& points :
+         {listed({{0, 0}, {1, 1}, {5, 5}}), listed({{1, 2}, {3, 4}, {1, 2}}), Points{}}) {
+        const auto circle = fit_minimum_zone_circle(points.x, points.y);
+        ASSERT_FALSE(circle.has_value());
+        EXPECT_EQ(circle.error().field, "points");
+    }
+}
+
+TEST(BoundingCircles, AgreeWithTheThirdPartyProgramOnNistsSets) {
+    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+        SCOPED_TRACE(set.at("id"));
+        const Points points = points_of(set.at("points"));
+        const auto around = fit_minimum_circumscribed_circle(points.x, points.y);
+        ASSERT_TRUE(around.has_value());
+        const auto& theirs = set.at("alglib_3_19");
+        EXPECT_NEAR(around->radius, theirs.at("mcc")[2].get<double>(), 5e-12);
+        const auto inside = fit_maximum_inscribed_circle(points.x, points.y);
+        EXPECT_EQ(inside.has_value(), set.at("arc_deg").get<double>() > 181);
+        if (inside) {
+            EXPECT_GE(inside->radius, theirs.at("mic")[2].get<double>() - 1e-12);
+        }
+    }
+}
+
+} // namespace
+} // namespace axiscal
