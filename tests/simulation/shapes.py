@@ -35,6 +35,23 @@ def sequence_block_mirrored(b):
     every_point_is_there(b)
 
 
+@sentence("SequenceBlockWithTheLowWordFirstCarriesARun")
+def sequence_block_low_word_first(b):
+    b.station["trigger"]["low_word_first"] = True
+    b.scenario["cnc"]["low_word_first"] = True
+    b.begin_run()
+    every_point_is_there(b)
+
+
+@sentence("AMixUpOfTheWordOrderGivesNoPoint")
+def word_order_mixed_up(b):
+    # The first targets lie beyond 6.5 mm: their counts need both words.
+    b.scenario["cnc"]["low_word_first"] = True
+    b.begin_run()
+    run = b.wait_for_refusal("wrong_target")
+    expect(run["step"] == 0 and run["done"] == 0, f"a point was taken: {run}")
+
+
 @sentence("SingleRegisterCarriesARun")
 def single_register(b):
     b.trigger("single-register", "tcp")
@@ -42,9 +59,23 @@ def single_register(b):
     every_point_is_there(b)
 
 
+@sentence("SingleRegisterOverRtuCarriesARun")
+def single_register_rtu(b):
+    b.trigger("single-register", "rtu")
+    b.begin_run()
+    every_point_is_there(b)
+
+
 @sentence("CoilAndIndexCarriesARun")
 def coil_and_index(b):
     b.trigger("coil-and-index", "tcp")
+    b.begin_run()
+    every_point_is_there(b)
+
+
+@sentence("CoilAndIndexOverRtuCarriesARun")
+def coil_and_index_rtu(b):
+    b.trigger("coil-and-index", "rtu")
     b.begin_run()
     every_point_is_there(b)
 
