@@ -72,6 +72,10 @@ std::string AxisUnits::write_speed(Speed speed) const {
     return write_number(speed.in(mm_per_minute)) + (rotary_ ? " deg/min" : " mm/min");
 }
 
+std::string AxisUnits::write_coordinate(Length coordinate) const {
+    return write_number(coordinate.in(mm)) + (rotary_ ? " deg" : " mm");
+}
+
 std::string
 read_address(Settings& table, std::string_view key, const std::optional<std::string>& fallback) {
     std::string host = table.text(key, fallback);
@@ -108,7 +112,7 @@ StationConfig read_station(SettingsDocument& document) {
     read_axis(axis, units, config);
     read_cycle(root.table("cycle"), units, config.cycle);
     read_capture(root.table("capture"), units, config.cycle, config.capture);
-    read_trigger(root.table("trigger"), units, config.trigger);
+    read_trigger(root.table("trigger"), units, config.cycle, config.trigger);
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
     config.statements = read_statements(root.table("certificate"), units, config);

@@ -28,6 +28,8 @@ public:
                 std::optional<Speed> fallback = {}) const;
     /// "1000 mm/min" | "360 deg/min"
     [[nodiscard]] std::string write_speed(Speed speed) const;
+    /// "0.7 mm" | "0.7 deg"
+    [[nodiscard]] std::string write_coordinate(Length coordinate) const;
 
 private:
     bool rotary_;
@@ -45,7 +47,11 @@ void read_capture(Settings capture,
                   AxisUnits units,
                   const CycleConfig& cycle,
                   CaptureConfig& config);
-void read_trigger(Settings trigger, AxisUnits units, TriggerConfig& config);
+/// After the cycle, whose overrun a dwell trigger must be able to see.
+void read_trigger(Settings trigger,
+                  AxisUnits units,
+                  const CycleConfig& cycle,
+                  TriggerConfig& config);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.

@@ -92,7 +92,27 @@ void read_shape_keys(Settings& trigger, TriggerConfig& config) {
     if (coil) config.index_grace = trigger.duration("index_grace", 1ms, 5s, config.index_grace);
 }
 
-void read_dwell(Settings& trigger, AxisUnits units, TriggerConfig& config) {
+/// A halt counts only after the axis was seen to leave the last one: a reversal within window and
+/// hysteresis would give one point where two are awaited.
+void refuse_unseen_overrun(Settings& trigger,
+                           AxisUnits units,
+                           const CycleConfig& cycle,
+                           const TriggerConfig& config) {
+    const Length reach = config.window + config.hysteresis;
+    const bool known = cycle.overrun > Length{}; // else it is refused already
+    if (!known || cycle.overrun > reach) return;
+    trigger.refuse(
+        "hysteresis",
+        "and window together are " + units.write_coordinate(reach) +
+            ", and the axis turns after cycle.overrun = " + units.write_coordinate(cycle.overrun) +
+            ": it would not be seen to leave. Make the overrun larger than the two, or "
+            "the two smaller");
+}
+
+void read_dwell(Settings& trigger,
+                AxisUnits units,
+                const CycleConfig& cycle,
+                TriggerConfig& config) {
     const bool dwell = config.shape == TriggerShape::dwell;
     refuse_unused(trigger, dwell,
                   {"window", "stability_range", "stability_period", "hysteresis", "minimum_halt"},
@@ -104,11 +124,16 @@ void read_dwell(Settings& trigger, AxisUnits units, TriggerConfig& config) {
         trigger.duration("stability_period", 10ms, 60s, config.stability_period);
     config.hysteresis = units.coordinate(trigger, "hysteresis", um(1), mm(50));
     config.minimum_halt = trigger.duration("minimum_halt", 10ms, 10min, config.minimum_halt);
+    if (!trigger.refused("window") && !trigger.refused("hysteresis"))
+        refuse_unseen_overrun(trigger, units, cycle, config);
 }
 
 } // namespace
 
-void read_trigger(Settings trigger, AxisUnits units, TriggerConfig& config) {
+void read_trigger(Settings trigger,
+                  AxisUnits units,
+                  const CycleConfig& cycle,
+                  TriggerConfig& config) {
     config.shape = read_shape(trigger);
     config.transport = read_transport(trigger, config.shape);
     if (trigger.refused("shape") || trigger.refused("transport")) {
@@ -118,7 +143,7 @@ void read_trigger(Settings trigger, AxisUnits units, TriggerConfig& config) {
     read_tcp(trigger, config);
     read_serial(trigger, config);
     read_shape_keys(trigger, config);
-    read_dwell(trigger, units, config);
+    read_dwell(trigger, units, cycle, config);
 }
 
 } // namespace axiscal

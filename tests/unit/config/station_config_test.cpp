@@ -308,6 +308,13 @@ INSTANTIATE_TEST_SUITE_P(
         TriggerCase{"shape = \"dwell\"\nwindow = \"0.5 mm\"\nstability_range = \"2 um\"\n"
                     "hysteresis = \"0.2 mm\"\n",
                     ""},
+        TriggerCase{"shape = \"dwell\"\nwindow = \"1.5 mm\"\nstability_range = \"2 um\"\n"
+                    "hysteresis = \"0.499 mm\"\n",
+                    ""},
+        TriggerCase{"shape = \"dwell\"\nwindow = \"1.5 mm\"\nstability_range = \"2 um\"\n"
+                    "hysteresis = \"0.5 mm\"\n", // the example's overrun is 2 mm
+                    "trigger.hysteresis: and window together are 2 mm, and the axis turns after "
+                    "cycle.overrun = 2 mm"},
         TriggerCase{"shape = \"dwell\"\ntransport = \"tcp\"\n", "does not go with shape \"dwell\""},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"none\"\n",
                     "\"none\" goes with shape \"dwell\" only"},
