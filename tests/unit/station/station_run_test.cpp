@@ -165,6 +165,8 @@ TEST_F(StationRuns, AnAbortWhileTheDatumIsTiedEndsTheArming) {
     ASSERT_TRUE(*answer);
     EXPECT_FALSE(**answer);
     EXPECT_EQ(life.status().run->state, "incomplete");
+    EXPECT_EQ(life.status().run->last_fault, "") << "a person's reason is no fault";
+    EXPECT_EQ(life.status().run->last_sentence, "the wrong machine");
     EXPECT_EQ(life.port->armed, 0);
     EXPECT_FALSE(life.station->abort("again"));
 }
