@@ -98,6 +98,11 @@ def mbpoll(where, table, first, *values, count=1):
     return [int(value) for value in re.findall(r"^\[\d+\]:\s+(-?\d+)", done.stdout, re.M)]
 
 
+def mbpoll_answers(where):
+    words = ["mbpoll", *where[:-1], "-a", "1", "-t", "4", "-r", "1", "-q", "-1", where[-1]]
+    return subprocess.run(words, capture_output=True, timeout=PATIENCE_S).returncode == 0
+
+
 def mbpoll_sequence_block(where, host):
     for sequence in range(1, 4):
         mbpoll(where, 4, 1, 2, sequence)  # CMD capture, CMD_SEQ: one FC16
@@ -114,6 +119,7 @@ def mbpoll_lane(program):
         mbpoll_sequence_block(["-m", "tcp", "-p", str(host.port), "127.0.0.1"], host)
     with SerialCable() as cable, Host(program, "sequence-block", "rtu", cable.ends[0]) as host:
         where = ["-m", "rtu", "-b", "115200", "-P", "none", cable.ends[1]]
+        until(lambda: mbpoll_answers(where), "the first answer: a port forgets what came before silence")
         mbpoll_sequence_block(where, host)
     with Host(program, "single-register", "tcp") as host:
         where = ["-m", "tcp", "-p", str(host.port), "127.0.0.1"]
@@ -197,7 +203,11 @@ def pymodbus_lane(program):
     with Host(program, "sequence-block", "tcp") as host:
         pymodbus_sequence_block(ModbusTcpClient("127.0.0.1", port=host.port), host)
     with SerialCable() as cable, Host(program, "sequence-block", "rtu", cable.ends[0]) as host:
-        pymodbus_sequence_block(ModbusSerialClient(cable.ends[1], baudrate=115200, timeout=3), host)
+        cnc = ModbusSerialClient(cable.ends[1], baudrate=115200, timeout=1)
+        assert cnc.connect()
+        until(lambda: not cnc.read_holding_registers(0, 1, slave=1).isError(),
+              "the first answer: a port forgets what came before silence")
+        pymodbus_sequence_block(cnc, host)
     pymodbus_coil(program)
     pymodbus_as_cnc(program)
 

@@ -41,7 +41,8 @@ TEST(AnalyzeCase, GivesTheClosedFormOfEveryHandCase) {
         const auto found = contract_key.find(key);
         return found == contract_key.end() ? key : found->second;
     };
-    for (const auto& hand : reference("iso230_2_hand.json").at("cases")) {
+    const json cases = reference("iso230_2_hand.json").at("cases");
+    for (const auto& hand : cases) {
         SCOPED_TRACE(hand.at("id"));
         json request = good_case();
         request["targets"] = hand.at("request").at("targets");
@@ -63,7 +64,8 @@ TEST(AnalyzeCase, GivesTheClosedFormOfEveryHandCase) {
 }
 
 TEST(AnalyzeCase, PositionsAreTurnedIntoDeviationsOnce) {
-    for (const json& set : reference("iso230_2_ess_reports.json").at("sets")) {
+    const json sets = reference("iso230_2_ess_reports.json").at("sets");
+    for (const json& set : sets) {
         json request = good_case();
         request["readings"] = "positions";
         request["targets"] = set.at("targets");
