@@ -13,22 +13,14 @@
 
 #include "analysis/positioning_accuracy.hpp"
 
+#include "analysis/positioning/sums.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace axiscal {
 namespace {
-
-/// Re-based on the first value: equal values have exactly that mean, and long coordinates cost no
-/// digits.
-double mean_of(const std::vector<double>& values) {
-    const double base = values.front();
-    double sum = 0;
-    for (const double value : values)
-        sum += value - base;
-    return base + sum / static_cast<double>(values.size());
-}
 
 /// Two passes; n >= 2.
 double standard_deviation_of(const std::vector<double>& values, double mean) {
@@ -37,23 +29,6 @@ double standard_deviation_of(const std::vector<double>& values, double mean) {
         sum += (value - mean) * (value - mean);
     return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
-
-/// Smallest and largest of what was put in.
-class Span {
-public:
-    void include(double low, double high) {
-        low_ = empty_ ? low : std::min(low_, low);
-        high_ = empty_ ? high : std::max(high_, high);
-        empty_ = false;
-    }
-    void include(double value) { include(value, value); }
-    [[nodiscard]] double width() const { return high_ - low_; }
-    [[nodiscard]] double high() const { return high_; }
-
-private:
-    bool empty_ = true;
-    double low_ = 0, high_ = 0;
-};
 
 void add_spread(PositionRow& row,
                 const std::vector<double>& forward,

@@ -1,6 +1,7 @@
 #include "acquisition/run/pass_targets.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "analysis/positioning/target_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -159,12 +160,7 @@ Length highest(const Pass& pass) {
 }
 
 int least_targets(AxisKind kind, Length travel) {
-    if (kind == AxisKind::rotary) {
-        const double degrees = (travel - rounding).in(mm);
-        return degrees <= 90 ? 3 : degrees <= 180 ? 5 : degrees <= 360 ? 8 : 2;
-    }
-    if (travel > long_axis + rounding) return 2;
-    return std::max(5, static_cast<int>(std::ceil(5 * (travel - rounding).in(metre))));
+    return target_rule_for(kind, travel.in(mm)).least_targets;
 }
 
 Result<PassTargets> targets_of(const Pass& pass) {

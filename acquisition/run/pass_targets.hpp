@@ -31,8 +31,8 @@ struct PassTargets {
     std::optional<std::uint64_t> seed;
 };
 
-/// Fewest targets: linear up to 2000 mm max(5, ceil(5 L/1000)); rotary 3 up to 90, 5 up to 180, 8
-/// up to 360 degrees. Longer axes are ruled by their mean interval (250 mm, 45 degrees): 2.
+/// Fewest targets by analysis/positioning/target_rule.hpp; longer axes are ruled by their mean
+/// interval (250 mm, 45 degrees): 2.
 int least_targets(AxisKind kind, Length travel);
 
 /// "12.5 mm" | "12.5 degree".

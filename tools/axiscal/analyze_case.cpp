@@ -23,7 +23,8 @@ constexpr std::array analyses{
     Analysis{"positioning", positioning_case},   Analysis{"air_index", air_index_case},
     Analysis{"expansion", expansion_case},       Analysis{"drift", drift_case},
     Analysis{"straightness", straightness_case}, Analysis{"squareness", squareness_case},
-    Analysis{"angular", angular_case},           Analysis{"diagonals", diagonals_case}};
+    Analysis{"angular", angular_case},           Analysis{"diagonals", diagonals_case},
+    Analysis{"target_rule", target_rule_case},   Analysis{"periodic_error", periodic_error_case}};
 
 Result<ordered_json> analyze_one(const json& object, const std::string* repeated_key) {
     if (repeated_key)

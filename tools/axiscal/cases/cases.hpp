@@ -16,5 +16,7 @@ Result<nlohmann::ordered_json> straightness_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> squareness_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> angular_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> diagonals_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> target_rule_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> periodic_error_case(const nlohmann::json& object);
 
 } // namespace axiscal

@@ -1,100 +1,100 @@
 #include "acquisition/publish/result_json.hpp"
+#include "analysis/positioning/styles.hpp"
 #include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/positioning_input.hpp"
+#include "tools/axiscal/cases/positioning_words.hpp"
+#include "tools/axiscal/cases/reference_angles_member.hpp"
+#include "tools/axiscal/cases/target_rule_member.hpp"
+#include "tools/axiscal/cases/tolerances_member.hpp"
 #include "tools/axiscal/cases/uncertainty_member.hpp"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 namespace axiscal {
 namespace {
 
 using nlohmann::json;
+using nlohmann::ordered_json;
 
-struct Standard {
-    std::string_view name;
-    double cover_factor;
-};
-constexpr std::array standards{Standard{"ISO 230-2:2014", 2}, Standard{"ISO 230-2:2006", 2},
-                               Standard{"ISO 230-2:1997", 2}, Standard{"ISO 230-2:1988", 3}};
-
-void subtract_targets(DeviationTable& table) {
-    for (auto* rows : {&table.forward, &table.backward})
-        for (std::size_t i = 0; i < rows->size(); ++i)
-            for (double& value : (*rows)[i])
-                value -= table.targets[i];
+const Words& known_keys() {
+    static const Words known{"analysis",    "standard",     "axis",        "unit",
+                             "target_unit", "readings",     "targets",     "forward",
+                             "backward",    "compensation", "polygon",     "indexing_table",
+                             "travel",      "interval",     "uncertainty", "tolerances"};
+    return known;
 }
 
-struct Case {
-    DeviationTable table;
-    Standard standard;
-};
-
-Result<std::string> unit_of(const json& object) {
-    AXISCAL_TRY(const json* axis, member(object, "axis", "axis"));
-    if (auto good = check_object(*axis, "axis", {"name", "kind"}); !good)
-        return tl::unexpected(good.error());
-    AXISCAL_TRY(const std::string name, text_of(*axis, "name", "axis.name"));
-    AXISCAL_TRY(const std::string kind, one_of(*axis, "kind", "axis.kind", {"linear", "rotary"}));
-    return one_of(object, "unit", "unit", kind == "linear" ? Words{"mm", "um", "m"} : Words{"deg"});
+void add_artefact(const json& object, ordered_json& document) {
+    const std::string key = artefact_key(object);
+    if (key.empty()) return;
+    document["artefact"]["kind"] = key;
+    document["artefact"]["certificate_sense"] = object.at(key).at("certificate_sense");
+    document["artefact"]["reading_sense"] = object.at(key).value("reading_sense", "with_axis");
 }
 
-Result<Standard> standard_of(const json& object) {
-    Words names;
-    for (const Standard& standard : standards)
-        names.emplace_back(standard.name);
-    AXISCAL_TRY(const std::string name, one_of(object, "standard", "standard", names));
-    return *std::ranges::find(standards, name, &Standard::name);
+/// The rule is of ISO 230-2 alone; `travel` and `interval` are checked for every standard.
+Result<TargetFinding>
+add_target_rule(const json& object, const PositioningInput& input, ordered_json& document) {
+    AXISCAL_TRY(const TargetQuestion question,
+                target_question_of(object, input.axis, input.run.targets(),
+                                   static_cast<int>(input.run.forward().front().size())));
+    AXISCAL_TRY(TargetFinding finding, judge_targets(question));
+    if (input.standard->is_iso()) document["target_rule"] = target_rule_json(question, finding);
+    return finding;
 }
 
-Result<DeviationTable> table_of(const json& object) {
-    DeviationTable table;
-    AXISCAL_TRY(const json* targets, member(object, "targets", "targets"));
-    AXISCAL_TRY(table.targets, numbers_of(*targets, "targets"));
-    AXISCAL_TRY(const json* forward, member(object, "forward", "forward"));
-    AXISCAL_TRY(table.forward, rows_of(*forward, "forward"));
-    if (object.contains("backward")) {
-        AXISCAL_TRY(table.backward, rows_of(object.at("backward"), "backward"));
-    }
-    return table;
+/// The run with its targets in the unit of the deviations, as a budget reads its length from them.
+Result<RunAt20C> in_one_unit(const PositioningInput& input) {
+    DeviationTable table{input.run.targets(), input.run.forward(), input.run.backward(),
+                         input.run.unit()};
+    const double scale = base_units_in(input.axis.target_unit) / base_units_in(input.axis.unit);
+    for (double& target : table.targets)
+        target *= scale;
+    return declare_at_20C(std::move(table), "targets in the unit of the deviations");
 }
 
-Result<Case> case_of(const json& object) {
-    const Words known{"analysis", "standard", "axis",     "unit",         "readings",
-                      "targets",  "forward",  "backward", "compensation", "uncertainty"};
-    if (auto good = check_object(object, "", known); !good) return tl::unexpected(good.error());
-    AXISCAL_TRY(const Standard standard, standard_of(object));
-    AXISCAL_TRY(std::string unit, unit_of(object));
-    AXISCAL_TRY(const std::string readings,
-                one_of(object, "readings", "readings", {"positions", "deviations"}));
-    if (object.contains("compensation")) {
-        AXISCAL_TRY(const auto stated,
-                    one_of(object, "compensation", "compensation", {"already_at_20C"}));
-    }
-    AXISCAL_TRY(DeviationTable table, table_of(object));
-    table.unit = std::move(unit);
-    // positions are first checked as they came: the shape must be right and the numbers sane
-    AXISCAL_TRY(const RunAt20C checked, declare_at_20C(table, "as it came"));
-    if (readings == "positions") subtract_targets(table);
-    return Case{std::move(table), standard};
+Result<void> add_budget(const json& object,
+                        const PositioningInput& input,
+                        const PositioningResult& result,
+                        ordered_json& document) {
+    if (!object.contains("uncertainty")) return {};
+    if (!input.standard->is_iso())
+        return refuse(Fault::bad_case, "uncertainty",
+                      "is known for the figures of ISO 230-2 alone, not for this standard");
+    AXISCAL_TRY(auto asked, uncertainty_member(object.at("uncertainty"), input.axis.kind));
+    AXISCAL_TRY(const RunAt20C run, in_one_unit(input));
+    return add_uncertainty(document, std::move(asked), run, result);
+}
+
+/// Last of all: the verdicts read parameters and uncertainties from the document.
+Result<void> add_limits(const json& object,
+                        const PositioningInput& input,
+                        double travel,
+                        ordered_json& document) {
+    if (!object.contains("tolerances")) return {};
+    AXISCAL_TRY(const ToleranceSet set, tolerance_set_of(object.at("tolerances"), input.axis));
+    add_verdicts(set, travel, document);
+    return {};
 }
 
 } // namespace
 
-Result<nlohmann::ordered_json> positioning_case(const json& object) {
-    AXISCAL_TRY(Case stated, case_of(object));
-    AXISCAL_TRY(const RunAt20C run,
-                declare_at_20C(std::move(stated.table), "a case is taken as measured at 20 degC"));
-    const PositioningResult result =
-        evaluate_positioning(run, std::string{stated.standard.name}, stated.standard.cover_factor);
-    nlohmann::ordered_json document = result_to_json(result);
-    if (object.contains("uncertainty")) {
-        const AxisKind kind = run.unit() == "deg" ? AxisKind::rotary : AxisKind::linear;
-        AXISCAL_TRY(auto asked, uncertainty_member(object.at("uncertainty"), kind));
-        AXISCAL_CHECK(add_uncertainty(document, std::move(asked), run, result));
-    }
+Result<ordered_json> positioning_case(const json& object) {
+    AXISCAL_CHECK(check_object(object, "", known_keys()));
+    AXISCAL_TRY(const PositioningInput input, positioning_input_of(object));
+    const PositioningStandard& standard = *input.standard;
+    const auto result = evaluate_positioning(input.run, std::string{standard.name},
+                                             standard.is_iso() ? standard.cover_factor : 2);
+    ordered_json document = standard.is_iso()
+                                ? result_to_json(result)
+                                : style_to_json(evaluate_style(standard.figures, input.run), input);
+    AXISCAL_CHECK(add_budget(object, input, result, document));
+    add_words(input, result.positions, document);
+    add_artefact(object, document);
+    AXISCAL_TRY(const TargetFinding finding, add_target_rule(object, input, document));
+    AXISCAL_CHECK(add_limits(object, input, finding.travel, document));
     return document;
 }
 

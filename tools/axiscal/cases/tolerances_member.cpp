@@ -1,0 +1,156 @@
+#include "tools/axiscal/cases/tolerances_member.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace axiscal {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr double largest_magnitude = 1e12;
+
+/// Every parameter of every standard here.
+constexpr std::array<std::string_view, 31> judged_parameters{"A",
+                                                             "A_forward",
+                                                             "A_backward",
+                                                             "E",
+                                                             "E_forward",
+                                                             "E_backward",
+                                                             "M",
+                                                             "R",
+                                                             "R_forward",
+                                                             "R_backward",
+                                                             "B",
+                                                             "B_mean",
+                                                             "P",
+                                                             "Pa",
+                                                             "Ps_max",
+                                                             "Ps_mean",
+                                                             "U_max",
+                                                             "U_mean",
+                                                             "A_raw",
+                                                             "A_raw_forward",
+                                                             "A_raw_backward",
+                                                             "R_raw",
+                                                             "R_raw_forward",
+                                                             "R_raw_backward",
+                                                             "accuracy",
+                                                             "accuracy_forward",
+                                                             "accuracy_backward",
+                                                             "repeatability",
+                                                             "repeatability_forward",
+                                                             "repeatability_backward",
+                                                             "positioning"};
+
+Result<double> positive_at(const json& object, const std::string& key, const std::string& field) {
+    AXISCAL_TRY(const double number, number_at(object, key, field));
+    if (!(number > 0) || number > largest_magnitude)
+        return refuse(Fault::bad_case, field, "must be greater than 0 and at most 1e12");
+    return number;
+}
+
+/// From one unit to another; the quotient of powers of ten is taken so that 22 um are 0.022 mm.
+double converted(double value, const std::string& from, const std::string& to) {
+    const double ratio = base_units_in(from) / base_units_in(to);
+    return ratio >= 1 ? value * ratio : value / (base_units_in(to) / base_units_in(from));
+}
+
+struct LimitReader {
+    std::string band_key, from, to; ///< units
+};
+
+Result<ToleranceLimit>
+limit_of(const json& object, const std::string& field, const LimitReader& reader) {
+    const std::string& band_key = reader.band_key;
+    AXISCAL_CHECK(check_object(object, field, {"parameter", band_key, "limit"}));
+    ToleranceLimit limit;
+    AXISCAL_TRY(limit.parameter, text_of(object, "parameter", field + ".parameter"));
+    if (limit.parameter != "lost_motion" &&
+        std::ranges::find(judged_parameters, limit.parameter) == judged_parameters.end())
+        return refuse(Fault::bad_case, field + ".parameter",
+                      "is no parameter of any standard; see docs/analysis/positioning.md");
+    AXISCAL_TRY(const double stated, positive_at(object, "limit", field + ".limit"));
+    limit.limit = converted(stated, reader.from, reader.to);
+    if (object.contains(band_key)) {
+        AXISCAL_TRY(limit.travel_up_to, positive_at(object, band_key, field + "." + band_key));
+    }
+    return limit;
+}
+
+Result<std::vector<ToleranceLimit>> limits_of(const json& member, const LimitReader& reader) {
+    const std::string field = "tolerances.limits";
+    AXISCAL_TRY(const json* list, axiscal::member(member, "limits", field));
+    if (!list->is_array() || list->empty())
+        return refuse(Fault::bad_case, field, "must be an array of one limit or more");
+    std::vector<ToleranceLimit> limits;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+        AXISCAL_TRY(ToleranceLimit limit, limit_of((*list)[i], indexed(field, i), reader));
+        for (const ToleranceLimit& other : limits)
+            if (other.parameter == limit.parameter && other.travel_up_to == limit.travel_up_to)
+                return refuse(Fault::bad_case, indexed(field, i),
+                              "repeats parameter and band of another limit");
+        limits.push_back(std::move(limit));
+    }
+    return limits;
+}
+
+ordered_json verdict_json(const JudgedFigure& judged, const char* band_key) {
+    ordered_json verdict;
+    verdict["verdict"] = judged.verdict;
+    if (!judged.comparison.empty()) verdict["comparison"] = judged.comparison;
+    if (!judged.reason.empty()) verdict["reason"] = judged.reason;
+    if (judged.value) verdict["value"] = *judged.value;
+    if (judged.expanded_uncertainty) verdict["expanded_uncertainty"] = *judged.expanded_uncertainty;
+    if (judged.limit) verdict["limit"] = *judged.limit;
+    if (judged.travel_up_to) verdict[band_key] = *judged.travel_up_to;
+    return verdict;
+}
+
+std::vector<FigureToJudge> figures_of(const ordered_json& parameters) {
+    std::vector<FigureToJudge> figures;
+    for (const auto& [key, parameter] : parameters.items()) {
+        FigureToJudge figure{key, parameter.at("value").get<double>(), {}};
+        if (parameter.contains("expanded_uncertainty"))
+            figure.expanded_uncertainty =
+                parameter.at("expanded_uncertainty").at("value").get<double>();
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+} // namespace
+
+Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) {
+    AXISCAL_CHECK(check_object(member, "tolerances", {"unit", "limits", "to_be_checked"}));
+    ToleranceSet set;
+    set.kind = axis.kind;
+    const bool linear = axis.kind == AxisKind::linear;
+    AXISCAL_TRY(set.name, text_of(member, "name", "tolerances.name"));
+    AXISCAL_TRY(set.source, text_of(member, "source", "tolerances.source"));
+    AXISCAL_TRY(const std::string unit,
+                one_of(member, "unit", "tolerances.unit",
+                       linear ? Words{"mm", "um", "m"} : Words{"deg", "arcsec"}));
+    if (member.contains("to_be_checked")) {
+        if (!member.at("to_be_checked").is_boolean())
+            return refuse(Fault::bad_case, "tolerances.to_be_checked", "must be true or false");
+        set.to_be_checked = member.at("to_be_checked").get<bool>();
+    }
+    AXISCAL_TRY(set.limits, limits_of(member, {linear ? "travel_up_to_mm" : "travel_up_to_deg",
+                                               unit, axis.unit}));
+    return set;
+}
+
+void add_verdicts(const ToleranceSet& set, double travel, ordered_json& document) {
+    document["tolerances"]["name"] = set.name;
+    document["tolerances"]["source"] = set.source;
+    document["tolerances"]["to_be_checked"] = set.to_be_checked;
+    const char* band_key = set.kind == AxisKind::linear ? "travel_up_to_mm" : "travel_up_to_deg";
+    ordered_json& verdicts = document["verdicts"] = ordered_json::object();
+    for (const JudgedFigure& judged :
+         judge_figures(set.limits, figures_of(document.at("parameters")), travel))
+        verdicts[judged.parameter] = verdict_json(judged, band_key);
+}
+
+} // namespace axiscal
