@@ -49,6 +49,10 @@ std::string_view name_of(ExpansionForm form) {
     return form == ExpansionForm::first_order ? "first_order" : "exact";
 }
 
+std::string_view name_of(EveModel model) {
+    return model == EveModel::difference ? "difference" : "mean";
+}
+
 std::string_view stored_unit_of(ChannelKind kind) {
     switch (kind) {
     case ChannelKind::displacement: return "m";

@@ -6,6 +6,7 @@
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ enum class ChannelKind : std::uint8_t {
 enum class Medium : std::uint8_t { none, air, material };
 enum class AirFormula : std::uint8_t { ciddor, edlen };
 enum class ExpansionForm : std::uint8_t { first_order, exact };
+/// How often the environment counts in a difference of two means of n readings: once (the text of
+/// the source speaks of the mean of n readings) or twice (strict propagation).
+enum class EveModel : std::uint8_t { mean, difference };
 
 std::string_view name_of(AxisKind kind);
 std::string_view name_of(Direction direction); ///< "positive" | "negative"
@@ -40,6 +44,7 @@ std::string_view name_of(ChannelKind kind);
 std::string_view name_of(Medium medium);
 std::string_view name_of(AirFormula formula);
 std::string_view name_of(ExpansionForm form);
+std::string_view name_of(EveModel model);
 /// The unit in which a channel's value is stored: "m", "degC", "Pa", "%", "ppm".
 std::string_view stored_unit_of(ChannelKind kind);
 
@@ -107,6 +112,40 @@ struct AirSetup {
     AirFormula formula = AirFormula::ciddor;
     double co2_ppm = 450;
     Duration oldest = std::chrono::seconds{60}; ///< an older reading is no reading
+};
+
+/// A limit of the device that does not depend on the length, one that grows with it, or none.
+struct DeviceLimit {
+    std::optional<Length> fixed;
+    std::optional<Ratio> per_length;
+    [[nodiscard]] bool stated() const { return fixed || per_length; }
+};
+
+/// Contract keys of the figures of ISO 230-2, in the contract's order.
+inline constexpr std::array<std::string_view, 12> positioning_parameters{
+    "A", "A_forward", "A_backward", "E",          "E_forward", "E_backward",
+    "M", "R",         "R_forward",  "R_backward", "B",         "B_mean"};
+
+/// Largest expanded uncertainty U_T that the person in charge accepts for one parameter.
+struct TargetUncertainty {
+    std::string parameter; ///< contract key, "A_forward"
+    Length limit;
+};
+
+/// What is stated for the uncertainty budget (ISO 230-2 annex A); an empty field is not stated.
+/// Widths are FULL widths of rectangular distributions.
+struct UncertaintySetup {
+    DeviceLimit device_U;     ///< expanded uncertainty of the laser system, air sensors included
+    double device_k = 2;      ///< its coverage factor
+    DeviceLimit device_width; ///< instead of U: width of the band between its limits (+-a: 2a)
+    std::optional<Length> misalignment;      ///< offset of the beam over the measured length, or:
+    std::optional<Angle> misalignment_angle; ///< between beam and axis
+    std::optional<TemperatureDifference> temperature_width; ///< of the material's temperature
+    std::optional<Expansion> expansion_width; ///< of its coefficient; absent: from MaterialSetup's
+                                              ///< standard uncertainty
+    std::optional<Length> eve; ///< E_VE: range of the drift test, largest - smallest reading
+    EveModel eve_model = EveModel::mean;
+    std::vector<TargetUncertainty> targets;
 };
 
 /// What a person states; every field may be empty ("not stated").
@@ -198,6 +237,7 @@ struct RunRecord {
     LaserSetup laser;
     MaterialSetup material;
     AirSetup air;
+    std::optional<UncertaintySetup> uncertainty;
     Statements statements;
     std::vector<InstrumentRecord> instruments;
     std::vector<ChannelRecord> channels;

@@ -55,6 +55,19 @@ constexpr std::array expansion_units{UnitName{"um/(m*K)", 1e-6}, UnitName{"um/m/
                                      UnitName{"ppm/K", 1e-6}, UnitName{"1/K", 1}};
 constexpr std::array<Names, 2> expansion_examples{"11.5 um/(m*K)", "0.5 um/(m*K)"};
 
+constexpr std::array angle_units{UnitName{"mrad", 1e-3},
+                                 UnitName{"urad", 1e-6},
+                                 UnitName{"rad", 1},
+                                 UnitName{"deg", degree.size},
+                                 UnitName{"arcmin", degree.size / 60},
+                                 UnitName{"arcsec", arcsec.size}};
+constexpr std::array<Names, 1> angle_examples{"1 mrad"};
+
+constexpr std::array device_limit_units{UnitName{"um", 1e-6},   UnitName{"nm", 1e-9},
+                                        UnitName{"mm", 1e-3},   UnitName{"um/m", 1e-6},
+                                        UnitName{"nm/m", 1e-9}, UnitName{"ppm", 1e-6}};
+constexpr std::array<Names, 1> device_limit_examples{"0.7 um/m"};
+
 constexpr std::array correction_units{
     UnitName{"K", 1},     UnitName{"degC", 1},   UnitName{"°C", 1}, UnitName{"Pa", 1},
     UnitName{"hPa", 100}, UnitName{"mbar", 100}, UnitName{"%", 1},  UnitName{"ppm", 1}};
@@ -116,6 +129,9 @@ const Measure length_measure{"a length", length_units, length_examples},
     pressure_measure{"a pressure", pressure_units, pressure_examples},
     ratio_measure{"a share", ratio_units, ratio_examples},
     expansion_measure{"a coefficient of expansion", expansion_units, expansion_examples},
+    angle_measure{"an angle", angle_units, angle_examples},
+    device_limit_measure{"a length or a length for each metre", device_limit_units,
+                         device_limit_examples},
     correction_measure{"a correction", correction_units, correction_examples};
 
 Result<Measured> read_measure(std::string_view text, const Measure& measure) {

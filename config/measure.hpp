@@ -29,7 +29,9 @@ struct Measure {
 
 extern const Measure length_measure, rotary_measure, speed_measure, rotary_speed_measure,
     duration_measure, temperature_measure, temperature_difference_measure, pressure_measure,
-    ratio_measure, expansion_measure;
+    ratio_measure, expansion_measure, angle_measure;
+/// A length, or a length for each metre ("0.7 um/m"): read_measure gives m or m/m.
+extern const Measure device_limit_measure;
 /// Additive corrections of a channel; read_measure gives stored units (degC, Pa, %, ppm), not SI.
 extern const Measure correction_measure;
 

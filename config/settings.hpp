@@ -6,6 +6,7 @@
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
+#include "analysis/run_record.hpp"
 
 #include <cstdint>
 #include <initializer_list>
@@ -87,6 +88,9 @@ public:
                         Expansion low,
                         Expansion high,
                         std::optional<Expansion> fallback = {});
+    Angle angle(std::string_view key, Angle low, Angle high, std::optional<Angle> fallback = {});
+    /// "0.5 um", or "0.7 um/m" of the length; from 0 to 1 mm, or 1 mm/m. None when missing.
+    DeviceLimit device_limit(std::string_view key);
     /// Additive correction of a channel, at most `limit` in stored units; none when missing.
     ChannelCorrection correction(std::string_view key, double limit);
     /// ISO date "2026-11-21"; a TOML local date is accepted too.

@@ -131,6 +131,9 @@ Expansion Settings::expansion(std::string_view key,
     return Expansion::from_si(
         impl_->measured(key, expansion_measure, {low.si(), high.si()}, si_of(f)));
 }
+Angle Settings::angle(std::string_view key, Angle low, Angle high, std::optional<Angle> f) {
+    return Angle::from_si(impl_->measured(key, angle_measure, {low.si(), high.si()}, si_of(f)));
+}
 std::vector<Length> Settings::lengths(std::string_view key,
                                       Length low,
                                       Length high,
@@ -142,6 +145,16 @@ std::vector<Length> Settings::rotary_lengths(std::string_view key,
                                              Length high,
                                              const std::optional<std::vector<Length>>& f) {
     return impl_->measured_list(key, rotary_measure, {low.si(), high.si()}, f);
+}
+
+DeviceLimit Settings::device_limit(std::string_view key) {
+    constexpr double largest = 1e-3; // m, or m/m
+    UnitName unit;
+    const double amount = impl_->measured(key, device_limit_measure, {0, largest}, 0.0, &unit);
+    if (unit.name.empty()) return {};
+    if (unit.name == "ppm" || unit.name.ends_with("/m"))
+        return {std::nullopt, Ratio::from_si(amount)};
+    return {Length::from_si(amount), std::nullopt};
 }
 
 ChannelCorrection Settings::correction(std::string_view key, double limit) {

@@ -119,6 +119,7 @@ struct StationConfig {
     TriggerConfig trigger;
     ConsoleConfig console;
     PublishConfig publish;
+    std::optional<UncertaintySetup> uncertainty; ///< of a linear axis; absent: no such table
     Statements statements;
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.

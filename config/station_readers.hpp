@@ -52,6 +52,8 @@ void read_trigger(Settings trigger,
                   AxisUnits units,
                   const CycleConfig& cycle,
                   TriggerConfig& config);
+/// Nothing without the table.
+std::optional<UncertaintySetup> read_uncertainty(Settings root, AxisKind kind);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.

@@ -25,6 +25,12 @@ constexpr std::array tables{
           "trrirrr"},
     Table{"material", "coefficient_per_K, standard_uncertainty_per_K, feedback, form", "rRtt"},
     Table{"air", "formula, co2_ppm, oldest_ns", "tri"},
+    Table{"uncertainty",
+          "device_U_m, device_U_per_m, device_k, device_width_m, device_width_per_m, "
+          "misalignment_m, misalignment_rad, temperature_width_K, expansion_width_per_K, eve_m, "
+          "eve_model",
+          "RRrRRRRRRRt", 2},
+    Table{"uncertainty_target", "parameter, limit_m", "tr", 2},
     Table{"statement", "name, value", "tt"},
     Table{"instrument",
           "name, driver, maker, model, serial, firmware, certificate_number, calibrated_on, due_on",
@@ -150,6 +156,21 @@ ChainedRow row_of_air(const AirSetup& air) {
     return chained("air", {text(name_of(formula)), co2_ppm, whole(oldest.count())});
 }
 
+template <class Amount> Value si_or_nothing(const std::optional<Amount>& amount) {
+    return amount ? Value{amount->si()} : Value{};
+}
+
+ChainedRow row_of_uncertainty(const UncertaintySetup& setup) {
+    const auto& [device_U, device_k, device_width, misalignment, misalignment_angle,
+                 temperature_width, expansion_width, eve, eve_model, targets] = setup;
+    return chained("uncertainty",
+                   {si_or_nothing(device_U.fixed), si_or_nothing(device_U.per_length), device_k,
+                    si_or_nothing(device_width.fixed), si_or_nothing(device_width.per_length),
+                    si_or_nothing(misalignment), si_or_nothing(misalignment_angle),
+                    si_or_nothing(temperature_width), si_or_nothing(expansion_width),
+                    si_or_nothing(eve), text(name_of(eve_model))});
+}
+
 ChainedRow row_of_instrument(const InstrumentRecord& instrument) {
     const auto& [name, driver, maker, model, serial, firmware, certificate, calibrated, due] =
         instrument;
@@ -242,6 +263,35 @@ void read_air(RunRecord& run, RowReader& in) {
     run.air.formula = in.choice({AirFormula::ciddor, AirFormula::edlen});
     run.air.co2_ppm = in.real();
     run.air.oldest = Duration{in.integer()};
+}
+
+template <class Amount> void read_optional(std::optional<Amount>& amount, RowReader& in) {
+    if (const auto si = in.optional_real()) amount = Amount::from_si(*si);
+}
+
+void read_uncertainty(RunRecord& run, RowReader& in) {
+    UncertaintySetup setup;
+    read_optional(setup.device_U.fixed, in);
+    read_optional(setup.device_U.per_length, in);
+    setup.device_k = in.real();
+    read_optional(setup.device_width.fixed, in);
+    read_optional(setup.device_width.per_length, in);
+    read_optional(setup.misalignment, in);
+    read_optional(setup.misalignment_angle, in);
+    read_optional(setup.temperature_width, in);
+    read_optional(setup.expansion_width, in);
+    read_optional(setup.eve, in);
+    setup.eve_model = in.choice({EveModel::mean, EveModel::difference});
+    if (run.uncertainty) return in.reject("stands there twice");
+    run.uncertainty = std::move(setup);
+}
+
+void read_uncertainty_target(RunRecord& run, RowReader& in) {
+    TargetUncertainty target;
+    target.parameter = in.text();
+    target.limit = in.length();
+    if (!run.uncertainty) run.uncertainty.emplace(); // the writer checks each row by itself
+    run.uncertainty->targets.push_back(std::move(target));
 }
 
 void read_statement(RunRecord& run, RowReader& in) {
@@ -341,9 +391,12 @@ void read_closing(RunRecord& run, RowReader& in) {
 }
 
 constexpr std::array<void (*)(RunRecord&, RowReader&), tables.size()> readers{
-    read_run,      read_plan,  read_target,      read_plan_point, read_laser,
-    read_material, read_air,   read_statement,   read_instrument, read_channel,
-    read_datum,    read_point, read_environment, read_event,      read_closing,
+    read_run,        read_plan,        read_target,
+    read_plan_point, read_laser,       read_material,
+    read_air,        read_uncertainty, read_uncertainty_target,
+    read_statement,  read_instrument,  read_channel,
+    read_datum,      read_point,       read_environment,
+    read_event,      read_closing,
 };
 
 } // namespace
@@ -370,6 +423,11 @@ std::vector<ChainedRow> header_rows(const RunRecord& header) {
     rows.push_back(row_of_laser(header.laser));
     rows.push_back(row_of_material(header.material));
     rows.push_back(row_of_air(header.air));
+    if (header.uncertainty) {
+        rows.push_back(row_of_uncertainty(*header.uncertainty));
+        for (const auto& [parameter, limit] : header.uncertainty->targets)
+            rows.push_back(chained("uncertainty_target", {parameter, limit.si()}));
+    }
     for (const auto& [name, value] : named_statements)
         rows.push_back(chained("statement", {text(name), header.statements.*value}));
     for (const auto& instrument : header.instruments)

@@ -83,7 +83,7 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRe
         AXISCAL_CHECK(writer.database_->execute(
             "PRAGMA application_id=" + std::to_string(run_file_application_id) +
             "; PRAGMA user_version=" + std::to_string(run_file_version) + ";"));
-        AXISCAL_CHECK(writer.database_->execute(run_file_schema));
+        AXISCAL_CHECK(writer.database_->execute(run_file_schema(run_file_version)));
         AXISCAL_CHECK(writer.transact(header_rows(header)));
         return writer.head_;
     }();
@@ -205,12 +205,10 @@ Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_last_datum() con
     return sequence_in(*database_, "SELECT sequence FROM datum ORDER BY link DESC LIMIT 1");
 }
 
-Result<std::optional<std::uint16_t>>
-RunFileWriter::sequence_of_skip(std::uint16_t sequence) const {
+Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_skip(std::uint16_t sequence) const {
     if (broken_) return tl::unexpected<Error>(*broken_);
-    return sequence_in(*database_,
-                       "SELECT sequence FROM event WHERE kind='skipped' AND sequence=" +
-                           std::to_string(sequence) + " LIMIT 1");
+    return sequence_in(*database_, "SELECT sequence FROM event WHERE kind='skipped' AND sequence=" +
+                                       std::to_string(sequence) + " LIMIT 1");
 }
 
 Result<void> RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie) {

@@ -14,7 +14,8 @@ tl::unexpected<Error> bad(const std::string& path, const std::string& reason) {
     return fail(Fault::bad_run_file, path + ": " + reason);
 }
 
-Result<void> check_identity(const Database& database, const std::string& path) {
+/// @returns the format of the file.
+Result<int> check_identity(const Database& database, const std::string& path) {
     AXISCAL_TRY(const auto id, database.integer_of("PRAGMA application_id"));
     if (id != run_file_application_id) return bad(path, "this is not an axiscal run file");
     AXISCAL_TRY(const auto version, database.integer_of("PRAGMA user_version"));
@@ -22,9 +23,8 @@ Result<void> check_identity(const Database& database, const std::string& path) {
         return bad(path, "written in format " + std::to_string(version) +
                              " by a newer axiscal; this one reads up to format " +
                              std::to_string(run_file_version));
-    if (version != run_file_version)
-        return bad(path, "format " + std::to_string(version) + " does not exist");
-    return {};
+    if (version < 1) return bad(path, "format " + std::to_string(version) + " does not exist");
+    return static_cast<int>(version);
 }
 
 Result<std::vector<Row>> rows_of(const Database& database, const std::string& sql) {
@@ -40,11 +40,11 @@ Result<std::vector<Row>> rows_of(const Database& database, const std::string& sq
     }
 }
 
-// Word for word the schema we write: no view, trigger, index or generated column can slip in.
-Result<void> check_schema(const Database& database, const std::string& path) {
+// Word for word the schema of its format: no view, trigger, index or generated column can slip in.
+Result<void> check_schema(const Database& database, const std::string& path, int format) {
     const std::string all = "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY name";
     AXISCAL_TRY(const auto ours, Database::in_memory());
-    AXISCAL_CHECK(ours->execute(run_file_schema));
+    AXISCAL_CHECK(ours->execute(run_file_schema(format)));
     AXISCAL_TRY(const auto expected, rows_of(*ours, all));
     AXISCAL_TRY(const auto found, rows_of(database, all + " LIMIT 100"));
     if (found != expected) return bad(path, "the tables are not those of a run file");
@@ -70,16 +70,26 @@ Result<void> check_pages(const Database& database, const std::string& path) {
     return bad(path, "damaged: " + (word ? *word : std::string{"no verdict"}));
 }
 
-Result<std::unique_ptr<Database>> open_checked(const std::string& path) {
+struct CheckedFile {
+    std::unique_ptr<Database> database;
+    int format = run_file_version;
+};
+
+Result<CheckedFile> open_file(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return fail(Fault::not_found, path + " is not a file");
     AXISCAL_TRY(auto database,
                 Database::open(path, Database::Access::read_only, Fault::bad_run_file));
     AXISCAL_CHECK(database->execute("BEGIN")); // one state, even while the run goes on
-    AXISCAL_CHECK(check_identity(*database, path));
-    AXISCAL_CHECK(check_schema(*database, path));
-    return database;
+    AXISCAL_TRY(const int format, check_identity(*database, path));
+    AXISCAL_CHECK(check_schema(*database, path, format));
+    return CheckedFile{std::move(database), format};
+}
+
+Result<std::unique_ptr<Database>> open_checked(const std::string& path) {
+    AXISCAL_TRY(CheckedFile file, open_file(path));
+    return std::move(file.database);
 }
 
 /// Rows of one table in chain order, read as the chain reaches them.
@@ -108,9 +118,11 @@ struct TableCursor {
     }
 };
 
-Result<std::vector<TableCursor>> open_cursors(const Database& database, const std::string& path) {
+Result<std::vector<TableCursor>>
+open_cursors(const Database& database, const std::string& path, int format) {
     std::vector<TableCursor> cursors;
     for (const auto& table : chained_tables()) {
+        if (table.since > format) continue;
         const std::string name{table.name};
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         if (count > most_rows) return bad(path, name + " has more rows than any run");
@@ -163,11 +175,12 @@ void put_in_order(RunRecord& run) {
 } // namespace
 
 Result<RunFileContents> read_run_file_contents(const std::string& path) {
-    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto file, open_file(path));
+    const auto& [database, format] = file;
     AXISCAL_CHECK(check_size(*database, path));
     AXISCAL_CHECK(check_pages(*database, path));
     AXISCAL_CHECK(check_header(*database, path));
-    AXISCAL_TRY(auto cursors, open_cursors(*database, path));
+    AXISCAL_TRY(auto cursors, open_cursors(*database, path, format));
     RunFileContents contents;
     while (TableCursor* next = next_of(cursors)) {
         AXISCAL_CHECK(take_link(contents, *next, path));

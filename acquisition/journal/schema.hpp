@@ -1,13 +1,16 @@
 #pragma once
-// schema.sql as text, put into the program by CMake.
+// schema.sql and schema_2.sql as text, put into the program by CMake.
+
+#include <string>
 
 namespace axiscal {
 
-extern const char* const run_file_schema;
+/// The schema of a format from 1 to run_file_version. A newer format only adds tables.
+std::string run_file_schema(int format);
 
 /// "AXCL": PRAGMA application_id, bytes 68..71 of the file, big-endian.
 inline constexpr int run_file_application_id = 0x4158434C;
-/// PRAGMA user_version of files written here; a newer one is refused.
-inline constexpr int run_file_version = 1;
+/// PRAGMA user_version of files written here; older ones are read, a newer one is refused.
+inline constexpr int run_file_version = 2;
 
 } // namespace axiscal

@@ -96,6 +96,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.laser = laser_of(parts);
     run.material = config.axis.material;
     run.air = config.axis.air;
+    run.uncertainty = config.uncertainty;
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
     for (const auto& [key, value] : request.statements) {

@@ -184,10 +184,6 @@ std::vector<std::string> missing_terms(const UncertaintyBudget& budget) {
 
 } // namespace
 
-std::string_view name_of(EveModel model) {
-    return model == EveModel::difference ? "difference" : "mean";
-}
-
 std::string_view name_of(Distribution distribution) {
     return distribution == Distribution::normal ? "normal" : "rectangular";
 }
@@ -232,9 +228,8 @@ make_budget(const UncertaintyStatement& statement, int approaches, int targets, 
 }
 
 const std::vector<std::string>& uncertain_parameters() {
-    static const std::vector<std::string> keys{"A",         "A_forward",  "A_backward", "E",
-                                               "E_forward", "E_backward", "M",          "R",
-                                               "R_forward", "R_backward", "B",          "B_mean"};
+    static const std::vector<std::string> keys{positioning_parameters.begin(),
+                                               positioning_parameters.end()};
     return keys;
 }
 

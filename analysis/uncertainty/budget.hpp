@@ -16,11 +16,6 @@
 
 namespace axiscal {
 
-/// How often the environment counts in a difference of two means of n readings: once (the text of
-/// the source speaks of the mean of n readings) or twice (strict propagation).
-enum class EveModel : std::uint8_t { mean, difference };
-std::string_view name_of(EveModel model);
-
 /// What is known of the measurement; what is absent contributes nothing and is named in
 /// `UncertaintyBudget::not_stated`.
 struct UncertaintyStatement {

@@ -33,6 +33,7 @@ public:
         run.material.form = pick(2) == 0 ? ExpansionForm::exact : ExpansionForm::first_order;
         run.air = {pick(2) == 0 ? AirFormula::edlen : AirFormula::ciddor, number(),
                    Duration{integer()}};
+        if (pick(3) > 0) fill_uncertainty(run.uncertainty.emplace());
         boost::pfr::for_each_field(run.statements, [&](std::string& field) { field = text(); });
         for (int i = pick(4); i > 0; --i) {
             auto& instrument = run.instruments.emplace_back();
@@ -137,6 +138,25 @@ private:
         plan.overrun = length(), plan.near_tolerance = length(), plan.datum = length();
         for (int i = pick(30); i > 0; --i)
             plan.points.push_back({pick(99), pick(99), direction(), pick(9)});
+    }
+
+    template <class Amount> std::optional<Amount> perhaps() {
+        if (pick(2) == 0) return std::nullopt;
+        return Amount::from_si(number());
+    }
+
+    void fill_uncertainty(UncertaintySetup& setup) {
+        setup.device_U = {perhaps<Length>(), perhaps<Ratio>()};
+        setup.device_k = number();
+        setup.device_width = {perhaps<Length>(), perhaps<Ratio>()};
+        setup.misalignment = perhaps<Length>();
+        setup.misalignment_angle = perhaps<Angle>();
+        setup.temperature_width = perhaps<TemperatureDifference>();
+        setup.expansion_width = perhaps<Expansion>();
+        setup.eve = perhaps<Length>();
+        setup.eve_model = pick(2) == 0 ? EveModel::difference : EveModel::mean;
+        for (int i = pick(4); i > 0; --i) // each parameter once
+            setup.targets.push_back({text() + std::to_string(i), length()});
     }
 
     std::mt19937_64 random_;

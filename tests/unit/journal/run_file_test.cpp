@@ -95,7 +95,7 @@ TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
     const auto bytes = read_bytes(path);
     EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
     EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
-    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\1", 4})); // user_version
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\2", 4})); // user_version
 }
 
 TEST(RunFile, CanBeReadWhileItIsOpen) {
@@ -160,7 +160,7 @@ TEST(RunFile, NamesTheRowThatWasChanged) {
     RandomRun random{9};
     const auto path = scratch.file("r.axiscal");
     write_run(path, random, 6);
-    run_sql(path, "UPDATE point SET reading_m = reading_m + 1e-6 WHERE step = 3");
+    run_sql(path, "UPDATE point SET reading_m = 0.123 WHERE step = 3");
     EXPECT_NE(refusal_of(path).find("(table point) was changed"), std::string::npos)
         << refusal_of(path);
 }
@@ -213,6 +213,72 @@ TEST(RunFile, TellsANewerFormatFromADamagedFile) {
     EXPECT_NE(refusal_of(path).find("does not exist"), std::string::npos);
     run_sql(path, "PRAGMA application_id = 1");
     EXPECT_NE(refusal_of(path).find("not an axiscal run file"), std::string::npos);
+}
+
+/// Made before the uncertainty statement was recorded; kept so that old runs stay readable.
+const std::string file_of_format_1 = AXISCAL_SOURCE_DIR "/tests/reference/fifty_points.axiscal";
+
+TEST(RunFile, OfFormat1IsReadWithoutUncertaintyStatement) {
+    EXPECT_EQ(read_bytes(file_of_format_1).substr(60, 4), (std::string{"\0\0\0\1", 4}));
+    const auto read = read_run_file(file_of_format_1);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_EQ(read->points.size(), 50U);
+    EXPECT_TRUE(read->complete);
+    EXPECT_FALSE(read->uncertainty);
+    EXPECT_TRUE(read_stored_result(file_of_format_1));
+    EXPECT_TRUE(summarize_run_file(file_of_format_1));
+}
+
+/// An open file as a version before this one left it.
+void make_format_1(const std::string& path) {
+    run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; PRAGMA user_version=1");
+}
+
+TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
+    const ScratchFolder scratch;
+    RandomRun random{21};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord run = random.header();
+    run.uncertainty.reset();
+    ASSERT_TRUE(RunFileWriter::create(path, run));
+    make_format_1(path);
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    run.points.push_back(random.point(0));
+    ASSERT_TRUE(writer->append_point(run.points.back()));
+    run.complete = true, run.closing_reason = "done", run.closed = random.tie();
+    ASSERT_TRUE(writer->close(true, "done", run.closed));
+    EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\1", 4}));
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+}
+
+TEST(RunFile, IsRefusedUnderTheNumberOfAnotherFormat) {
+    const ScratchFolder scratch;
+    RandomRun random{22};
+    const auto path = scratch.file("r.axiscal"), old = scratch.file("old.axiscal");
+    write_run(path, random, 1);
+    write_bytes(old, read_bytes(file_of_format_1));
+    run_sql(path, "PRAGMA user_version = 1");
+    run_sql(old, "PRAGMA user_version = 2");
+    EXPECT_NE(refusal_of(path).find("tables are not those"), std::string::npos);
+    EXPECT_NE(refusal_of(old).find("tables are not those"), std::string::npos);
+}
+
+TEST(RunFile, ChainsTheUncertaintyStatement) {
+    const ScratchFolder scratch;
+    for (const std::string change :
+         {"UPDATE uncertainty SET eve_m = 1e-9", "UPDATE uncertainty SET eve_model = 'difference'",
+          "UPDATE uncertainty SET device_k = 3.0", "DELETE FROM uncertainty_target",
+          "UPDATE uncertainty_target SET limit_m = 1.0", "DELETE FROM uncertainty"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        RunRecord run = RandomRun{23}.header();
+        run.uncertainty.emplace().eve = um(1.7);
+        run.uncertainty->targets = {{"A", um(5)}};
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        ASSERT_TRUE(read_run_file(path));
+        run_sql(path, change);
+        EXPECT_NE(refusal_of(path), "accepted") << change;
+    }
 }
 
 TEST(RunFile, RefusesWhatIsNoDatabaseAtAll) {
