@@ -177,10 +177,15 @@ Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256)
                             {},
                             {},
                             true,
+                            {},
                             {}};
     fill_environment(certificate);
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
+    certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor);
+    certificate.preliminary = !certificate.uncertainty.missing.empty();
+    for (const std::string& remark : certificate.uncertainty.remarks)
+        certificate.remarks.push_back(remark);
     return certificate;
 }
 

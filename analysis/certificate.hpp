@@ -5,6 +5,7 @@
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/thermal_compensation.hpp"
+#include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <cstddef>
 #include <string>
@@ -42,8 +43,9 @@ struct Certificate {
     std::string result_digest;
     std::string started_utc, finished_utc, issued_on,
         next_due;            ///< from the run, never from the clock
-    bool preliminary = true; ///< no uncertainty budget yet: "U not evaluated", "preliminary"
+    bool preliminary = true; ///< `uncertainty.missing` is not empty: printed on each page
     std::vector<std::string> remarks;
+    RunUncertainty uncertainty;
 };
 
 /// The whole road from a closed run to its certificate.

@@ -1,6 +1,7 @@
 #include "acquisition/publish/certificate_csv.hpp"
 
-#include "acquisition/publish/result_json.hpp"
+#include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/uncertainty_json.hpp"
 #include "analysis/environment_history.hpp"
 
 #include <charconv>
@@ -63,13 +64,36 @@ void append_head(std::string& csv, const Certificate& certificate) {
 }
 
 void append_parameters(std::string& csv, const Certificate& certificate) {
-    const auto document = result_to_json(certificate.result);
-    for (const auto& [key, parameter] : document.at("parameters").items())
-        append_line(csv, {"# parameter", key, number(parameter.at("value").get<double>()),
-                          field(certificate.result.unit),
-                          certificate.preliminary ? "U not evaluated" : ""});
+    auto document = certificate_to_json(certificate);
+    const std::string unit = field(certificate.result.unit);
+    for (const auto& [key, parameter] : document.at("parameters").items()) {
+        const std::string value = number(parameter.at("value").get<double>());
+        const auto U = parameter.find("expanded_uncertainty");
+        if (U == parameter.end())
+            append_line(csv, {"# parameter", key, value, unit, "U not evaluated"});
+        else
+            append_line(csv, {"# parameter", key, value, unit,
+                              "\u00B1 " + number(U->at("value").get<double>()),
+                              "k = " + number(U->at("k").get<double>())});
+        if (const auto target = parameter.find("target_uncertainty"); target != parameter.end())
+            append_line(csv,
+                        {"# target_uncertainty", key, number(target->at("value").get<double>()),
+                         unit, target->at("met").get<bool>() ? "met" : "not met"});
+    }
     for (const auto& [key, reason] : certificate.result.not_evaluated)
         append_line(csv, {"# not_evaluated", key, field(reason)});
+}
+
+void append_budget(std::string& csv, const Certificate& certificate) {
+    const RunUncertainty& known = certificate.uncertainty;
+    const double divisor = budget_units_per(certificate.result.unit);
+    if (known.budget)
+        for (const Contribution& term : known.budget->contributions)
+            append_line(csv,
+                        {"# budget", std::string{name_of(term.term)}, number(term.u / divisor),
+                         field(certificate.result.unit), field(term.formula), field(term.status)});
+    for (const MissingTerm& term : known.missing)
+        append_line(csv, {"# preliminary", "not stated", field(term.words)});
 }
 
 /// Air and material at one instant; absent where nothing was measured near it.
@@ -119,6 +143,7 @@ std::string certificate_csv(const Certificate& certificate) {
     std::string csv;
     append_head(csv, certificate);
     append_parameters(csv, certificate);
+    append_budget(csv, certificate);
     append_line(csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
                       rotary ? "measured_deg" : "measured_mm",
                       rotary ? "deviation_arcsec" : "deviation_um", "t_air_degC", "p_Pa",

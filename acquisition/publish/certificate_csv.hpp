@@ -11,8 +11,12 @@ namespace axiscal {
 ///   # axiscal.certificate-csv/1
 ///   # <key>,<value>             run, certificate_number, machine, machine_serial, axis, started,
 ///                               finished, standard, sign, run_file_sha256, software_version
-///   # parameter,<key>,<value>,<unit>,U not evaluated      the contract's keys and result unit
+///   # parameter,<key>,<value>,<unit>,± <U>,k = <k>        the contract's keys and result unit;
+///                               "U not evaluated" instead of ± U where a term is not stated
+///   # target_uncertainty,<key>,<U_T>,<unit>,met|not met   where one is stated
 ///   # not_evaluated,<key>,<reason>
+///   # budget,<term>,<u>,<unit>,<formula>,<status>         standard uncertainties
+///   # preliminary,not stated,<what>                       absent when the certificate is final
 ///   run,direction,target_mm,measured_mm,deviation_um,t_air_degC,p_Pa,rh_percent,t_mat_degC,time
 /// `run` counts the approaches from 1, `direction` is "forward" or "backward", `measured` is
 /// target + deviation at 20 °C, `time` is UTC of the middle of the window. Rows stand in the order

@@ -1,6 +1,7 @@
 #include "acquisition/publish/certificate_json.hpp"
 
 #include "acquisition/publish/result_json.hpp"
+#include "acquisition/publish/uncertainty_json.hpp"
 
 namespace axiscal {
 namespace {
@@ -60,6 +61,37 @@ Json plan_of(const Certificate& certificate) {
     return object;
 }
 
+Json device_of(const DeviceLimit& limit) {
+    if (!limit.stated()) return {};
+    Json object;
+    if (limit.fixed) object["um"] = limit.fixed->in(um);
+    if (limit.per_length) object["um_per_m"] = limit.per_length->in(ppm);
+    return object;
+}
+
+template <class Amount, class Unit> Json stated(const std::optional<Amount>& amount, Unit unit) {
+    return amount ? Json(amount->in(unit)) : Json{};
+}
+
+/// As the station file states it; null without a statement.
+Json statement_of(const std::optional<UncertaintySetup>& setup) {
+    if (!setup) return {};
+    Json object;
+    object["device"] = device_of(setup->device_U);
+    object["device_k"] = setup->device_k;
+    object["device_width"] = device_of(setup->device_width);
+    object["misalignment_mm"] = stated(setup->misalignment, mm);
+    object["misalignment_rad"] = stated(setup->misalignment_angle, radian);
+    object["temperature_width_K"] = stated(setup->temperature_width, kelvin);
+    object["expansion_width_um_per_m_K"] = stated(setup->expansion_width, um_per_m_kelvin);
+    object["eve_um"] = stated(setup->eve, um);
+    object["eve_model"] = name_of(setup->eve_model);
+    object["target_um"] = Json::object();
+    for (const auto& [parameter, limit] : setup->targets)
+        object["target_um"][parameter] = limit.in(um);
+    return object;
+}
+
 Json setup_of(const RunRecord& run) {
     Json object;
     object["laser"]["instrument"] = stated(run.laser.instrument);
@@ -77,6 +109,7 @@ Json setup_of(const RunRecord& run) {
     object["air"]["formula"] = name_of(run.air.formula);
     object["air"]["co2_ppm"] = run.air.co2_ppm;
     object["air"]["oldest_s"] = seconds_of(run.air.oldest);
+    object["uncertainty"] = statement_of(run.uncertainty);
     return object;
 }
 
@@ -202,12 +235,29 @@ Json compensation_of(const Certificate& certificate) {
     return object;
 }
 
-/// An object of its own: a new member of `document` may move those that are being read.
+/// By parameter, whose U is not evaluated. An object of its own: a new member of `document` may
+/// move those that are being read.
 Json not_evaluated_for(const Json& document) {
     Json uncertainty = Json::object();
-    for (const auto& [key, value] : document.at("parameters").items())
-        uncertainty[key] = "not evaluated";
+    for (const auto& [key, parameter] : document.at("parameters").items())
+        if (!parameter.contains("expanded_uncertainty")) uncertainty[key] = "not evaluated";
     return uncertainty;
+}
+
+void add_uncertainty(Json& document, const Certificate& certificate) {
+    const RunUncertainty& known = certificate.uncertainty;
+    std::map<std::string, double> targets;
+    if (certificate.run.uncertainty)
+        for (const auto& [parameter, limit] : certificate.run.uncertainty->targets)
+            targets[parameter] = limit.in(um) / budget_units_per(certificate.result.unit);
+    if (known.budget)
+        add_uncertainty_json(document, *known.budget, targets, certificate.result.unit);
+    document["preliminary"] = certificate.preliminary;
+    if (!certificate.preliminary) return;
+    document["missing"] = Json::array();
+    for (const MissingTerm& term : known.missing)
+        document["missing"].push_back(term.words);
+    document["expanded_uncertainty"] = not_evaluated_for(document);
 }
 
 } // namespace
@@ -215,8 +265,7 @@ Json not_evaluated_for(const Json& document) {
 Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
     document["compensation"] = compensation_of(certificate);
-    document["preliminary"] = certificate.preliminary;
-    if (certificate.preliminary) document["expanded_uncertainty"] = not_evaluated_for(document);
+    add_uncertainty(document, certificate);
     document["run"] = run_of(certificate);
     document["environment"] = environment_of(certificate);
     return document;

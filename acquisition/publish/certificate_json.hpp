@@ -15,8 +15,11 @@ namespace axiscal {
 /// - "environment": every channel with place, correction and first, last, least, greatest,
 /// - "run": who, what, when; plan, laser, material, air, instruments, datums, deviations, events,
 ///   remarks, software version, SHA-256 of the run file and digest of the result,
-/// - "preliminary" and, for each parameter, "expanded_uncertainty": "not evaluated" while there is
-///   no uncertainty budget. `parameters` and `positions` are those of the result, unchanged.
+/// - "expanded_uncertainty", "budget" and "target_uncertainty" of add_uncertainty_json(), for each
+///   parameter whose every term is stated,
+/// - "preliminary"; when true, "missing" says in words what is not stated, and
+///   "expanded_uncertainty" names the parameters without U: "not evaluated".
+/// `positions` and the values in `parameters` are those of the result, unchanged.
 /// What a person left empty is null. Lengths are in mm unless the key says otherwise. Every double
 /// survives dump() and parse() exactly.
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate);

@@ -13,11 +13,15 @@ std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certif
 /// Per target: means, s, B_i, R_i; then every single deviation. As many pages as it takes.
 void draw_target_pages(Sheet& sheet, const Certificate& certificate);
 
-/// Environment, compensation to 20 °C, cycle, sensor places, remarks and events.
+/// Environment, compensation to 20 °C, uncertainty budget, cycle, sensor places, remarks and
+/// events.
 /// @param shortened  what the front page could not print in full.
 void draw_condition_pages(Sheet& sheet,
                           const Certificate& certificate,
                           const std::vector<StatedField>& shortened);
+
+/// The budget: what is stated, each term, each parameter, U against its target.
+void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 
 /// Columns and rows of the instrument table. Pure.
 std::vector<TableColumn> instrument_columns();

@@ -282,6 +282,7 @@ void draw_condition_pages(Sheet& sheet,
     draw_compensation_summary(sheet, certificate);
     draw_formulas(sheet, certificate);
     draw_compensation_table(sheet, certificate);
+    draw_uncertainty(sheet, certificate);
     draw_cycle(sheet, certificate);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, certificate);

@@ -102,7 +102,7 @@ void append_cells(TableRow& row,
                   const std::vector<ParameterLine>& lines,
                   std::size_t i,
                   const PaperUnits& units,
-                  bool preliminary) {
+                  const RunUncertainty& uncertainty) {
     if (i >= lines.size()) {
         row.insert(row.end(), 4, "");
         return;
@@ -110,7 +110,40 @@ void append_cells(TableRow& row,
     row.emplace_back(lines[i].symbol);
     row.emplace_back(lines[i].words);
     row.push_back(units.of_deviation(lines[i].value));
-    row.emplace_back(preliminary ? "U not evaluated" : "");
+    const auto* known = uncertainty.budget ? uncertainty.budget->find(lines[i].key) : nullptr;
+    row.push_back(known ? "± " + fixed_up(known->expanded, units.deviation_decimals)
+                        : "U not evaluated");
+}
+
+std::string uncertainty_head(const RunUncertainty& uncertainty) {
+    if (!uncertainty.budget || uncertainty.budget->parameters.empty()) return "Uncertainty";
+    return "± U (k = " + fixed(uncertainty.budget->coverage, 0) + ")";
+}
+
+/// What is missing for U, and where a stated target of U is not kept.
+void draw_uncertainty_notes(Sheet& sheet, const Certificate& certificate) {
+    constexpr TextStyle warning{7.5, true, backward_vermilion};
+    std::string missing, exceeded;
+    for (const MissingTerm& term : certificate.uncertainty.missing)
+        missing += (missing.empty() ? "" : "; ") + term.words;
+    if (!missing.empty())
+        sheet.text("Preliminary: the uncertainty budget lacks " + missing + ".", warning);
+    const auto& budget = certificate.uncertainty.budget;
+    if (!budget) return;
+    if (!budget->parameters.empty())
+        sheet.text("U: expanded uncertainty; its budget stands under \"Measurement uncertainty\".",
+                   {7, false, grey});
+    const PositioningParameters& parameters = certificate.result.parameters;
+    for (const auto& lines :
+         {parameters_of_both_directions(parameters), parameters_of_one_direction(parameters)})
+        for (const ParameterLine& line : evaluated(lines)) {
+            const auto* known = budget->find(line.key);
+            const auto* target = target_uncertainty_of(certificate.run, line.key);
+            if (known && target && known->expanded > target->limit.in(um))
+                exceeded += (exceeded.empty() ? "" : ", ") + std::string{line.symbol};
+        }
+    if (!exceeded.empty())
+        sheet.text("U is above its stated target U_T for " + exceeded + ".", warning);
 }
 
 void draw_parameters(Sheet& sheet, const Certificate& certificate) {
@@ -126,18 +159,20 @@ void draw_parameters(Sheet& sheet, const Certificate& certificate) {
             for (TableRow& row : rows)
                 row.emplace_back();
         }
-        columns.insert(columns.end(), {{"", "", Align::left},
-                                       {"Parameter", "", Align::left},
-                                       {"Value, " + units.deviation, "", Align::right},
-                                       {"Uncertainty", "", Align::left}});
+        columns.insert(columns.end(),
+                       {{"", "", Align::left},
+                        {"Parameter", "", Align::left},
+                        {"Value, " + units.deviation, "", Align::right},
+                        {uncertainty_head(certificate.uncertainty), "", Align::left}});
         for (std::size_t i = 0; i < rows.size(); ++i)
-            append_cells(rows[i], *half, i, units, certificate.preliminary);
+            append_cells(rows[i], *half, i, units, certificate.uncertainty);
     }
     sheet.advance(3);
     sheet.table(columns, rows, 7.5);
     sheet.advance(-1);
     for (const std::string& reason : reasons_not_evaluated(certificate.result))
         sheet.text(reason, {7.5, true});
+    draw_uncertainty_notes(sheet, certificate);
 }
 
 void draw_sign_rule(Sheet& sheet, const Certificate& certificate) {

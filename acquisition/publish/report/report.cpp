@@ -11,6 +11,16 @@ std::string title_of(const Certificate& certificate) {
            stated(said.axis);
 }
 
+/// What is missing, in words that fit a page's head; empty when nothing is.
+std::string preliminary_words(const Certificate& certificate) {
+    if (!certificate.preliminary) return {};
+    if (!certificate.uncertainty.budget) return "PRELIMINARY: no uncertainty budget";
+    std::string names;
+    for (const MissingTerm& term : certificate.uncertainty.missing)
+        names += (names.empty() ? "" : ", ") + term.name;
+    return "PRELIMINARY, not stated: " + names;
+}
+
 PageFrame frame_of(const Certificate& certificate) {
     const Statements& said = certificate.run.statements;
     PageFrame frame;
@@ -21,7 +31,7 @@ PageFrame frame_of(const Certificate& certificate) {
     frame.foot = "Run " + stated(certificate.run.run_id) + " · run file SHA-256 " +
                  stated(certificate.run_file_sha256.substr(0, 16)) + "… · axiscal " +
                  stated(certificate.run.software_version);
-    if (certificate.preliminary) frame.preliminary = "PRELIMINARY: no uncertainty budget";
+    frame.preliminary = preliminary_words(certificate);
     return frame;
 }
 

@@ -21,13 +21,20 @@ void Sheet::begin_page() {
     canvas().paragraph({left + width * 0.52, top}, width * 0.48 - page_room,
                        "Certificate No. " + frame_.certificate_number, {7.5}, 1);
     canvas().paragraph({left, top + 11}, width * 0.5, frame_.subject, small, 1);
-    if (!frame_.preliminary.empty())
-        canvas().paragraph({left + width * 0.52, top + 11}, width * 0.48, frame_.preliminary,
-                           {7.5, true, backward_vermilion}, 1);
+    draw_preliminary();
     canvas().line({left, top + 25}, {right, top + 25}, {ink, 0.6});
     canvas().line({left, bottom - 11}, {right, bottom - 11}, {pale, 0.6});
     canvas().paragraph({left, bottom - 9}, width, frame_.foot, {6.5, false, grey}, 1);
     y_ = content_top;
+}
+
+/// In one line, smaller when there is much to say.
+void Sheet::draw_preliminary() {
+    constexpr double room = width * 0.48, smallest = 5;
+    TextStyle style{7.5, true, backward_vermilion};
+    while (style.size > smallest && canvas().width_of(frame_.preliminary, style) > room)
+        style.size -= 0.25;
+    canvas().paragraph({left + width * 0.52, top + 11}, room, frame_.preliminary, style, 1);
 }
 
 void Sheet::end_page() {

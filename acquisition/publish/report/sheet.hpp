@@ -65,6 +65,7 @@ public:
 private:
     static constexpr double content_top = top + 34, content_bottom = bottom - 16;
     void begin_page();
+    void draw_preliminary();
     void end_page();
 
     PdfDocument& document_;

@@ -47,6 +47,13 @@ std::string fixed(double value, int decimals) {
     return (negative ? "\u2212" : "") + digits;
 }
 
+std::string fixed_up(double value, int decimals) {
+    constexpr double noise = 1e-6; // of the last digit: what arithmetic adds to a round number
+    const double scale = std::pow(10.0, decimals);
+    const double digits = std::ceil(std::abs(value) * scale - noise) / scale;
+    return fixed(value < 0 ? -digits : digits, decimals);
+}
+
 std::string stated(const std::string& text) {
     const bool empty = text.find_first_not_of(" \t\r\n") == std::string::npos;
     return empty ? "not stated" : text;
@@ -122,6 +129,17 @@ std::vector<std::string> reasons_not_evaluated(const PositioningResult& result) 
     for (const auto& [reason, symbols] : groups)
         sentences.push_back("Not evaluated: " + symbols + ": " + reason);
     return sentences;
+}
+
+std::string formula_on_paper(std::string formula) {
+    static constexpr std::pair<std::string_view, std::string_view> signs[]{
+        {"alpha", "α"}, {"theta", "θ"}, {"delta", "δ"}, {"sqrt ", "√"},
+        {"sqrt", "√"},  {"dT", "ΔT"},   {"^2", "²"},    {"_forward", "↑"}};
+    for (const auto& [letters, sign] : signs)
+        for (auto at = formula.find(letters); at != std::string::npos;
+             at = formula.find(letters, at + sign.size()))
+            formula.replace(at, letters.size(), sign);
+    return formula;
 }
 
 ChannelPaper paper_of(ChannelKind kind, Medium medium) {

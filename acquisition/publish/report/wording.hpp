@@ -11,6 +11,8 @@ namespace axiscal {
 
 /// Fixed decimals, true minus U+2212, never "−0.0".
 std::string fixed(double value, int decimals);
+/// The same, rounded away from zero: an uncertainty is never printed smaller than it is.
+std::string fixed_up(double value, int decimals);
 /// The text, or "not stated" when a person left it empty.
 std::string stated(const std::string& text);
 /// "2026-01-02T08:15:03Z" becomes "2026-01-02 08:15:03 UTC"; other texts stay as they are.
@@ -42,6 +44,9 @@ std::vector<ParameterLine> parameters_of_one_direction(const PositioningParamete
 
 /// "A, A↑: reason" for each reason of `not_evaluated`, symbols in printing order.
 std::vector<std::string> reasons_not_evaluated(const PositioningResult& result);
+
+/// "u_EVE sqrt(2/n)" in the signs of paper: alpha, delta, theta as letters, roots, squares.
+std::string formula_on_paper(std::string formula);
 
 /// Paper name, unit and decimals of an environment channel: Pa prints as hPa.
 struct ChannelPaper {

@@ -1,8 +1,11 @@
 #include "acquisition/publish/certificate_csv.hpp"
 #include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/result_digest.hpp"
 #include "acquisition/publish/result_json.hpp"
+#include "tests/unit/analysis/stated_uncertainty.hpp"
 #include "tests/unit/report/synthetic_certificate.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <sstream>
 
@@ -32,6 +35,78 @@ TEST(CertificateJson, SaysPreliminaryForEachParameter) {
     ASSERT_EQ(document.at("parameters").size(), 12u);
     for (const auto& [key, parameter] : document.at("parameters").items())
         EXPECT_EQ(document.at("expanded_uncertainty").at(key), "not evaluated") << key;
+}
+
+RunRecord stated_run() {
+    RunRecord run = test::synthetic_run();
+    run.uncertainty = test::stated_uncertainty();
+    run.uncertainty->targets = {{"R", um(2)}, {"B", um(2)}};
+    return run;
+}
+
+TEST(CertificateJson, GivesEachParameterItsExpandedUncertaintyInTheUnitOfTheResult) {
+    const Certificate certificate = test::certificate_of(stated_run());
+    const Json document = certificate_to_json(certificate);
+    EXPECT_EQ(document.at("preliminary"), false);
+    EXPECT_FALSE(document.contains("expanded_uncertainty") || document.contains("missing"));
+    ASSERT_EQ(document.at("parameters").size(), 12u);
+    for (const auto& [key, parameter] : document.at("parameters").items()) {
+        EXPECT_EQ(parameter.at("expanded_uncertainty").at("k"), 2) << key;
+        EXPECT_GT(parameter.at("expanded_uncertainty").at("value"), 0) << key;
+        EXPECT_TRUE(parameter.contains("budget")) << key;
+    }
+    const double eve_mm = 0.0017 / std::sqrt(12.0), root_44 = std::sqrt(4.4); // n = 5
+    const auto U = [&](const char* key) {
+        return document.at("parameters")
+            .at(key)
+            .at("expanded_uncertainty")
+            .at("value")
+            .get<double>();
+    };
+    EXPECT_NEAR(U("R"), 2 * eve_mm * root_44, 1e-15);
+    EXPECT_NEAR(U("R_forward"), 4 * eve_mm, 1e-15);
+    EXPECT_EQ(document.at("budget").at("terms").size(), 5u);
+    EXPECT_EQ(document.at("budget").at("unit"), "mm");
+    EXPECT_EQ(document.at("run").at("uncertainty").at("eve_um"), 1.7);
+    EXPECT_EQ(document.at("run").at("uncertainty").at("device").at("um_per_m"), 0.7);
+}
+
+TEST(CertificateJson, HoldsUAgainstItsTarget) {
+    const Json document = certificate_to_json(test::certificate_of(stated_run()));
+    const Json& parameters = document.at("parameters");
+    // U(R) = 2.06 um is above 2 um, U(B) = 0.62 um is not
+    EXPECT_EQ(parameters.at("R").at("target_uncertainty").at("met"), false);
+    EXPECT_EQ(parameters.at("B").at("target_uncertainty").at("met"), true);
+    EXPECT_DOUBLE_EQ(parameters.at("B").at("target_uncertainty").at("value"), 0.002);
+    EXPECT_FALSE(parameters.at("A").contains("target_uncertainty"));
+}
+
+TEST(CertificateJson, SaysWhatIsMissingAndWhichParametersItLeavesWithoutU) {
+    RunRecord run = stated_run();
+    run.uncertainty->device_U = {};
+    const Json document = certificate_to_json(test::certificate_of(run));
+    EXPECT_EQ(document.at("preliminary"), true);
+    EXPECT_EQ(document.at("missing"),
+              Json::array({"the expanded uncertainty of the laser system"}));
+    EXPECT_EQ(document.at("expanded_uncertainty").at("A"), "not evaluated");
+    EXPECT_FALSE(document.at("parameters").at("A").contains("expanded_uncertainty"));
+    EXPECT_FALSE(document.at("expanded_uncertainty").contains("R"));
+    EXPECT_TRUE(document.at("parameters").at("R").contains("expanded_uncertainty"));
+}
+
+TEST(CertificateJson, LeavesValuesPositionsAndDigestAsTheyAreWithoutABudget) {
+    const Certificate bare = test::certificate_of(test::synthetic_run()),
+                      stated = test::certificate_of(stated_run());
+    EXPECT_EQ(result_digest(bare.result), result_digest(stated.result));
+    const Json a = certificate_to_json(bare), b = certificate_to_json(stated);
+    EXPECT_EQ(a.at("positions"), b.at("positions"));
+    for (const auto& [key, parameter] : a.at("parameters").items())
+        EXPECT_EQ(parameter.at("value"), b.at("parameters").at(key).at("value")) << key;
+}
+
+TEST(CertificateJson, IsTheSameTextForTheSameRun) {
+    EXPECT_EQ(certificate_json_text(test::certificate_of(stated_run())),
+              certificate_json_text(test::certificate_of(stated_run())));
 }
 
 TEST(CertificateJson, BringsEveryDoubleBackExactly) {
@@ -120,6 +195,19 @@ TEST(CertificateCsv, HasTheDocumentedHeadAndARowForEachPoint) {
         EXPECT_NEAR(std::stod(fields[8]), 22.7 + 0.3 * (100 + 20.0 * planned.step) / 2320, 0.01);
     }
     EXPECT_EQ(rows, 110u);
+}
+
+TEST(CertificateCsv, TellsUItsTargetTheBudgetAndWhatIsMissing) {
+    const std::string final_one = certificate_csv(test::certificate_of(stated_run()));
+    EXPECT_NE(final_one.find(",mm,\u00B1 0.00"), std::string::npos);
+    EXPECT_NE(final_one.find(",k = 2\r\n"), std::string::npos);
+    EXPECT_NE(final_one.find("# target_uncertainty,R,0.002,mm,not met\r\n"), std::string::npos);
+    EXPECT_NE(final_one.find("# budget,environment,"), std::string::npos);
+    EXPECT_EQ(final_one.find("not evaluated"), std::string::npos);
+    EXPECT_EQ(final_one.find("preliminary"), std::string::npos);
+    const std::string bare = certificate_csv(test::certificate_of(test::synthetic_run()));
+    EXPECT_NE(bare.find(",mm,U not evaluated\r\n"), std::string::npos);
+    EXPECT_NE(bare.find("# preliminary,not stated,E_VE of a drift test\r\n"), std::string::npos);
 }
 
 TEST(CertificateCsv, QuotesWhatWouldBreakALine) {

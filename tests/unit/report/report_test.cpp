@@ -2,6 +2,7 @@
 #include "acquisition/publish/report/wording.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "tests/unit/analysis/stated_uncertainty.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,6 +101,14 @@ RunRecord run_of(int approaches, bool bidirectional) {
     return run;
 }
 
+/// Everything stated; U(R) = 2.06 um misses its target, U(B) = 0.62 um keeps it.
+RunRecord stated_run() {
+    RunRecord run = test::synthetic_run();
+    run.uncertainty = test::stated_uncertainty();
+    run.uncertainty->targets = {{"R", um(2)}, {"B", um(2)}};
+    return run;
+}
+
 class Report : public ::testing::Test {
 protected:
     /// Path of the rendered file.
@@ -140,6 +149,44 @@ TEST_F(Report, NumbersPagesAndMarksEachPreliminary) {
     EXPECT_EQ(count(text, "PRELIMINARY"), pages);
 }
 
+TEST_F(Report, OfACompleteBudgetIsFinalAndPrintsUOfEachParameter) {
+    const std::string text = test::text_of(render(stated_run()));
+    EXPECT_EQ(count(text, "not evaluated"), 0);
+    EXPECT_EQ(count(text, "PRELIMINARY"), 0);
+    EXPECT_EQ(count(text, "Preliminary"), 0);
+    EXPECT_THAT(text, HasSubstr("± U (k = 2)"));
+    const Certificate certificate = test::certificate_of(stated_run());
+    for (const ParameterUncertainty& figure : certificate.uncertainty.budget->parameters)
+        EXPECT_THAT(text, HasSubstr("± " + fixed_up(figure.expanded, 1))) << figure.key;
+    EXPECT_GE(count(text, "± 2.1"), 1) << "U(R) = 1.7 sqrt(4.4 / 3) = 2.0588 um, rounded up";
+    for (const char* words : {"Measurement uncertainty", "L = 953.000 mm", "U_cal = 0.7 µm/m",
+                              "e = 1 mm", "R(θ) = 0.7 K", "E_VE = 1.7 µm", "ΔT = 3.2", "2.059"})
+        EXPECT_THAT(text, HasSubstr(words));
+}
+
+TEST_F(Report, HoldsUAgainstItsStatedTarget) {
+    const std::string text = test::text_of(render(stated_run()));
+    EXPECT_THAT(text, HasSubstr("U is above its stated target U_T for R."));
+    EXPECT_THAT(text, HasSubstr("U ≤ U_T"));
+    EXPECT_EQ(count(text, " NO "), 1);
+    EXPECT_EQ(count(text, " yes "), 1);
+    EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("U_T")));
+}
+
+TEST_F(Report, SaysOnEachPageWhatIsMissing) {
+    RunRecord run = stated_run();
+    run.uncertainty->device_U = {};
+    run.uncertainty->temperature_width.reset();
+    const std::string pdf = render(run), text = test::text_of(pdf);
+    EXPECT_EQ(count(text, "PRELIMINARY, not stated: device, temperature"), test::pages_of(pdf));
+    EXPECT_THAT(text, HasSubstr("lacks the expanded uncertainty of the laser system;"));
+    EXPECT_EQ(count(text, "U not evaluated"), 7) << "A, E, M and the one-way A and E";
+    run.uncertainty = UncertaintySetup{};
+    run.material.standard_uncertainty.reset();
+    EXPECT_THAT(test::text_of(render(run)),
+                HasSubstr("device, alignment, temperature, expansion, drift"));
+}
+
 TEST_F(Report, PrintsNotStatedForEveryEmptyField) {
     const std::string text = test::text_of(render(run_without_words()));
     for (const char* key :
@@ -177,15 +224,17 @@ TEST_F(Report, GivesEqualBytesForEqualRuns) {
     const auto once = render_certificate_pdf(test::certificate_of(test::synthetic_run()));
     const auto again = render_certificate_pdf(test::certificate_of(test::synthetic_run()));
     const auto other = render_certificate_pdf(test::certificate_of(test::synthetic_run(2)));
-    ASSERT_TRUE(once && again && other);
+    const auto stated = render_certificate_pdf(test::certificate_of(stated_run()));
+    ASSERT_TRUE(once && again && other && stated);
+    EXPECT_TRUE(*stated == *render_certificate_pdf(test::certificate_of(stated_run())));
     EXPECT_TRUE(*once == *again);
     EXPECT_FALSE(*once == *other) << "the test must be able to fail";
     EXPECT_THAT(*once, HasSubstr("(20260101010000Z)")) << "the end of the run, not the clock";
 }
 
 TEST_F(Report, KeepsInkInsideTheMargins) {
-    for (const RunRecord& run : {test::synthetic_run(), run_without_words(), run_that_overflows(),
-                                 run_of(1, false), run_of(1, true)}) {
+    for (const RunRecord& run : {test::synthetic_run(), stated_run(), run_without_words(),
+                                 run_that_overflows(), run_of(1, false), run_of(1, true)}) {
         const std::string pdf = render(run);
         for (int page = 1; page <= test::pages_of(pdf); ++page) {
             const test::PageImage image = test::image_of(pdf, page);
@@ -196,8 +245,8 @@ TEST_F(Report, KeepsInkInsideTheMargins) {
 }
 
 TEST_F(Report, NeverPrintsOneWordOverAnother) {
-    for (const RunRecord& run : {test::synthetic_run(), run_without_words(), run_that_overflows(),
-                                 run_of(1, false), run_of(9, true)}) {
+    for (const RunRecord& run : {test::synthetic_run(), stated_run(), run_without_words(),
+                                 run_that_overflows(), run_of(1, false), run_of(9, true)}) {
         const auto words = test::words_of(render(run));
         EXPECT_GT(words.size(), 300u);
         EXPECT_THAT(test::collisions_in(words), IsEmpty());

@@ -13,6 +13,19 @@ TEST(Wording, WritesATrueMinusAndNeverMinusZero) {
     EXPECT_EQ(fixed(12, 3), "12.000");
 }
 
+TEST(Wording, NeverMakesAnUncertaintySmaller) {
+    EXPECT_EQ(fixed_up(2.0588, 1), "2.1");
+    EXPECT_EQ(fixed_up(2.01, 1), "2.1");
+    EXPECT_EQ(fixed_up(0.1 + 0.2, 1), "0.3"); // 0.30000000000000004 is 0.3
+    EXPECT_EQ(fixed_up(0, 1), "0.0");
+}
+
+TEST(Wording, WritesFormulasInTheSignsOfPaper) {
+    EXPECT_EQ(formula_on_paper("alpha L R(theta) / (2 sqrt 3)"), "α L R(θ) / (2 √3)");
+    EXPECT_EQ(formula_on_paper("sqrt(u(E)^2 + u(R_forward)^2)"), "√(u(E)² + u(R↑)²)");
+    EXPECT_EQ(formula_on_paper("L (1 - cos delta) / (2 sqrt 3)"), "L (1 - cos δ) / (2 √3)");
+}
+
 TEST(Wording, TellsWhatNobodyStated) {
     EXPECT_EQ(stated(""), "not stated");
     EXPECT_EQ(stated(" \t"), "not stated");

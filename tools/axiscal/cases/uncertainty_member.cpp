@@ -1,5 +1,6 @@
 #include "tools/axiscal/cases/uncertainty_member.hpp"
 
+#include "acquisition/publish/uncertainty_json.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 
 #include <algorithm>
@@ -60,84 +61,11 @@ Result<std::map<std::string, double>> targets_of(const json& member) {
     return targets;
 }
 
-/// How many of the budget's unit (um, arcsec) make one of the case's.
-double divisor_of(const std::string& unit) {
-    constexpr double um_per_mm = 1e3, um_per_m = 1e6, arcsec_per_deg = 3600;
-    if (unit == "mm") return um_per_mm;
-    if (unit == "m") return um_per_m;
-    return unit == "deg" ? arcsec_per_deg : 1;
-}
-
 void default_length(UncertaintyStatement& statement, const RunAt20C& run) {
     constexpr double um_per_m = 1e6;
     const auto [low, high] = std::ranges::minmax(run.targets());
     if (statement.axis_kind == AxisKind::linear && !statement.length_m && high > low)
-        statement.length_m = (high - low) * divisor_of(run.unit()) / um_per_m;
-}
-
-ordered_json term_json(const Contribution& term, double divisor) {
-    ordered_json object;
-    object["term"] = name_of(term.term);
-    object["u"] = term.u / divisor;
-    object["formula"] = term.formula;
-    object["status"] = term.status;
-    object["distribution"] = name_of(term.distribution);
-    return object;
-}
-
-/// The terms that count in one parameter; (factor u)^2 add up to its u^2.
-ordered_json parameter_json(const UncertaintyBudget& budget,
-                            const ParameterUncertainty& figure,
-                            double divisor) {
-    ordered_json object;
-    object["u"] = figure.u / divisor;
-    object["formula"] = figure.formula;
-    object["status"] = figure.status;
-    if (figure.strict_u) {
-        object["strict_propagation"]["u"] = *figure.strict_u / divisor;
-        object["strict_propagation"]["formula"] = "u_EVE sqrt(2 k^2/(n-1) + 2/n)";
-    }
-    object["terms"] = ordered_json::array();
-    for (const Contribution& term : budget.contributions) {
-        const bool environment = term.term == UncertaintyTerm::environment;
-        const double factor = environment ? figure.environment : figure.systematic;
-        if (factor == 0) continue;
-        object["terms"].push_back(term_json(term, divisor));
-        object["terms"].back()["factor"] = factor;
-    }
-    return object;
-}
-
-ordered_json budget_json(const UncertaintyBudget& budget, const std::string& unit, double divisor) {
-    ordered_json object;
-    object["source"] = budget.axis_kind == AxisKind::rotary ? "ISO 230-2 annex B, rotary axis"
-                                                            : "ISO 230-2 annex A, linear axis";
-    object["unit"] = unit;
-    object["n"] = budget.approaches;
-    object["k"] = budget.coverage;
-    object["eve_model"] = name_of(budget.eve_model);
-    if (budget.length_m) object["length_m"] = *budget.length_m;
-    object["terms"] = ordered_json::array();
-    for (const Contribution& term : budget.contributions)
-        object["terms"].push_back(term_json(term, divisor));
-    object["not_stated"] = budget.not_stated;
-    object["marks"] = "S: stands in a source document; R: reconstructed from its structure";
-    return object;
-}
-
-void add_to_parameter(ordered_json& parameter,
-                      const UncertaintyMember& member,
-                      const UncertaintyBudget& budget,
-                      const ParameterUncertainty& figure,
-                      double divisor) {
-    const double U = figure.expanded / divisor;
-    parameter["expanded_uncertainty"]["value"] = U;
-    parameter["expanded_uncertainty"]["k"] = budget.coverage;
-    parameter["budget"] = parameter_json(budget, figure, divisor);
-    const auto target = member.target_uncertainty.find(figure.key);
-    if (target == member.target_uncertainty.end()) return;
-    parameter["target_uncertainty"]["value"] = target->second;
-    parameter["target_uncertainty"]["met"] = U <= target->second;
+        statement.length_m = (high - low) * budget_units_per(run.unit()) / um_per_m;
 }
 
 } // namespace
@@ -180,14 +108,10 @@ Result<void> add_uncertainty(ordered_json& document,
                               static_cast<int>(run.targets().size()), result.cover_factor);
     if (!budget)
         return refuse(Fault::bad_case, field_prefix + budget.error().field, budget.error().detail);
-    const double divisor = divisor_of(result.unit);
-    for (const ParameterUncertainty& figure : budget->parameters)
-        if (auto found = document["parameters"].find(figure.key);
-            found != document["parameters"].end())
-            add_to_parameter(*found, member, *budget, figure, divisor);
-    document["budget"] = budget_json(*budget, result.unit, divisor);
+    add_uncertainty_json(document, *budget, member.target_uncertainty, result.unit);
     if (!member.monte_carlo.asked) return {};
-    return add_monte_carlo(document, member.monte_carlo, *budget, run, result, divisor);
+    return add_monte_carlo(document, member.monte_carlo, *budget, run, result,
+                           budget_units_per(result.unit));
 }
 
 } // namespace axiscal

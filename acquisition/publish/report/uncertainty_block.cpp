@@ -1,0 +1,190 @@
+// The uncertainty budget as a reader checks it: what is stated, what each term gives, how the terms
+// combine for each parameter. Micrometres; runs are of linear axes.
+
+#include "acquisition/publish/report/certificate_pages.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace axiscal {
+namespace {
+
+constexpr TextStyle note{7, false, grey};
+constexpr int decimals_of_u = 3; // of a micrometre
+
+std::string of_u(double u_um) {
+    return fixed(u_um, decimals_of_u);
+}
+
+/// A stated number with the digits that were stated.
+std::string as_stated(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+/// "0.7 µm/m" or "0.5 µm" as it was stated.
+std::string words_of(const DeviceLimit& limit) {
+    std::string words;
+    if (limit.fixed) words = as_stated(limit.fixed->in(um)) + " µm";
+    if (limit.per_length)
+        words += (words.empty() ? "" : " + ") + as_stated(limit.per_length->in(ppm)) + " µm/m · L";
+    return words;
+}
+
+std::string device_words(const UncertaintySetup& setup) {
+    if (setup.device_U.stated())
+        return "U_cal = " + words_of(setup.device_U) + ", k = " + as_stated(setup.device_k);
+    return "R_D = " + words_of(setup.device_width);
+}
+
+std::string alignment_words(const UncertaintySetup& setup) {
+    if (setup.misalignment) return "e = " + as_stated(setup.misalignment->in(mm)) + " mm over L";
+    if (!setup.misalignment_angle) return {};
+    return "δ = " + as_stated(setup.misalignment_angle->in(radian)*1e3) + " mrad";
+}
+
+std::string temperature_words(const UncertaintyStatement& s) {
+    return "α = " + as_stated(s.alpha_um_per_m_K.value_or(0)) +
+           " µm/(m·K), R(θ) = " + as_stated(s.temperature_width_K.value_or(0)) + " K";
+}
+
+std::string expansion_words(const UncertaintyStatement& s) {
+    return "ΔT = " + fixed(s.temperature_offset_K.value_or(0), 2) +
+           " K, R(α) = " + fixed(s.alpha_width_um_per_m_K.value_or(0), 2) + " µm/(m·K)";
+}
+
+struct TermLine {
+    UncertaintyTerm term;
+    const char* name;
+    std::string stated;
+};
+
+std::vector<TermLine> term_lines(const Certificate& certificate) {
+    const UncertaintySetup& setup = *certificate.run.uncertainty;
+    const UncertaintyStatement& s = certificate.uncertainty.statement;
+    using enum UncertaintyTerm;
+    return {{device, "Laser system u_D", device_words(setup)},
+            {misalignment, "Misalignment of the beam u_MIS", alignment_words(setup)},
+            {machine_temperature, "Temperature of the material u_M,M", temperature_words(s)},
+            {machine_expansion, "Expansion coefficient u_E,M", expansion_words(s)},
+            {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};
+}
+
+void draw_terms(Sheet& sheet, const Certificate& certificate) {
+    std::vector<TableRow> rows;
+    for (const TermLine& line : term_lines(certificate)) {
+        const Contribution* known = certificate.uncertainty.budget->find(line.term);
+        if (known)
+            rows.push_back({line.name, line.stated, of_u(known->u),
+                            formula_on_paper(known->formula), known->status});
+        else
+            rows.push_back({line.name, "not stated", "–", "–", "–"});
+    }
+    sheet.table({{"Term", "", Align::left},
+                 {"Stated, or of the run", "", Align::left, true},
+                 {"u", "µm"},
+                 {"Formula", "", Align::left},
+                 {"Mark", "", Align::left}},
+                rows);
+}
+
+struct ParameterGroup {
+    std::string symbols;
+    const ParameterUncertainty* figure = nullptr;
+    std::optional<double> target_um;
+};
+
+/// Evaluated parameters; neighbours of one budget and one target share a line.
+std::vector<ParameterGroup> parameter_groups(const Certificate& certificate) {
+    std::vector<ParameterLine> lines = parameters_of_both_directions(certificate.result.parameters);
+    const auto one_way = parameters_of_one_direction(certificate.result.parameters);
+    lines.insert(lines.end(), one_way.begin(), one_way.end());
+    std::vector<ParameterGroup> groups;
+    for (const ParameterUncertainty& figure : certificate.uncertainty.budget->parameters) {
+        const auto line = std::ranges::find(lines, figure.key, &ParameterLine::key);
+        if (line == lines.end() || !line->value) continue;
+        const TargetUncertainty* target = target_uncertainty_of(certificate.run, figure.key);
+        const auto target_um = target ? std::optional{target->limit.in(um)} : std::nullopt;
+        const bool same = !groups.empty() && groups.back().figure->u == figure.u &&
+                          groups.back().figure->formula == figure.formula &&
+                          groups.back().target_um == target_um;
+        if (same)
+            groups.back().symbols += ", " + std::string{line->symbol};
+        else
+            groups.push_back({std::string{line->symbol}, &figure, target_um});
+    }
+    return groups;
+}
+
+void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) {
+    const auto groups = parameter_groups(certificate);
+    if (groups.empty()) return;
+    const bool targets = std::ranges::any_of(
+        groups, [](const ParameterGroup& group) { return group.target_um.has_value(); });
+    std::vector<TableColumn> columns{
+        {"Parameter", "", Align::left},
+        {"u", "µm"},
+        {"U = " + fixed(certificate.uncertainty.budget->coverage, 0) + " u", "µm"}};
+    if (targets) {
+        columns.push_back({"U_T", "µm"});
+        columns.push_back({"U ≤ U_T", "", Align::left});
+    }
+    columns.push_back({"Combined as", "", Align::left, true});
+    columns.push_back({"Mark", "", Align::left});
+    std::vector<TableRow> rows;
+    for (const ParameterGroup& group : groups) {
+        const ParameterUncertainty& figure = *group.figure;
+        TableRow row{group.symbols, of_u(figure.u), of_u(figure.expanded)};
+        if (targets) {
+            row.push_back(group.target_um ? of_u(*group.target_um) : "–");
+            const bool met = group.target_um && figure.expanded <= *group.target_um;
+            row.emplace_back(!group.target_um ? "no target" : met ? "yes" : "NO");
+        }
+        row.push_back(formula_on_paper(figure.formula));
+        row.push_back(figure.status);
+        rows.push_back(std::move(row));
+    }
+    sheet.table(columns, rows);
+}
+
+void draw_legend(Sheet& sheet, const Certificate& certificate) {
+    const UncertaintyBudget& budget = *certificate.uncertainty.budget;
+    const ParameterUncertainty* both = budget.find("R");
+    std::string words =
+        "u: standard uncertainty; a full width R(…) and E_VE are those of rectangular "
+        "distributions. U is rounded up on page 1. S: stands in a source document; "
+        "R: reconstructed from its structure.";
+    if (both && both->strict_u)
+        words +=
+            " u(R) of the source counts the repeatability of both directions as common; strict "
+            "propagation would give " +
+            of_u(*both->strict_u) + " µm.";
+    sheet.text(words, note);
+}
+
+} // namespace
+
+void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
+    const RunUncertainty& known = certificate.uncertainty;
+    sheet.heading("Measurement uncertainty", known.budget ? 150 : 30);
+    if (!known.budget) {
+        std::string missing;
+        for (const MissingTerm& term : known.missing)
+            missing += (missing.empty() ? "" : "; ") + term.words;
+        sheet.text("Not evaluated: the budget lacks " + missing + ".", {7.5});
+        return;
+    }
+    sheet.text("Budget of ISO 230-2, annex A, over the span of the targets L = " +
+                   fixed(known.statement.length_m.value_or(0) * 1e3, 3) +
+                   " mm; n = " + std::to_string(known.budget->approaches) +
+                   ", m = " + std::to_string(certificate.deviations.targets().size()) +
+                   " targets; u_EVE counts in a mean of n readings by the model \"" +
+                   std::string{name_of(known.budget->eve_model)} + "\".",
+               {7.5});
+    draw_terms(sheet, certificate);
+    draw_parameter_uncertainties(sheet, certificate);
+    draw_legend(sheet, certificate);
+}
+
+} // namespace axiscal

@@ -1,0 +1,24 @@
+#pragma once
+// Expanded uncertainties and their budget in a result document, for cases and certificates alike.
+// Pure.
+
+#include "analysis/uncertainty/budget.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace axiscal {
+
+/// How many of the budget's unit (um, arcsec) make one of the document's ("mm", "m", "deg").
+double budget_units_per(const std::string& unit);
+
+/// Each parameter of `document` that the budget knows gains "expanded_uncertainty" {value, k},
+/// "budget" and, where a target is given, "target_uncertainty" {value, met}; the document gains
+/// "budget". All in `unit`, the targets too. What stands there already stays as it is.
+void add_uncertainty_json(nlohmann::ordered_json& document,
+                          const UncertaintyBudget& budget,
+                          const std::map<std::string, double>& target_uncertainty,
+                          const std::string& unit);
+
+} // namespace axiscal

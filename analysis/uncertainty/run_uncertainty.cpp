@@ -1,0 +1,133 @@
+#include "analysis/uncertainty/run_uncertainty.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+struct NeededTerm {
+    UncertaintyTerm term;
+    const char* name;
+    const char* words;
+};
+constexpr std::array needed_terms{
+    NeededTerm{UncertaintyTerm::device, "device", "the expanded uncertainty of the laser system"},
+    NeededTerm{UncertaintyTerm::misalignment, "alignment", "the misalignment of the beam"},
+    NeededTerm{UncertaintyTerm::machine_temperature, "temperature",
+               "the width of the material's temperature"},
+    NeededTerm{UncertaintyTerm::machine_expansion, "expansion",
+               "the width of the expansion coefficient"},
+    NeededTerm{UncertaintyTerm::environment, "drift", "E_VE of a drift test"}};
+
+std::optional<double> over_length(const DeviceLimit& limit, double length_m) {
+    if (!limit.stated()) return std::nullopt;
+    const double fixed_um = limit.fixed ? limit.fixed->in(um) : 0;
+    return limit.per_length ? fixed_um + limit.per_length->in(ppm)*length_m : fixed_um;
+}
+
+template <class Amount, class Unit>
+std::optional<double> number_of(const std::optional<Amount>& amount, Unit unit) {
+    return amount ? std::optional{amount->in(unit)} : std::nullopt;
+}
+
+std::optional<double> largest_offset_of(const RunRecord& run) {
+    std::optional<double> largest;
+    for (const ChannelRecord& channel : run.channels) {
+        if (channel.kind != ChannelKind::temperature || channel.medium != Medium::material)
+            continue;
+        for (const EnvironmentReading& reading : run.environment)
+            if (reading.channel == channel.id)
+                largest = std::max(largest.value_or(0),
+                                   std::fabs(reading.value - reference_temperature.in_celsius()));
+    }
+    return largest;
+}
+
+/// Full width of the coefficient, um/(m K).
+std::optional<double> expansion_width_of(const RunRecord& run, std::vector<std::string>& remarks) {
+    if (run.uncertainty && run.uncertainty->expansion_width)
+        return run.uncertainty->expansion_width->in(um_per_m_kelvin);
+    if (!run.material.standard_uncertainty) return std::nullopt;
+    const double u = run.material.standard_uncertainty->in(um_per_m_kelvin);
+    const double width = 2 * std::sqrt(3.0) * u;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "Uncertainty: the width of the expansion coefficient is not stated; taken as "
+                  "2 \u221A3 u = %.2f \u00B5m/(m\u00B7K) of its u = %.2f.",
+                  width, u);
+    remarks.emplace_back(text.data());
+    return width;
+}
+
+UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>& remarks) {
+    const UncertaintySetup setup = run.uncertainty.value_or(UncertaintySetup{});
+    UncertaintyStatement s;
+    s.axis_kind = run.plan.axis_kind;
+    const auto [low, high] = std::ranges::minmax(run.plan.targets);
+    s.length_m = (high - low).in(metre);
+    s.device_U = over_length(setup.device_U, *s.length_m);
+    if (s.device_U) s.device_k = setup.device_k;
+    s.device_width = over_length(setup.device_width, *s.length_m);
+    s.misalignment_mm = number_of(setup.misalignment, mm);
+    s.misalignment_rad = number_of(setup.misalignment_angle, radian);
+    s.alpha_um_per_m_K = run.material.coefficient.in(um_per_m_kelvin);
+    s.temperature_width_K = number_of(setup.temperature_width, kelvin);
+    s.temperature_offset_K = largest_offset_of(run);
+    s.alpha_width_um_per_m_K = expansion_width_of(run, remarks);
+    s.eve = number_of(setup.eve, um);
+    s.eve_model = setup.eve_model;
+    return s;
+}
+
+/// A U without one of its terms would be too small: R and B need the environment, the others all.
+void drop_incomplete(UncertaintyBudget& budget) {
+    const bool drift = budget.find(UncertaintyTerm::environment) != nullptr;
+    const bool all = budget.not_stated.empty();
+    std::erase_if(budget.parameters, [&](const ParameterUncertainty& figure) {
+        return !drift || (figure.systematic != 0 && !all);
+    });
+}
+
+std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s) {
+    const std::array stated{s.device_U || s.device_width, s.misalignment_mm || s.misalignment_rad,
+                            s.temperature_width_K.has_value(), s.alpha_width_um_per_m_K.has_value(),
+                            s.eve.has_value()};
+    std::vector<MissingTerm> missing;
+    for (std::size_t i = 0; i < needed_terms.size(); ++i)
+        if (!stated[i]) missing.push_back({needed_terms[i].name, needed_terms[i].words});
+    return missing;
+}
+
+} // namespace
+
+RunUncertainty uncertainty_of(const RunRecord& run, double edition_k) {
+    RunUncertainty out;
+    std::vector<std::string> remarks;
+    if (!run.plan.targets.empty()) out.statement = statement_of(run, remarks);
+    out.missing = missing_terms_of(out.statement);
+    if (!run.uncertainty) return out;
+    out.remarks = std::move(remarks);
+    auto budget = make_budget(out.statement, run.plan.approaches,
+                              static_cast<int>(run.plan.targets.size()), edition_k);
+    if (!budget) {
+        out.missing.push_back(
+            {"budget", "a budget (" + budget.error().field + " " + budget.error().detail + ")"});
+        return out;
+    }
+    drop_incomplete(*budget);
+    out.budget = *std::move(budget);
+    return out;
+}
+
+const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter) {
+    if (!run.uncertainty) return nullptr;
+    const auto& targets = run.uncertainty->targets;
+    const auto found = std::ranges::find(targets, parameter, &TargetUncertainty::parameter);
+    return found == targets.end() ? nullptr : &*found;
+}
+
+} // namespace axiscal

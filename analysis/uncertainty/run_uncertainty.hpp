@@ -1,0 +1,40 @@
+#pragma once
+// The uncertainty budget of one run: what its station file stated (UncertaintySetup), completed by
+// what the run itself knows. Pure.
+
+#include "analysis/run_record.hpp"
+#include "analysis/uncertainty/budget.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+/// What a complete budget needs and the run does not give.
+struct MissingTerm {
+    std::string name;  ///< one word for a page's head: "device"
+    std::string words; ///< "the expanded uncertainty of the laser system"
+};
+
+struct RunUncertainty {
+    UncertaintyStatement statement; ///< what make_budget() was given
+    /// `parameters` holds those alone whose every term is stated: with a term left out, U would be
+    /// too small. None without a statement in the run, or when it was refused.
+    std::optional<UncertaintyBudget> budget;
+    std::vector<MissingTerm> missing; ///< empty: the certificate is final
+    std::vector<std::string> remarks; ///< what was derived instead of stated
+};
+
+/// L is the span of the targets, dT the largest |theta - 20| of all material readings of the run,
+/// n and m are those of the plan, alpha that of the compensation. A device limit for each metre is
+/// taken over L. A width of the expansion coefficient that is not stated is 2 sqrt(3) times its
+/// standard uncertainty, if that one is. A statement that no budget can be made of (a beam off by a
+/// tenth of L) takes no measured run its certificate: it is named in `missing`.
+RunUncertainty uncertainty_of(const RunRecord& run, double edition_k);
+
+/// U_T of one parameter; null when none is stated.
+const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter);
+
+} // namespace axiscal
