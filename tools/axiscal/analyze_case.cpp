@@ -3,6 +3,8 @@
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/separation_csv.hpp"
+#include "tools/axiscal/cases/separation_features.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <algorithm>
@@ -19,12 +21,19 @@ struct Analysis {
     std::string_view name;
     Result<ordered_json> (*evaluate)(const json& object);
 };
-constexpr std::array analyses{
-    Analysis{"positioning", positioning_case},   Analysis{"air_index", air_index_case},
-    Analysis{"expansion", expansion_case},       Analysis{"drift", drift_case},
-    Analysis{"straightness", straightness_case}, Analysis{"squareness", squareness_case},
-    Analysis{"angular", angular_case},           Analysis{"diagonals", diagonals_case},
-    Analysis{"target_rule", target_rule_case},   Analysis{"periodic_error", periodic_error_case}};
+constexpr std::array analyses{Analysis{"positioning", positioning_case},
+                              Analysis{"air_index", air_index_case},
+                              Analysis{"expansion", expansion_case},
+                              Analysis{"drift", drift_case},
+                              Analysis{"straightness", straightness_case},
+                              Analysis{"squareness", squareness_case},
+                              Analysis{"angular", angular_case},
+                              Analysis{"diagonals", diagonals_case},
+                              Analysis{"target_rule", target_rule_case},
+                              Analysis{"periodic_error", periodic_error_case},
+                              Analysis{"error_separation", separation_case},
+                              Analysis{"probing_delay", probing_delay_case},
+                              Analysis{"chebyshev_fit", chebyshev_fit_case}};
 
 Result<ordered_json> analyze_one(const json& object, const std::string* repeated_key) {
     if (repeated_key)
@@ -75,6 +84,10 @@ CaseAnswer answer_array(const CaseText& text) {
 } // namespace
 
 CaseAnswer analyze_cases(std::string_view json_text) {
+    if (is_measurements_csv(json_text)) {
+        const auto table = separation_table_case(json_text);
+        return table ? CaseAnswer{table->dump(2) + "\n", 0, {}} : refuse_all(table.error());
+    }
     const auto text = read_case_text(json_text);
     if (!text) return refuse_all(text.error());
     if (text->document.is_array()) return answer_array(*text);

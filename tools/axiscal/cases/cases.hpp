@@ -18,5 +18,8 @@ Result<nlohmann::ordered_json> angular_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> diagonals_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> target_rule_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> periodic_error_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> separation_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> probing_delay_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> chebyshev_fit_case(const nlohmann::json& object);
 
 } // namespace axiscal
