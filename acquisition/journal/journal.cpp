@@ -22,6 +22,7 @@ constexpr std::chrono::seconds longest_unsaved{2};
 
 struct Journal::Worker {
     using Job = std::function<void()>;
+    using Clock = std::chrono::steady_clock;
 
     Worker(boost::asio::any_io_executor loop_executor, JournalThread where)
         : loop{std::move(loop_executor)} {
@@ -48,20 +49,25 @@ struct Journal::Worker {
             const std::scoped_lock lock{mutex};
             queue.insert(queue.end(), std::make_move_iterator(items.begin()),
                          std::make_move_iterator(items.end()));
+            if (!save_at) save_at = Clock::now() + longest_unsaved;
         }
         if (thread.joinable()) return wake.notify_one();
         (void)save_notes(); // a failure is remembered and fails the next commit
     }
 
-    // Jobs in order; between them, notes that waited long enough.
+    // Jobs in order; between them, notes that waited long enough, however many jobs there are.
     void serve(const std::stop_token& stop) {
         std::unique_lock lock{mutex};
         while (!stop.stop_requested() || !jobs.empty()) {
             const auto has_work = [this] { return !jobs.empty(); };
-            if (noted.empty() && jobs.empty())
-                wake.wait(lock, stop, [this] { return !jobs.empty() || !noted.empty(); });
-            else if (jobs.empty() && !wake.wait_for(lock, stop, longest_unsaved, has_work))
+            if (save_at)
+                wake.wait_until(lock, stop, *save_at, has_work);
+            else
+                wake.wait(lock, stop, [this] { return !jobs.empty() || save_at; });
+            if (save_at && Clock::now() >= *save_at) {
+                save_at = Clock::now() + longest_unsaved; // if it is before a run
                 run_unlocked(lock, [this] { (void)save_notes(); });
+            }
             if (jobs.empty()) continue;
             const Job job = std::move(jobs.front());
             jobs.pop_front();
@@ -77,6 +83,7 @@ struct Journal::Worker {
 
     RunBatch take_notes() {
         const std::scoped_lock lock{mutex};
+        save_at.reset();
         return std::exchange(noted, {});
     }
 
@@ -124,10 +131,12 @@ struct Journal::Worker {
         return closed;
     }
 
-    mutable std::mutex mutex; // guards jobs, noted, broken; the writer belongs to the thread
+    mutable std::mutex
+        mutex; // guards jobs, noted, save_at, broken; the writer belongs to the thread
     std::condition_variable_any wake;
     std::deque<Job> jobs;
     RunBatch noted;
+    std::optional<Clock::time_point> save_at; // when something is noted
     std::optional<Error> broken;
     std::optional<RunFileWriter> writer;
     boost::asio::any_io_executor loop;

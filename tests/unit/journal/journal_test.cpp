@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace axiscal {
@@ -147,6 +148,57 @@ TEST(Journal, WritesNotesWithoutACommitOnFlushAndAtTheEnd) {
         station.journal.note(random.event());
     }
     EXPECT_EQ(read_run_file(path)->events.size(), 2U);
+}
+
+/// How many events are on disk within a time that only bounds a failing test. `meanwhile` is done
+/// between two looks.
+template <class Meanwhile>
+std::size_t events_in_time(const std::string& path, std::size_t wanted, Meanwhile meanwhile) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+    for (;;) {
+        const std::size_t found = read_run_file(path)->events.size();
+        if (found >= wanted || std::chrono::steady_clock::now() > end) return found;
+        meanwhile();
+    }
+}
+
+TEST(Journal, WritesNotesByItselfWithinSeconds) {
+    const ScratchFolder scratch;
+    Station station;
+    RandomRun random{10};
+    const auto path = scratch.file("r.axiscal");
+    ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
+    const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds{50}); };
+    station.journal.note(random.event());
+    EXPECT_EQ(events_in_time(path, 1, wait), 1U);
+    station.journal.note(random.event()); // not only once
+    EXPECT_EQ(events_in_time(path, 2, wait), 2U);
+}
+
+// 2026-11-21: each job began the two seconds anew.
+TEST(Journal, WritesNotesByItselfAlsoWhileItIsAskedAllTheTime) {
+    const ScratchFolder scratch;
+    Station station;
+    RandomRun random{11};
+    const auto path = scratch.file("r.axiscal");
+    ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
+    station.journal.note(random.event());
+    const auto ask = [&] {
+        EXPECT_FALSE(station.receipt(station.journal.receipt_for(0)));
+        std::this_thread::sleep_for(std::chrono::milliseconds{20});
+    };
+    EXPECT_EQ(events_in_time(path, 1, ask), 1U);
+}
+
+TEST(Journal, KeepsWhatIsNotedBeforeARunForTheRun) {
+    const ScratchFolder scratch;
+    Station station;
+    RandomRun random{12};
+    station.journal.note(random.event());
+    std::this_thread::sleep_for(std::chrono::milliseconds{2200}); // the time to save it comes first
+    const auto path = scratch.file("r.axiscal");
+    ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
+    EXPECT_EQ(events_in_time(path, 1, [] {}), 1U);
 }
 
 TEST(Journal, GivesReceiptsOnResumeOnlyForWhatIsInTheFile) {
