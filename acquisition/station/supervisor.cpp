@@ -75,13 +75,15 @@ struct Supervisor::Seat final : SampleSink {
     void identify(const Identity& identity) override { view.identity = identity; }
     void note(Fault fault, std::string sentence) override {
         const MonotonicTime now = supervisor.scheduler_.now();
-        const bool again = fault == view.last_fault && sentence == view.last_note;
+        const bool again = fault == told_fault && sentence == told_note;
         const bool too_soon = told_at && now - *told_at < between_notes;
         view.last_fault = fault;
         view.last_note = std::move(sentence);
         if (again || too_soon) return void(++view.repeats);
         view.repeats = 0;
         told_at = now;
+        told_fault = fault;
+        told_note = view.last_note;
         supervisor.listener_.on_instrument_note(view);
     }
 
@@ -91,6 +93,8 @@ struct Supervisor::Seat final : SampleSink {
     InstrumentView view;
     std::optional<MonotonicTime> last_sample, last_good; ///< on this connection
     std::optional<MonotonicTime> told_at;
+    Fault told_fault = Fault::none; ///< what the listener heard last
+    std::string told_note;
 };
 
 Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListener& listener)

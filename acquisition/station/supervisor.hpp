@@ -53,8 +53,8 @@ public:
     virtual void on_sample(const Sample& sample) = 0;
     /// The state changed; at most a few times a second, for a restart waits.
     virtual void on_instrument_state(const InstrumentView& view) = 0;
-    /// The last note changed. Repeats, and changes within two seconds of the last one told, are
-    /// only counted: an instrument that floods must not drown the others.
+    /// Something new to tell. What was told last, and what comes within two seconds of it, is only
+    /// counted: an instrument that floods must not drown the others. What goes on is told then.
     virtual void on_instrument_note(const InstrumentView& view) = 0;
 };
 
