@@ -1,5 +1,7 @@
 #include "acquisition/station/certificate_writer.hpp"
 
+#include "acquisition/capture/wording.hpp"
+
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -14,6 +16,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
+#include <memory>
 #include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -30,13 +33,19 @@ struct Child {
     int process = -1; ///< pidfd: readable when it has ended
 };
 
-constexpr auto longest_drawing = std::chrono::minutes{2}; // takes a second; a hung one is ended
 constexpr std::size_t longest_answer = 64 * 1024;
 
+using Stream = asio::posix::stream_descriptor;
+
+/// Ends a hung program, and the waiting for what it says: a child of its own may hold the pipe.
 struct KillLate {
-    int process;
+    std::shared_ptr<Stream> process, output;
+    std::shared_ptr<bool> killed;
     void operator()(boost::system::error_code cancelled) const {
-        if (!cancelled) ::syscall(SYS_pidfd_send_signal, process, SIGKILL, nullptr, 0U);
+        if (cancelled || !process->is_open()) return;
+        *killed = true;
+        ::syscall(SYS_pidfd_send_signal, process->native_handle(), SIGKILL, nullptr, 0U);
+        output->close();
     }
 };
 
@@ -77,23 +86,27 @@ std::string last_line(std::string text) {
 Task<Result<std::string>> write_certificate(Scheduler& scheduler,
                                             std::string program,
                                             std::string run_file,
-                                            std::string outbox) {
+                                            std::string outbox,
+                                            std::chrono::milliseconds limit) {
     const std::vector<std::string> words{program, run_file, "--outbox", outbox};
     AXISCAL_CO_TRY(const Child child, start(words));
-    asio::posix::stream_descriptor output{scheduler.executor(), child.output};
-    asio::posix::stream_descriptor process{scheduler.executor(), child.process};
-    asio::steady_timer deadline{scheduler.executor(),
-                                longest_drawing}; // another process: real time
-    deadline.async_wait(KillLate{child.process});
+    const auto output = std::make_shared<Stream>(scheduler.executor(), child.output);
+    const auto process = std::make_shared<Stream>(scheduler.executor(), child.process);
+    const auto killed = std::make_shared<bool>(false);
+    asio::steady_timer deadline{scheduler.executor(), limit}; // another process: real time
+    deadline.async_wait(KillLate{process, output, killed});
     std::string said;
-    co_await asio::async_read(output, asio::dynamic_buffer(said, longest_answer),
+    co_await asio::async_read(*output, asio::dynamic_buffer(said, longest_answer),
                               asio::as_tuple(asio::use_awaitable));
-    output.close(); // one that goes on talking is ended by it
-    co_await process.async_wait(asio::posix::stream_descriptor::wait_read,
-                                asio::as_tuple(asio::use_awaitable));
+    output->close(); // one that goes on talking is ended by it
+    co_await process->async_wait(Stream::wait_read, asio::as_tuple(asio::use_awaitable));
     deadline.cancel();
+    process->close();
     int status = 0;
     ::waitpid(child.pid, &status, 0); // it has ended: this does not wait
+    if (*killed)
+        co_return fail(Fault::io,
+                       program + " has not finished after " + in_seconds(limit) + " and was ended");
     const std::string line = last_line(said);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         co_return fail(Fault::io, program + " failed: " + line);

@@ -3,18 +3,23 @@
 
 #include "drivers/scheduler.hpp"
 
+#include <chrono>
 #include <string>
 
 namespace axiscal {
 
-/// Runs `program run_file --outbox outbox` and waits for it without holding the loop; after two
-/// minutes it is killed.
+inline constexpr std::chrono::milliseconds longest_drawing =
+    std::chrono::minutes{2}; ///< it takes a second
+
+/// Runs `program run_file --outbox outbox` and waits for it without holding the loop; after `limit`
+/// it is killed.
 /// @returns the folder of the new outbox entry.
 /// @errors Fault::io with the process's own last words.
 Task<Result<std::string>> write_certificate(Scheduler& scheduler,
                                             std::string program,
                                             std::string run_file,
-                                            std::string outbox);
+                                            std::string outbox,
+                                            std::chrono::milliseconds limit = longest_drawing);
 
 /// `name` beside this executable when it lies there, else just `name` (found by PATH).
 std::string sibling_program(const std::string& name);

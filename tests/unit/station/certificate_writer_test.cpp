@@ -14,12 +14,13 @@ namespace {
 
 class ReportProgram : public ::testing::Test {
 protected:
-    Result<std::string> answer_of(const std::string& program) {
+    Result<std::string> answer_of(const std::string& program,
+                                  std::chrono::milliseconds limit = longest_drawing) {
         boost::asio::io_context loop;
         AsioScheduler scheduler{loop};
         std::optional<Result<std::string>> answer;
         boost::asio::co_spawn(
-            loop, write_certificate(scheduler, program, "run.axiscal", "outbox"),
+            loop, write_certificate(scheduler, program, "run.axiscal", "outbox", limit),
             [&](std::exception_ptr, Result<std::string> got) { answer = std::move(got); });
         loop.run();
         return *answer;
@@ -58,6 +59,23 @@ TEST_F(ReportProgram, MissingIsToldByName) {
 
 TEST_F(ReportProgram, TalkingWithoutEndIsEnded) {
     EXPECT_FALSE(said("yes"));
+}
+
+// The program itself hangs; and a child of it, which holds the pipe when it is gone.
+TEST_F(ReportProgram, HangingIsKilledAtTheLimit) {
+    for (const char* body : {"exec sleep 600", "sleep 40; true"}) {
+        const auto began = std::chrono::steady_clock::now();
+        const auto answer = answer_of(report_script(scratch, body), std::chrono::milliseconds{300});
+        ASSERT_FALSE(answer);
+        EXPECT_EQ(answer.error().fault, Fault::io);
+        EXPECT_NE(answer.error().detail.find("has not finished after 0.3 s"), std::string::npos)
+            << answer.error().detail;
+        EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{30});
+    }
+}
+
+TEST_F(ReportProgram, HasTwoMinutesInTheDaemon) {
+    EXPECT_EQ(longest_drawing, std::chrono::minutes{2});
 }
 
 } // namespace
