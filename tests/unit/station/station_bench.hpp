@@ -119,12 +119,12 @@ public:
     Task<Result<void>> run(TriggerContext context) override {
         sink = context.sink;
         ++runs;
-        if (broken) co_return fail(Fault::io, "the address is taken");
         try {
-            for (;;)
-                co_await context.scheduler->sleep_for(1h);
+            while (!broken)
+                co_await context.scheduler->sleep_for(100ms);
         } catch (const std::exception&) { // cancelled: the way a port ends
         }
+        if (broken) co_return fail(Fault::io, "the address is taken");
         ended = true;
         co_return Result<void>{};
     }
@@ -170,6 +170,7 @@ struct Shop {
     bool laser_number_wraps = false;
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
+    bool port_broken = false;
 
     static StationConfig make_config(const std::string& folder) {
         StationConfig config;
@@ -342,6 +343,7 @@ private:
         made.instruments.push_back(std::move(contacts));
         auto scripted = std::make_unique<ScriptedPort>();
         port = scripted.get();
+        port->broken = shop.port_broken;
         made.port = std::move(scripted);
         std::vector<StationChannel> channels;
         for (std::size_t i = 0; i < made.instruments.size(); ++i)

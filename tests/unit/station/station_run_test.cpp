@@ -307,14 +307,34 @@ TEST_F(StationRuns, TimeLeftComesFromThePaceOfThePoints) {
 }
 
 TEST_F(StationRuns, ABrokenPortIsToldOnceAndTriedAgain) {
+    shop.port_broken = true;
     Life life{shop};
-    EXPECT_EQ(life.port->runs, 1);
-    life.port->sink->on_cnc_silent(true);
-    EXPECT_TRUE(life.status().cnc_silent);
-    for (int i = 0; i < 30; ++i)
-        life.port->sink->on_port_note(Fault::io, "the address is taken");
+    life.run(28s);
+    EXPECT_NEAR(life.port->runs, 30, 1) << "once a second";
     EXPECT_EQ(life.notes_with("the address is taken"), 1);
     EXPECT_NE(life.status().trigger_note.find("the address is taken"), std::string::npos);
+
+    life.port->broken = false;
+    life.run(2s);
+    const int runs = life.port->runs;
+    ASSERT_TRUE(life.arm());
+    EXPECT_TRUE(life.take(0)) << "the CNC is heard through the port that came back";
+    EXPECT_EQ(life.status().trigger_note, "");
+    EXPECT_EQ(life.port->runs, runs);
+
+    life.port->broken = true;
+    life.run(5s);
+    EXPECT_GT(life.port->runs, runs + 3);
+    EXPECT_EQ(life.notes_with("the address is taken"), 2) << "it had worked in between";
+}
+
+TEST_F(StationRuns, ACncWhoseHeartbeatStopsIsShownAsSilent) {
+    Life life{shop};
+    life.port->sink->on_cnc_silent(true);
+    EXPECT_TRUE(life.status().cnc_silent);
+    life.port->sink->on_cnc_silent(false);
+    EXPECT_FALSE(life.status().cnc_silent);
+    EXPECT_EQ(life.notes_with("heartbeat"), 2);
 }
 
 TEST_F(StationRuns, StoppingEndsThePortFirstAndLeavesTheRunOpen) {
