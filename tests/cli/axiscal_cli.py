@@ -3,15 +3,21 @@
 
 axiscal_cli.py BIN_FOLDER SOURCE_FOLDER   writes only into a scratch folder of its own
 """
+import codecs
 import json
 import math
 import os
+import pty
 import re
+import select
 import shutil
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
+import termios
+import threading
 import time
 import unittest
 
@@ -284,6 +290,100 @@ class Incomplete(Scratch):
             shown, _ = child.communicate(timeout=20)
             self.assertEqual(child.returncode, 6)
             self.assertIn("broken off", shown)
+
+
+class Screen(Scratch):
+    """`watch` on a terminal, against a door whose axis moves on by 1 mm with each answer."""
+
+    CLEAR = "\x1b[H\x1b[2J"
+
+    def setUp(self):
+        super().setUp()
+        self.path = os.path.join(self.folder, "fake.sock")
+        self.asked, self.last = 0, None
+        self.door = socket.socket(socket.AF_UNIX)
+        self.door.bind(self.path)
+        self.door.listen(4)
+        answering = threading.Thread(target=self.answer)
+        answering.start()
+        self.addCleanup(answering.join)
+        self.addCleanup(self.door.close)
+        self.addCleanup(self.door.shutdown, socket.SHUT_RDWR)  # ends accept()
+        self.child, self.terminal = pty.fork()
+        if self.child == 0:
+            os.execv(os.path.join(BIN, "axiscal"), ["axiscal", "watch", "--socket", self.path])
+        self.addCleanup(os.close, self.terminal)
+        self.before = termios.tcgetattr(self.terminal)
+        self.shown = ""
+        self.decode = codecs.getincrementaldecoder("utf-8")().decode
+
+    def answer(self):
+        while True:
+            try:
+                client, _ = self.door.accept()
+            except OSError:
+                return
+            with client:
+                client.recv(65536)
+                self.asked += 1
+                body = json.dumps(self.status()).encode()
+                client.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
+
+    def status(self):
+        over = self.last is not None and self.asked > self.last
+        channel = {"instrument": "material", "channel": "contact 1", "name": "screw, left", "place": "nut",
+                   "kind": "temperature", "medium": "material", "value": 21.5, "unit": "degC", "age_s": 0.1,
+                   "quality": "good", "used": True}
+        return {"station": "bay 3", "utc": "2026-11-21T10:00:00Z", "run_open": not over, "channels": [channel],
+                "instruments": [], "notes": [], "outbox_entries": 0,
+                "axis": {"name": "X", "position_mm": self.asked, "deviation_um": None, "spread_um": None,
+                         "strength_percent": None, "still": False},
+                "trigger": {"port": "fake", "cnc_silent": False, "note": ""},
+                "run": {"id": "r", "pass": "whole", "state": "complete" if over else "armed", "file": "f", "step": 3,
+                        "steps": 10, "done": 3, "next": None, "last_deviation_um": None, "seconds_left": None,
+                        "fault": "", "sentence": "", "certificate": "outbox/r" if over else ""}}
+
+    def read_until(self, enough):
+        end = time.monotonic() + 30
+        while not enough():
+            self.assertLess(time.monotonic(), end, repr(self.shown))
+            if select.select([self.terminal], [], [], 0.2)[0]:
+                try:
+                    self.shown += self.decode(os.read(self.terminal, 65536))
+                except OSError:  # the other end is closed
+                    return
+
+    def end(self):
+        """What waitpid says, once it has ended."""
+        state = [0, 0]
+        def ended():
+            state[:] = os.waitpid(self.child, os.WNOHANG)
+            return state[0] == self.child
+        self.read_until(ended)
+        while state[0] != self.child:
+            time.sleep(0.05)
+            ended()
+        return state[1]
+
+    def test_it_redraws_and_ends_on_ctrl_c(self):
+        self.read_until(lambda: self.shown.count(self.CLEAR) >= 4)
+        frames = self.shown.split(self.CLEAR)
+        self.assertEqual(frames[0], "", "nothing but frames")
+        for number in (1, 2, 3):
+            self.assertIn(f"{number}.0000 mm", frames[number])
+            self.assertIn("screw, left", frames[number])
+        os.write(self.terminal, b"\x03")
+        status = self.end()
+        self.assertTrue(os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT, status)
+        self.assertEqual(termios.tcgetattr(self.terminal), self.before)
+        # Nothing that would have to be undone: no other screen, no hidden cursor, no colour.
+        self.assertEqual(set(re.findall(r"\x1b\[[^A-Za-z]*[A-Za-z]", self.shown)), {"\x1b[H", "\x1b[2J"})
+
+    def test_it_ends_with_the_run(self):
+        self.last = 2
+        status = self.end()
+        self.assertTrue(os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0, status)
+        self.assertTrue(self.shown.rstrip().endswith("Run r is complete; certificate in outbox/r"), repr(self.shown))
 
 
 if __name__ == "__main__":
