@@ -1,4 +1,4 @@
-// The half of RunMachine that deals with places: what a request claims, what a window shows.
+// The third of RunMachine that deals with places: what a request claims, what a window shows.
 #include "acquisition/run/run_machine.hpp"
 
 #include "acquisition/capture/wording.hpp"

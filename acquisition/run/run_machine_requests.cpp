@@ -1,0 +1,129 @@
+// The third of RunMachine that deals with numbers: which request is new, repeated, out of order,
+// and what it asks for.
+#include "acquisition/run/resume.hpp"
+#include "acquisition/run/run_machine.hpp"
+#include "acquisition/run/sequence.hpp"
+
+#include <string>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+Error not_armed() {
+    return {Fault::no_run_armed, {}, {}, {}};
+}
+
+std::string number(std::uint16_t sequence) {
+    return std::to_string(sequence);
+}
+
+} // namespace
+
+void RunMachine::on(const TriggerEvent& event, RunActions& out) {
+    auto request = event;
+    if (event.origin == TriggerOrigin::cnc) {
+        if (answered_by_order(event, out)) return;
+    } else {
+        request.sequence = next_sequence(last_durable_);
+        if (closed_ || !armed_) return refuse(request, not_armed(), out);
+        if (stopped_) return refuse(request, {Fault::not_durable, {}, {}, {}}, out);
+        if (pending_ && event.origin == TriggerOrigin::dwell) {
+            ++counters_.doubled;
+            return;
+        }
+        if (pending_) return refuse(request, {Fault::busy, "A capture is under way.", {}, {}}, out);
+    }
+    start_command(request, out);
+}
+
+/// Everything that the number alone decides. True: nothing more is to be done.
+bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
+    const auto sequence = event.sequence;
+    const bool finished_before = sequence != 0 && sequence == last_durable_;
+    if (closed_ || !armed_) {
+        if (closed_ && finished_before)
+            out.push_back(RepublishDone{sequence, last_durable_step_});
+        else if (sequence != 0)
+            refuse(event, not_armed(), out);
+        return true;
+    }
+    if (first_request_after_resume_ && answered_after_resume(event, out)) return true;
+    if (sequence == 0) return true;
+    // What stands there when a run is armed belongs to another run: the baseline.
+    if (event.standing && !any_accepted_) return true;
+    if (finished_before) {
+        ++counters_.republished;
+        out.push_back(RepublishDone{sequence, last_durable_step_});
+        return true;
+    }
+    if (pending_ && pending_->sequence == sequence && event.command != TriggerCommand::abort) {
+        ++counters_.doubled;
+        return true;
+    }
+    if (event.command == TriggerCommand::abort &&
+        (pending_ || stopped_ || sequence != next_sequence(last_durable_))) {
+        on(Abort{"The CNC aborted the run with request " + number(sequence) + ".", event.at}, out);
+        return true;
+    }
+    if (stopped_) {
+        refuse(event, {Fault::not_durable, "The run acknowledges nothing more.", {}, {}}, out);
+        return true;
+    }
+    if (sequence == next_sequence(last_durable_)) return false;
+    ++counters_.out_of_order;
+    refuse(event, {Fault::out_of_order, describe_disorder(sequence, last_durable_), {}, {}}, out);
+    return true;
+}
+
+bool RunMachine::answered_after_resume(const TriggerEvent& event, RunActions& out) {
+    const auto verdict = judge_first_request(last_durable_, event.sequence);
+    if (verdict.decision == ResumeDecision::wait_for_request) return true;
+    first_request_after_resume_ = false;
+    if (verdict.decision == ResumeDecision::close_sequence_lost) {
+        refuse(event, {Fault::sequence_lost, verdict.sentence, {}, {}}, out);
+        close(false, verdict.sentence, Fault::sequence_lost, out);
+        return true;
+    }
+    record(EventKind::resumed, event.at, verdict.sentence, Fault::none, event.sequence, out);
+    return false;
+}
+
+void RunMachine::start_command(const TriggerEvent& event, RunActions& out) {
+    any_accepted_ = true;
+    switch (event.command) {
+    case TriggerCommand::prepare: return start_datum(event, out);
+    case TriggerCommand::capture: return start_point(event, out);
+    case TriggerCommand::skip: return commit_event(event, Purpose::skip, out);
+    case TriggerCommand::abort:
+    case TriggerCommand::end: return commit_event(event, Purpose::end, out);
+    }
+}
+
+void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunActions& out) {
+    Pending pending;
+    pending.purpose = purpose;
+    pending.origin = event.origin;
+    pending.sequence = event.sequence;
+    pending.committing = true;
+    const auto next = next_point();
+    EventRecord note;
+    note.at = event.at;
+    note.sequence = event.sequence;
+    if (purpose == Purpose::skip) {
+        if (!next)
+            return refuse(event, {Fault::bad_command, "Nothing is left to skip.", {}, {}}, out);
+        pending.step = next->step;
+        note.kind = EventKind::skipped;
+        note.text = skip_text(next->step);
+    } else {
+        note.kind = EventKind::aborted;
+        note.text = event.command == TriggerCommand::end
+                        ? "The CNC ended the run before its last point."
+                        : "The CNC aborted the run.";
+    }
+    out.push_back(CommitEvent{note, pending.step});
+    pending_ = std::move(pending);
+}
+
+} // namespace axiscal
