@@ -1,4 +1,4 @@
-#include "acquisition/publish/report/plots.hpp"
+#include "acquisition/publish/report/plot_frame.hpp"
 #include "acquisition/publish/report/wording.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,84 @@
+#include "acquisition/publish/report/plot_frame.hpp"
+
+#include "acquisition/publish/report/wording.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+double round_step(double span, int parts) {
+    const double decade = std::pow(10.0, std::floor(std::log10(span / parts)));
+    const double share = span / parts / decade;
+    return decade * (share <= 1.1 ? 1 : share <= 2.2 ? 2 : share <= 5.5 ? 5 : 10);
+}
+
+int decimals_of(double step) {
+    return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
+
+} // namespace
+
+std::vector<double> Ticks::all() const {
+    std::vector<double> values;
+    const int count = static_cast<int>(std::lround((last - first) / step));
+    for (int i = 0; i <= count; ++i)
+        values.push_back(first + i * step);
+    return values;
+}
+
+Ticks ticks_around(double low, double high, int parts, double least_span) {
+    const double widen = std::max(0.0, (least_span - (high - low)) / 2);
+    low -= widen;
+    high += widen;
+    if (!(high > low)) high = low + 1;
+    const double step = round_step(high - low, parts);
+    return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step,
+            decimals_of(step)};
+}
+
+Ticks ticks_within(double low, double high, int parts) {
+    if (!(high > low)) high = low + 1;
+    const double step = round_step(high - low, parts);
+    return {std::ceil(low / step - 1e-9) * step, std::floor(high / step + 1e-9) * step, step,
+            decimals_of(step)};
+}
+
+PlotFrame frame_along(double low, double high, double margin) {
+    const double span = high > low ? high - low : 1;
+    PlotFrame frame;
+    frame.x_low = low - margin * span;
+    frame.x_high = high + margin * span;
+    frame.x = ticks_within(frame.x_low, frame.x_high, 10);
+    return frame;
+}
+
+double widest(Canvas& canvas, const Ticks& ticks) {
+    double found = 0;
+    for (const double value : ticks.all())
+        found = std::max(found, canvas.width_of(fixed(value, ticks.decimals), tick_style));
+    return found;
+}
+
+void draw_rows(Canvas& canvas, const PlotFrame& frame) {
+    for (const double value : frame.y.all()) {
+        const bool zero = std::abs(value) < frame.y.step * 1e-6;
+        canvas.line({frame.box.x, frame.py(value)}, {frame.box.right(), frame.py(value)},
+                    {zero ? grey : pale, zero ? 0.7 : 0.4});
+        canvas.text({frame.box.x - 4, frame.py(value) + 2.5}, fixed(value, frame.y.decimals),
+                    tick_style, Align::right);
+    }
+}
+
+void draw_columns(Canvas& canvas, const PlotFrame& frame, bool labels) {
+    for (const double value : frame.x.all()) {
+        canvas.line({frame.px(value), frame.box.y}, {frame.px(value), frame.box.bottom()},
+                    {pale, 0.4});
+        if (labels)
+            canvas.text({frame.px(value), frame.box.bottom() + 9}, fixed(value, frame.x.decimals),
+                        tick_style, Align::centre);
+    }
+}
+
+} // namespace axiscal
