@@ -154,7 +154,7 @@ TEST(CertificateJson, WritesNullForWhatNobodyStated) {
 TEST(CertificateJson, SurvivesBrokenUtf8) {
     RunRecord run = test::synthetic_run();
     run.statements.customer = "broken \xff";
-    EXPECT_NO_THROW(Json::parse(certificate_json_text(test::certificate_of(run))));
+    EXPECT_TRUE(Json::accept(certificate_json_text(test::certificate_of(run))));
 }
 
 std::vector<std::string> fields_of(std::string line) {

@@ -130,7 +130,7 @@ TEST(Resume, MeasuresTheLasersRateFromTheRun) {
 
 TEST(Resume, MeasuresTheLasersRateFromOneSecondOfReadings) {
     std::vector<Sample> samples;
-    for (int i = 0; i <= 1000; ++i)
+    for (unsigned i = 0; i <= 1000; ++i)
         samples.emplace_back(0, at_s(50 + i * 1e-3), 0.02, count_at(50) + i);
     EXPECT_NEAR(*counting_rate_hz(samples), rate_hz, 0.1);
     samples.pop_back();

@@ -81,9 +81,9 @@ RunAt20C perturbed(const RunAt20C& run,
 TEST(SessionKernel, EvaluatesEachLaneAsTheCertificateCodeWould) {
     std::mt19937_64 random{21};
     std::uniform_real_distribution<double> number{-1, 1};
-    for (int trial = 0; trial < 60; ++trial) {
+    for (unsigned trial = 0; trial < 60; ++trial) {
         const std::size_t m = 2 + trial % 12, n = 2 + trial % 7;
-        const RunAt20C run = session(m, n, true, 0.02, 0.004, 100u + static_cast<unsigned>(trial));
+        const RunAt20C run = session(m, n, true, 0.02, 0.004, 100u + trial);
         const double k = trial % 2 ? 2 : 3;
         const SessionModel model = model_of(run, evaluate_positioning(run, "", k));
         std::vector<double> draws(2 * m * n * lanes);
