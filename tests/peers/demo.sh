@@ -16,6 +16,8 @@ assert len(document["positions"]) == 11 and document["format"] == "axiscal.resul
 for key, hidden in truth.items():
     low, high = (hidden["value"] - hidden["bound"], hidden["value"] + hidden["bound"]) if "bound" in hidden else (hidden["low"], hidden["high"])
     assert low <= figures[key]["value"] <= high, (key, figures[key], hidden)
+    assert figures[key]["expanded_uncertainty"]["k"] == 2 and figures[key]["expanded_uncertainty"]["value"] > 0, key
+assert document["preliminary"] is False and "missing" not in document
 print("12 figures within what the injected noise explains")
 E2
 rm -rf "$(dirname "$line")"
