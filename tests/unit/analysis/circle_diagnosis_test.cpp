@@ -39,7 +39,8 @@ Truth random_truth(std::mt19937_64& random, double R, double F) {
 }
 
 TEST(CircleDiagnosis, FindsTheTruthOfEverySyntheticCaseOfTheReference) {
-    for (const auto& set : reference_json("ballbar_synthetic.json").at("cases")) {
+    const auto sets = reference_json("ballbar_synthetic.json").at("cases");
+    for (const auto& set : sets) {
         SCOPED_TRACE(set.at("id"));
         const CircleDiagnosis found = diagnose(reference_test(set));
         EXPECT_EQ(found.rank, 14);
