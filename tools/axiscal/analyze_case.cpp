@@ -33,7 +33,8 @@ constexpr std::array analyses{Analysis{"positioning", positioning_case},
                               Analysis{"periodic_error", periodic_error_case},
                               Analysis{"error_separation", separation_case},
                               Analysis{"probing_delay", probing_delay_case},
-                              Analysis{"chebyshev_fit", chebyshev_fit_case}};
+                              Analysis{"chebyshev_fit", chebyshev_fit_case},
+                              Analysis{"circular", circular_case}};
 
 Result<ordered_json> analyze_one(const json& object, const std::string* repeated_key) {
     if (repeated_key)

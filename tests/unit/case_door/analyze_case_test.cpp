@@ -167,7 +167,7 @@ TEST(AnalyzeCaseRefuses, EachMissingKey) {
 }
 
 TEST(AnalyzeCaseRefuses, UnknownWords) {
-    expect_field(refusal_with("/analysis", "circular"), "analysis");
+    expect_field(refusal_with("/analysis", "spherical"), "analysis");
     expect_field(refusal_with("/standard", "ISO 230-2:2015"), "standard");
     expect_field(refusal_with("/unit", "inch"), "unit");
     expect_field(refusal_with("/unit", "deg"), "unit"); // of a linear axis

@@ -21,5 +21,6 @@ Result<nlohmann::ordered_json> periodic_error_case(const nlohmann::json& object)
 Result<nlohmann::ordered_json> separation_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> probing_delay_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> chebyshev_fit_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> circular_case(const nlohmann::json& object);
 
 } // namespace axiscal

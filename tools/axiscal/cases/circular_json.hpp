@@ -1,0 +1,23 @@
+#pragma once
+// The document of a circular test. Pure.
+
+#include "analysis/circular/circle_diagnosis.hpp"
+#include "analysis/circular/circular_uncertainty.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace axiscal {
+
+struct CircularAnswer {
+    const CircularTest& test;
+    const AxisNames& axes;
+    const CircularParameters& parameters;
+    const CircleDiagnosis& diagnosis;
+    const std::optional<CircularBudget>& budget;
+};
+
+/// "axiscal.result/1" with the contract's keys; feedback signals are named G_f throughout.
+nlohmann::ordered_json circular_to_json(const CircularAnswer& answer);
+
+} // namespace axiscal
