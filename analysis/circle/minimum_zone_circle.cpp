@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace axiscal {
 namespace {
@@ -181,6 +182,21 @@ std::vector<SeenCircle> many_starts(const Problem& problem) {
     return starts;
 }
 
+/// A narrower zone near by, on the way to another optimum.
+std::optional<SeenCircle> narrower_near_by(const Optimum& at, const Problem& problem) {
+    WorkingSet all;
+    for (std::size_t i = 0; i < problem.x.size(); ++i)
+        all.append(i, problem.x[i] - at.circle.origin_x, problem.y[i] - at.circle.origin_y);
+    for (const double part : {3.0, 1.0, 0.3, 0.1, 0.03})
+        for (int direction = 0; direction < 16; ++direction) {
+            const double size = part * at.width(), angle = direction * 0.392699081698724;
+            const CircleStep step{size * std::cos(angle), size * std::sin(angle), 0};
+            const SeenCircle next = moved(at.circle, step, problem.longest_radius);
+            if (all.width_from(next) < at.width() - problem.rounding) return next;
+        }
+    return std::nullopt;
+}
+
 constexpr std::size_t few = 24; ///< up to here every centre is tried
 
 void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
@@ -198,6 +214,14 @@ void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
         const Optimum other = optimum_from(start, problem);
         if (other.width() < best.width() - problem.rounding) best = other;
     }
+    constexpr int most_moves = 50;
+    for (int i = 0; i < most_moves && search == ZoneSearch::multi_start; ++i) {
+        const auto next = narrower_near_by(best, problem);
+        if (!next) break;
+        const Optimum other = optimum_from(*next, problem);
+        if (!(other.width() < best.width() - problem.rounding)) break;
+        best = other;
+    }
 }
 
 MinimumZoneCircle result_of(const Optimum& at, const Problem& problem, ZoneSearch search) {
@@ -212,6 +236,7 @@ MinimumZoneCircle result_of(const Optimum& at, const Problem& problem, ZoneSearc
     for (std::size_t k = 0; k < 4; ++k)
         out.control_points.push_back(
             {at.balance.places[k], at.balance.weights[k] > 0 ? ZoneSide::outer : ZoneSide::inner});
+    std::ranges::stable_sort(out.control_points, {}, &ControlPoint::index);
     out.wide = is_wide(at);
     out.strip = c.radius >= 0.999 * problem.longest_radius;
     out.search = search;
@@ -231,9 +256,9 @@ MinimumZoneCircle exact_zone(const Problem& problem, const SeenCircle& start) {
     out.outer_radius = out.inner_radius = c.radius + (at.low + at.high) / 2;
     const auto& three = problem.checked.distinct;
     out.control_points = {{three[0], ZoneSide::outer},
+                          {three[0], ZoneSide::inner},
                           {three[1], ZoneSide::inner},
-                          {three[2], ZoneSide::outer},
-                          {three[0], ZoneSide::inner}};
+                          {three[2], ZoneSide::outer}};
     out.search = ZoneSearch::exhaustive;
     return out;
 }

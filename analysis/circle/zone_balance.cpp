@@ -98,10 +98,14 @@ Bearing bearing_of(double from_x, double from_y, const SeenCircle& c) {
 
 bool WorkingSet::add(std::size_t index, double from_x, double from_y) {
     if (std::ranges::find(index_, index) != index_.end()) return false;
+    append(index, from_x, from_y);
+    return true;
+}
+
+void WorkingSet::append(std::size_t index, double from_x, double from_y) {
     index_.push_back(index);
     from_x_.push_back(from_x);
     from_y_.push_back(from_y);
-    return true;
 }
 
 void WorkingSet::see_from(const SeenCircle& circle) {

@@ -21,6 +21,8 @@ class WorkingSet {
 public:
     /// False if it holds the point already.
     bool add(std::size_t index, double from_x, double from_y);
+    /// For a point that it cannot hold yet.
+    void append(std::size_t index, double from_x, double from_y);
     /// Takes the bearings from this circle.
     void see_from(const SeenCircle& circle);
     /// Largest minus smallest distance from this circle; the bearings stay.
