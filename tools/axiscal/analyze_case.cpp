@@ -34,7 +34,8 @@ constexpr std::array analyses{Analysis{"positioning", positioning_case},
                               Analysis{"error_separation", separation_case},
                               Analysis{"probing_delay", probing_delay_case},
                               Analysis{"chebyshev_fit", chebyshev_fit_case},
-                              Analysis{"circular", circular_case}};
+                              Analysis{"circular", circular_case},
+                              Analysis{"circle_fit", circle_fit_case}};
 
 Result<ordered_json> analyze_one(const json& object, const std::string* repeated_key) {
     if (repeated_key)

@@ -22,5 +22,6 @@ Result<nlohmann::ordered_json> separation_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> probing_delay_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> chebyshev_fit_case(const nlohmann::json& object);
 Result<nlohmann::ordered_json> circular_case(const nlohmann::json& object);
+Result<nlohmann::ordered_json> circle_fit_case(const nlohmann::json& object);
 
 } // namespace axiscal
