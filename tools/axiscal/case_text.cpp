@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -14,8 +13,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t largest_text = std::size_t{64} << 20;
-constexpr int deepest_nesting = 64; // a case needs 5
-constexpr char marker = '\x01';     // cannot stand unescaped in a JSON string
+constexpr std::size_t deepest_nesting = 64; // a case needs 5
+constexpr char marker = '\x01';             // cannot stand unescaped in a JSON string
 
 bool is_token_character(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
@@ -60,7 +59,7 @@ Result<std::string> mark_not_finite(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         depth += c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0;
-        if (depth > deepest_nesting)
+        if (depth > static_cast<int>(deepest_nesting))
             return refuse(Fault::bad_case, "json", "is nested deeper than 64 levels");
         std::size_t end = i + 1;
         if (c == '"') end = end_of_string(text, i);
@@ -75,36 +74,69 @@ Result<std::string> mark_not_finite(std::string_view text) {
     return out;
 }
 
-/// Follows the parser and notes keys that stand twice in one object. Pure.
-class RepeatedKeys {
+/// Builds the document while the text is read once, and notes keys that stand twice in one object.
+class Builder {
 public:
-    void see(int depth, json::parse_event_t event, const json& parsed) {
-        switch (event) {
-        case json::parse_event_t::array_start: in_array_ = in_array_ || depth == 0; break;
-        case json::parse_event_t::object_start: open_.emplace_back(); break;
-        case json::parse_event_t::key:
-            if (!open_.back().insert(parsed.get<std::string>()).second)
-                repeated_.try_emplace(element_, parsed.get<std::string>());
-            break;
-        case json::parse_event_t::object_end:
-            open_.pop_back();
-            count_element(depth);
-            break;
-        case json::parse_event_t::array_end:
-        case json::parse_event_t::value: count_element(depth); break;
-        }
+    using number_integer_t = json::number_integer_t;
+    using number_unsigned_t = json::number_unsigned_t;
+    using number_float_t = json::number_float_t;
+    using string_t = json::string_t;
+    using binary_t = json::binary_t;
+
+    bool null() { return add(nullptr); }
+    bool boolean(bool value) { return add(value); }
+    bool number_integer(number_integer_t value) { return add(value); }
+    bool number_unsigned(number_unsigned_t value) { return add(value); }
+    bool number_float(number_float_t value, const string_t&) { return add(value); }
+    bool string(const string_t& value) { return add(value); }
+    bool binary(const binary_t&) { return false; } // is none in a text
+    bool start_object(std::size_t) { return open(json::value_t::object); }
+    bool start_array(std::size_t) { return open(json::value_t::array); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+    bool key(const string_t& name) {
+        const auto [member, is_new] = open_.back()->emplace(name, nullptr);
+        if (!is_new) repeated_.try_emplace(place_in_top_array(), name);
+        member_ = &*member;
+        return true;
     }
-    [[nodiscard]] const std::map<std::size_t, std::string>& repeated() const { return repeated_; }
+    bool parse_error(std::size_t, const std::string&, const json::exception& error) {
+        error_ = error.what();
+        return false;
+    }
+
+    [[nodiscard]] const std::string& error() const { return error_; }
+    CaseText take() { return {std::move(document_), std::move(repeated_)}; }
 
 private:
-    void count_element(int depth) {
-        if (in_array_ && depth == 1) ++element_;
+    [[nodiscard]] std::size_t place_in_top_array() const {
+        return document_.is_array() ? document_.size() - 1 : 0;
+    }
+    template <class Value> json* place(Value&& value) {
+        if (open_.empty()) return &(document_ = std::forward<Value>(value));
+        if (open_.back()->is_array())
+            return &open_.back()->emplace_back(std::forward<Value>(value));
+        return &(*member_ = std::forward<Value>(value));
+    }
+    template <class Value> bool add(Value&& value) {
+        place(std::forward<Value>(value));
+        return true;
+    }
+    bool open(json::value_t type) {
+        if (open_.size() == deepest_nesting) return false;
+        open_.push_back(place(type));
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
     }
 
-    bool in_array_ = false;
-    std::size_t element_ = 0;
-    std::vector<std::set<std::string>> open_;
+    json document_;
+    std::vector<json*> open_;
+    json* member_ = nullptr;
     std::map<std::size_t, std::string> repeated_;
+    std::string error_;
 };
 
 /// "parse error at line 3, column 7: ..." without the library's own label.
@@ -131,18 +163,13 @@ std::string not_finite_token(const json& value) {
 Result<CaseText> read_case_text(std::string_view text) {
     if (text.size() > largest_text) return refuse(Fault::bad_case, "json", "is larger than 64 MiB");
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    Builder builder;
+    if (json::sax_parse(text, &builder)) return builder.take();
+    // the second reading marks what is no JSON number and finds the reason of a refusal
     AXISCAL_TRY(const std::string marked, mark_not_finite(text));
-    RepeatedKeys keys;
-    const auto follow = [&keys](int depth, json::parse_event_t event, json& parsed) {
-        keys.see(depth, event, parsed);
-        return true;
-    };
-    try {
-        json document = json::parse(marked, follow);
-        return CaseText{std::move(document), keys.repeated()};
-    } catch (const json::exception& error) {
-        return refuse(Fault::bad_case, "json", reason_of(error.what()));
-    }
+    Builder again;
+    if (json::sax_parse(marked, &again)) return again.take();
+    return refuse(Fault::bad_case, "json", reason_of(again.error()));
 }
 
 } // namespace axiscal

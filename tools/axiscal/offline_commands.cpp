@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <random>
 
 namespace axiscal {
@@ -23,11 +22,21 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view sqlite_magic{"SQLite format 3\0", 16};
 
+/// In large pieces: a file of a million points is 40 MB.
+std::string rest_of(std::istream& stream) {
+    std::string text, piece(std::size_t{1} << 16, '\0');
+    do {
+        stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
+    } while (stream);
+    return text;
+}
+
 Result<std::string> read_all(const std::string& path) {
-    if (path == "-") return std::string{std::istreambuf_iterator<char>{std::cin}, {}};
+    if (path == "-") return rest_of(std::cin);
     std::ifstream file{path, std::ios::binary};
     if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    return std::string{std::istreambuf_iterator<char>{file}, {}};
+    return rest_of(file);
 }
 
 bool is_run_file(const std::string& path) {
