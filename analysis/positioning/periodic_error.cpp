@@ -48,9 +48,10 @@ Result<CentredPoints> centre(const PeriodicQuestion& question) {
     auto sorted = question.positions;
     std::ranges::sort(sorted);
     const double low = sorted.front(), high = sorted.back();
-    const auto repeated = std::ranges::unique(sorted);
+    // the iterator form: clang 14 cannot read the ranges one of this library
+    const auto end_of_distinct = std::unique(sorted.begin(), sorted.end());
     CentredPoints points;
-    points.distinct = sorted.size() - repeated.size();
+    points.distinct = static_cast<std::size_t>(end_of_distinct - sorted.begin());
     points.middle = low + (high - low) / 2;
     points.half_span = (high - low) / 2;
     if (points.distinct < 2 || points.half_span < 1e-9)

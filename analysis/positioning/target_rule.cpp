@@ -12,9 +12,6 @@ namespace {
 /// Decimal coordinates in binary: what may lie beyond a limit and still belong to it.
 constexpr double rounding = 1e-6;
 
-/// The search for a grid reads the targets some 160 times: a tenth of a second for these.
-constexpr std::size_t most_for_a_grid = 100000;
-
 std::string plain(double number) {
     std::ostringstream text;
     text.precision(6);

@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 #include <random>
 
 namespace axiscal {
 namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// T_k(t) = cos(k arccos t): the definition, not the recurrence.
 double first_kind_at(std::size_t k, double t) {
@@ -192,11 +196,11 @@ TEST(ChebyshevFitRefuses, WhatIsNoFit) {
     for (const std::size_t i : {7u, 98u}) { // in a lane, and in the rest
         const std::string index = "[" + std::to_string(i) + "]";
         EXPECT_EQ(refused([&](Points& p) { p.x[i] = 10.1; }), "x" + index);
-        EXPECT_EQ(refused([&](Points& p) { p.x[i] = NAN; }), "x" + index);
-        EXPECT_EQ(refused([&](Points& p) { p.x[i] = -INFINITY; }), "x" + index);
-        EXPECT_EQ(refused([&](Points& p) { p.y[i] = NAN; }), "y" + index);
+        EXPECT_EQ(refused([&](Points& p) { p.x[i] = not_a_number; }), "x" + index);
+        EXPECT_EQ(refused([&](Points& p) { p.x[i] = -infinity; }), "x" + index);
+        EXPECT_EQ(refused([&](Points& p) { p.y[i] = not_a_number; }), "y" + index);
         EXPECT_EQ(refused([&](Points& p) { p.y[i] = 1e300; }), "y" + index);
-        EXPECT_EQ(refused([&](Points& p) { p.y[i] = INFINITY; }), "y" + index);
+        EXPECT_EQ(refused([&](Points& p) { p.y[i] = infinity; }), "y" + index);
     }
 }
 

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 #include <random>
 
 namespace axiscal {
 namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using nlohmann::json;
 using Terms = PerCurve<std::vector<double>>;
@@ -354,12 +358,12 @@ TEST(ErrorSeparationRefuses, WhatIsNoCase) {
     };
     EXPECT_EQ(with([](auto& c) { c.points_mm[3][1] = 50.1; }), "points_mm[3][1]");
     EXPECT_EQ(with([](auto& c) { c.points_mm[3][1] = 50.00000000000001; }), "");
-    EXPECT_EQ(with([](auto& c) { c.deviation_um[0][2] = NAN; }), "deviation_um[0][2]");
+    EXPECT_EQ(with([](auto& c) { c.deviation_um[0][2] = not_a_number; }), "deviation_um[0][2]");
     EXPECT_EQ(with([](auto& c) { c.deviation_um[0][2] = 1e13; }), "deviation_um[0][2]");
     EXPECT_EQ(with([](auto& c) { c.deviation_um.pop_back(); }), "deviation_um");
     EXPECT_EQ(with([](auto& c) { c.points_mm.clear(); }), "points_mm");
     EXPECT_EQ(with([](auto& c) { c.model.ranges_mm[1] = {5, 5}; }), "ranges_mm.y");
-    EXPECT_EQ(with([](auto& c) { c.model.ranges_mm[1] = {1, -INFINITY}; }), "ranges_mm.y[1]");
+    EXPECT_EQ(with([](auto& c) { c.model.ranges_mm[1] = {1, -infinity}; }), "ranges_mm.y[1]");
     EXPECT_EQ(with([](auto& c) { c.model.reference_mm[2] = 81; }), "reference_mm[2]");
     EXPECT_EQ(with([](auto& c) { c.model.signs[2][0] = 0.5; }), "signs[2][0]");
     EXPECT_EQ(with([](auto& c) { c.model.orders[1] = {0, 0, 0}; }), "order");

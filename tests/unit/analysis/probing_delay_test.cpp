@@ -6,10 +6,13 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 namespace axiscal {
 namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Probe {
     double feed_mm_per_ms = 0.008; ///< 480 mm/min
@@ -216,13 +219,14 @@ TEST(ProbingDelayRefuses, WhatIsNoTest) {
     };
     EXPECT_EQ(refused([](auto&) {}), "");
     EXPECT_EQ(refused([](auto& c) { c.feed_mm_per_min = 0; }), "feed_mm_per_min");
-    EXPECT_EQ(refused([](auto& c) { c.feed_mm_per_min = NAN; }), "feed_mm_per_min");
+    EXPECT_EQ(refused([](auto& c) { c.feed_mm_per_min = not_a_number; }), "feed_mm_per_min");
     EXPECT_EQ(refused([](auto& c) { c.series.clear(); }), "series");
     EXPECT_EQ(refused([](auto& c) { c.required_touches = 12; }), "series[0].trigger_mm");
     EXPECT_EQ(refused([](auto& c) { c.series[0].trigger_mm.clear(); }), "series[0].trigger_mm");
     EXPECT_EQ(refused([](auto& c) { c.series[0].approach_mm.pop_back(); }),
               "series[0].approach_mm");
-    EXPECT_EQ(refused([](auto& c) { c.series[0].trigger_mm[2] = NAN; }), "series[0].trigger_mm[2]");
+    EXPECT_EQ(refused([](auto& c) { c.series[0].trigger_mm[2] = not_a_number; }),
+              "series[0].trigger_mm[2]");
     EXPECT_EQ(refused([](auto& c) { c.series[0].direction = {0, 0, 0}; }), "series[0].direction");
     EXPECT_EQ(refused([](auto& c) { c.series[0].reference = true; }), "series[0].approach_mm");
 }

@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 namespace axiscal {
 namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 using Terms = PerCurve<std::vector<double>>;
 
@@ -193,7 +196,8 @@ TEST(SingleAxisFeatures, RefuseListsThatDoNotFit) {
     EXPECT_EQ(refused([](auto&) {}), "");
     EXPECT_EQ(refused([](auto& f) { f.nominal_mm.clear(); }), "features[4].nominal_mm");
     EXPECT_EQ(refused([](auto& f) { f.cmm_mm.pop_back(); }), "features[4].cmm_mm");
-    EXPECT_EQ(refused([](auto& f) { f.on_machine_mm[1] = NAN; }), "features[4].on_machine_mm[1]");
+    EXPECT_EQ(refused([](auto& f) { f.on_machine_mm[1] = not_a_number; }),
+              "features[4].on_machine_mm[1]");
     EXPECT_EQ(refused([](auto& f) { f.positions_mm[2] = {1}; }), "features[4].positions_mm");
 }
 
