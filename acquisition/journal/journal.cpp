@@ -29,6 +29,8 @@ struct Journal::Worker {
         if (where == JournalThread::own)
             thread = std::jthread{[this](const std::stop_token& stop) { serve(stop); }};
     }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
     ~Worker() {
         if (thread.joinable()) {
             thread.request_stop();

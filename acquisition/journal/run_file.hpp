@@ -40,6 +40,8 @@ public:
     /// Goes on with an open file; all that it holds is verified and synced first.
     /// @errors Fault::refused when the run is closed; Fault::bad_run_file.
     static Result<RunFileWriter> reopen(const std::string& path);
+    RunFileWriter(const RunFileWriter&) = delete;
+    RunFileWriter& operator=(const RunFileWriter&) = delete;
     RunFileWriter(RunFileWriter&&) noexcept;
     RunFileWriter& operator=(RunFileWriter&&) noexcept;
     ~RunFileWriter(); ///< leaves the run open, to be resumed
@@ -54,9 +56,10 @@ public:
     Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);
 
     /// Sequence numbers as they stand on disk; empty when there is no such row.
-    Result<std::optional<std::uint16_t>> sequence_of_point(int step) const;
-    Result<std::optional<std::uint16_t>> sequence_of_last_datum() const;
-    Result<std::optional<std::uint16_t>> sequence_of_skip(std::uint16_t sequence) const;
+    [[nodiscard]] Result<std::optional<std::uint16_t>> sequence_of_point(int step) const;
+    [[nodiscard]] Result<std::optional<std::uint16_t>> sequence_of_last_datum() const;
+    [[nodiscard]] Result<std::optional<std::uint16_t>>
+    sequence_of_skip(std::uint16_t sequence) const;
 
     /// Writes the closing row and leaves one single file without WAL, synced with its folder.
     Result<void> close(bool complete, std::string reason, const ClockTie& tie);

@@ -33,7 +33,7 @@ struct Child {
     int process = -1; ///< pidfd: readable when it has ended
 };
 
-constexpr std::size_t longest_answer = 64 * 1024;
+constexpr std::size_t longest_answer = std::size_t{64} * 1024;
 
 using Stream = asio::posix::stream_descriptor;
 
@@ -58,6 +58,7 @@ Result<Child> start(const std::vector<std::string>& words) {
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (const std::string& word : words)
         arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);

@@ -63,8 +63,8 @@ struct Supervisor::Seat final : SampleSink {
         const auto value = sample.value();
         if (value) last_good = now;
         last_sample = now;
-        const StationChannel& channel =
-            supervisor.channels_[static_cast<std::size_t>(first_channel + sample.channel)];
+        const int id = first_channel + sample.channel;
+        const StationChannel& channel = supervisor.channels_[static_cast<std::size_t>(id)];
         Sample forwarded = value ? Sample{channel.id, sample.at, *value + channel.correction,
                                           sample.device_count, sample.epoch}
                                  : Sample::bad(channel.id, sample.at, sample.quality(),
