@@ -92,6 +92,12 @@ std::string words_for_cyclic(const CyclicError& cyclic, const WordsContext& cont
            digits(cyclic.pitch_mm) + " mm of its travel.";
 }
 
+std::string words_for_lobes(const Lobes& lobes) {
+    return "The trace has " + std::to_string(lobes.per_turn) + " lobes of " +
+           um(2 * lobes.amplitude_mm) +
+           " peak to valley, even in angle: chatter, a loose set-up or the instrument, no axis.";
+}
+
 std::string words_for_spike(const Reversal& reversal, const WordsContext& context) {
     return "After " + moving(reversal.axis, context) + " reverses at " + digits(reversal.at_deg) +
            " deg in sense " + std::string{name_of(reversal.sense)} + " the trace has a spike of " +

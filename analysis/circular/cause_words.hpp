@@ -23,6 +23,7 @@ std::string words_for_backlash(int axis, double lost_mm, const WordsContext& con
 std::string words_for_lateral_play(int axis, double play_mm, const WordsContext& context);
 std::string words_for_straightness(int axis, double bow_mm, const WordsContext& context);
 std::string words_for_cyclic(const CyclicError& cyclic, const WordsContext& context);
+std::string words_for_lobes(const Lobes& lobes);
 std::string words_for_spike(const Reversal& reversal, const WordsContext& context);
 std::string words_for_change_over(const ChangeOver& step);
 std::string words_for_vibration(const Vibration& vibration);

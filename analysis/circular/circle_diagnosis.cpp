@@ -139,6 +139,7 @@ void rank_features(const Scene& scene, CircleDiagnosis& out) {
     for (const ChangeOver& change : out.change_overs)
         if (change.significant && (!step || std::fabs(change.step_mm) > std::fabs(step->step_mm)))
             step = &change;
+    if (out.lobes) add("lobes", 2 * out.lobes->amplitude_mm, words_for_lobes(*out.lobes));
     if (spike)
         add("reversal_spikes", std::fabs(spike->spike_mm), words_for_spike(*spike, scene.context));
     if (step) add("change_over", std::fabs(step->step_mm), words_for_change_over(*step));
@@ -200,6 +201,7 @@ Result<CircleDiagnosis> diagnose_circle(const CircularTest& test, const AxisName
     out.common_lag = common_lag_of(test, out);
     const auto left = residuals_of(fitted, traces, R, F);
     const ResidualScale scale = scale_of(left, R);
+    out.lobes = find_lobes(left, scale);
     out.reversals = find_reversals(left, scale, R, F);
     out.change_overs = find_change_overs(left, scale);
     out.vibration = find_vibration(left);

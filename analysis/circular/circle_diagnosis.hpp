@@ -52,6 +52,7 @@ struct CircleDiagnosis {
     bool reversals_masked = false; ///< readings within 4 deg of a reversal were left out of the fit
     std::optional<CommonLag> common_lag;
     std::vector<circular::CyclicError> cyclic;
+    std::optional<circular::Lobes> lobes;
     std::vector<circular::Reversal> reversals;
     std::vector<circular::ChangeOver> change_overs;
     std::optional<circular::Vibration> vibration;

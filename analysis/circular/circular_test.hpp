@@ -39,8 +39,9 @@ struct CircularTest {
 };
 
 /// @errors Fault::bad_case with the contract's field ("traces[1].angle_rad[7]"): radius or feed not
-/// within 1e-6 ... 1e12, no trace, a sense twice, lists of different length, fewer than three readings, what is
-/// not finite or beyond 1e12, angles beyond 10 000 rad, a deviation not smaller than the radius.
+/// within 1e-6 ... 1e12, no trace, a sense twice, lists of different length, fewer than three
+/// readings, what is not finite or beyond 1e12, angles beyond 10 000 rad, a deviation not smaller
+/// than the radius.
 Result<void> check_circular_test(const CircularTest& test);
 
 /// How much of the circle the readings cover.

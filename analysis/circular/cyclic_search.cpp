@@ -60,25 +60,68 @@ double longest_step(const std::vector<ResidualTrace>& traces) {
     return step;
 }
 
-/// Every k-th reading, so that the search stays short: 5000 a trace resolve 400 periods.
+/// Phasors that start at `first` and turn by `turn`, times what `place` makes of a point, and weigh
+/// what `weight` does. Every k-th reading, so that the search stays short: 5000 a trace resolve 400
+/// periods.
+template <class Place, class Weight>
 std::vector<Phasor> phasors_of(const std::vector<ResidualTrace>& traces,
-                               int axis,
-                               double first_frequency,
-                               double frequency_step,
-                               double R) {
+                               double first,
+                               double turn,
+                               Place place,
+                               Weight weight) {
     std::vector<Phasor> points;
     for (const ResidualTrace& seen : traces) {
         const std::size_t stride = 1 + seen.residual_mm.size() / 5000;
         for (std::size_t i = 0; i < seen.residual_mm.size(); i += stride) {
-            const Aspect& at = seen.trace->points[i].aspect;
-            const double w = axis == 0 ? at.cosine : at.sine;
-            const double first = 2 * std::numbers::pi * first_frequency * R * w;
-            const double turn = 2 * std::numbers::pi * frequency_step * R * w;
-            points.push_back({w, seen.residual_mm[i], std::cos(first), std::sin(first),
-                              std::cos(turn), std::sin(turn)});
+            const SeenPoint& point = seen.trace->points[i];
+            const double at = place(point);
+            points.push_back({weight(point), seen.residual_mm[i], std::cos(first * at),
+                              std::sin(first * at), std::cos(turn * at), std::sin(turn * at)});
         }
     }
     return points;
+}
+
+struct Search {
+    Peak best;
+    std::size_t step = 0; ///< of the best
+    double total = 0;     ///< sum of squares before
+    bool significant = false;
+};
+
+Search search(std::vector<Phasor>& points, std::size_t count, const ResidualScale& scale) {
+    Search out;
+    for (const Phasor& p : points)
+        out.total += p.residual * p.residual;
+    const double freedom = static_cast<double>(points.size()) - 2 - linear_unknowns;
+    if (freedom < 20 || std::sqrt(out.total / freedom) < scale.negligible_mm) return out;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (const Peak peak = fit_at(points); peak.taken > out.best.taken) {
+            out.best = peak;
+            out.step = k;
+        }
+        for (Phasor& p : points)
+            p.turn();
+    }
+    const double left =
+        std::max(out.total - out.best.taken, std::numeric_limits<double>::min()) / freedom;
+    const double chance = 2 * static_cast<double>(count) * std::exp(-out.best.taken / left / 2);
+    out.significant = chance < false_alarm && out.best.taken >= least_share * out.total;
+    return out;
+}
+
+constexpr std::size_t fewest_lobes = 4; ///< below, the linear causes hold them
+
+/// Harmonics of the angle itself.
+Search search_lobes(const std::vector<ResidualTrace>& traces, const ResidualScale& scale) {
+    const double step = std::max(longest_step(traces), 1e-6);
+    const double most = std::min(400.0, std::numbers::pi / (2 * step)); // four readings a lobe
+    if (most < static_cast<double>(fewest_lobes)) return {};
+    std::vector<Phasor> points = phasors_of(
+        traces, static_cast<double>(fewest_lobes), 1,
+        [](const SeenPoint& point) { return point.angle_rad; },
+        [](const SeenPoint&) { return 1.0; });
+    return search(points, static_cast<std::size_t>(most) - fewest_lobes + 1, scale);
 }
 
 } // namespace
@@ -94,31 +137,30 @@ std::optional<CyclicError> search_cyclic(const std::vector<ResidualTrace>& trace
     if (!(last > first)) return {};
     const double step = 1 / (2 * R * oversampling);
     const auto count = static_cast<std::size_t>((last - first) / step) + 1;
-    std::vector<Phasor> points = phasors_of(traces, axis, first, step, R);
-    double total = 0;
-    for (const Phasor& p : points)
-        total += p.residual * p.residual;
-    const double freedom = static_cast<double>(points.size()) - 2 - linear_unknowns;
-    if (freedom < 20 || std::sqrt(total / freedom) < scale.negligible_mm) return {};
-    Peak best;
-    double frequency = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        if (const Peak peak = fit_at(points); peak.taken > best.taken) {
-            best = peak;
-            frequency = first + static_cast<double>(k) * step;
-        }
-        for (Phasor& p : points)
-            p.turn();
-    }
-    const double left = std::max(total - best.taken, std::numeric_limits<double>::min()) / freedom;
-    const double chance = 2 * static_cast<double>(count) * std::exp(-best.taken / left / 2);
-    if (!(chance < false_alarm) || best.taken < least_share * total) return {};
+    const auto along = [axis](const SeenPoint& point) {
+        return axis == 0 ? point.aspect.cosine : point.aspect.sine;
+    };
+    constexpr double turn = 2 * std::numbers::pi;
+    std::vector<Phasor> points =
+        phasors_of(traces, turn * first * R, turn * step * R, along, along);
+    const Search seen = search(points, count, scale);
+    // lobes that are even in angle, not in the axis' travel, are no error of the axis
+    if (!seen.significant || search_lobes(traces, scale).best.taken >= seen.best.taken) return {};
+    const double frequency = first + static_cast<double>(seen.step) * step;
     CyclicError found;
     found.axis = axis;
     found.pitch_mm = 1 / frequency;
-    found.amplitude_mm = std::hypot(best.cosine, best.sine);
-    found.phase_rad = std::atan2(-best.sine, best.cosine);
+    found.amplitude_mm = std::hypot(seen.best.cosine, seen.best.sine);
+    found.phase_rad = std::atan2(-seen.best.sine, seen.best.cosine);
     return found;
+}
+
+std::optional<Lobes> find_lobes(const std::vector<ResidualTrace>& traces,
+                                const ResidualScale& scale) {
+    const Search seen = search_lobes(traces, scale);
+    if (!seen.significant) return {};
+    return Lobes{static_cast<int>(seen.step + fewest_lobes),
+                 std::hypot(seen.best.cosine, seen.best.sine)};
 }
 
 } // namespace axiscal::circular

@@ -129,15 +129,18 @@ double take_cyclic(Decomposition& model, const Circle& circle) {
         const double turn =
             std::clamp(model.solution.value[column + 2], -resolution / 2, resolution / 2);
         const double k = 2 * std::numbers::pi / cyclic.pitch_mm;
-        const double ua = model.solution.standard_uncertainty(column);
-        const double ub = model.solution.standard_uncertainty(column + 1);
+        const auto& covariance = model.solution.covariance;
+        const double spread = covariance.empty() ? 0
+                                                 : a * a * covariance[column][column] +
+                                                       2 * a * b * covariance[column][column + 1] +
+                                                       b * b * covariance[column + 1][column + 1];
         const double uk = model.solution.standard_uncertainty(column + 2);
         cyclic.amplitude_mm = amplitude;
         cyclic.phase_rad = std::atan2(-b, a);
         cyclic.pitch_mm = 2 * std::numbers::pi / (k + turn);
         cyclic.pitch_standard_uncertainty_mm = cyclic.pitch_mm * uk / k;
         cyclic.amplitude_standard_uncertainty_mm =
-            amplitude > 0 ? std::hypot(a * ua, b * ub) / amplitude : std::hypot(ua, ub);
+            amplitude > 0 ? std::sqrt(std::max(spread, 0.0)) / amplitude : 0;
         change = std::max(change, std::fabs(turn) * circle.R);
         column += columns_a_cyclic;
     }

@@ -72,12 +72,23 @@ struct CyclicError {
 };
 
 /// The strongest periodic error of `axis` in the residual, to the resolution of the search; none
-/// where chance would give one as strong in more than one of 10 000 searches, or where it explains
-/// less than a tenth of the residual. Pitches from 2 R / 3 down to four readings a period (at 45
-/// deg) and 400 periods.
+/// where chance would give one as strong in more than one of 10 000 searches, where it explains
+/// less than a tenth of the residual, or where lobes even in angle explain more. Pitches from 2 R /
+/// 3 down to four readings a period (at 45 deg) and 400 periods.
 std::optional<CyclicError> search_cyclic(const std::vector<ResidualTrace>& traces,
                                          int axis,
                                          double nominal_radius_mm,
                                          const ResidualScale& scale);
+
+/// Lobes even in angle: chatter at a fixed rate, a loose set-up, a form of the instrument; no error
+/// of an axis, whose period would follow its travel.
+struct Lobes {
+    int per_turn = 0; ///< four at least: three and fewer are causes with names
+    double amplitude_mm = 0;
+};
+
+/// The strongest lobes of the residual, by the same measure as search_cyclic.
+std::optional<Lobes> find_lobes(const std::vector<ResidualTrace>& traces,
+                                const ResidualScale& scale);
 
 } // namespace axiscal::circular

@@ -235,6 +235,25 @@ TEST(CircleDiagnosis, APeriodicErrorWithoutNoiseIsFoundExactly) {
     EXPECT_NEAR(*found.of(Cause::backlash_y).value, 0.003, 1e-12);
 }
 
+TEST(CircleDiagnosis, LobesEvenInAngleAreNoErrorOfAnAxis) {
+    std::mt19937_64 random{13};
+    std::normal_distribution<double> noise{0, 1e-4};
+    for (const int lobes : {4, 5, 8, 13, 40})
+        for (const bool noisy : {false, true}) {
+            CircularTest test = made_test(Truth{{"square", 1e-5}}, even_angles(0.25, 359.9, 0.5));
+            for (auto& trace : test.traces)
+                for (std::size_t i = 0; i < trace.angle_rad.size(); ++i)
+                    trace.radial_deviation_mm[i] +=
+                        0.002 * std::sin(lobes * trace.angle_rad[i]) + (noisy ? noise(random) : 0);
+            const CircleDiagnosis found = diagnose(test);
+            EXPECT_TRUE(found.cyclic.empty()) << lobes;
+            ASSERT_TRUE(found.lobes) << lobes;
+            EXPECT_EQ(found.lobes->per_turn, lobes);
+            // what the step-shaped causes take of them
+            EXPECT_NEAR(found.lobes->amplitude_mm, 0.002, 0.0007);
+        }
+}
+
 TEST(CircleDiagnosis, NoiseAloneShowsNoPeriodNoSpikeNoStep) {
     std::mt19937_64 random{5};
     std::normal_distribution<double> noise{0, 5e-4};

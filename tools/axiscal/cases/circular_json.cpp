@@ -201,6 +201,9 @@ Json diagnosis_json(const CircularAnswer& answer) {
     object["ranking"] = ranking_json(from);
     if (from.common_lag) object["common_lag"] = common_lag_json(*from.common_lag);
     object["cyclic"] = cyclic_json(from, answer.axes);
+    if (from.lobes)
+        object["lobes"] = {{"per_turn", from.lobes->per_turn},
+                           {"amplitude_mm", from.lobes->amplitude_mm}};
     object["reversals"] = reversals_json(from, answer.axes);
     object["change_overs"] = change_overs_json(from);
     if (from.vibration)

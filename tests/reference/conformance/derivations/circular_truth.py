@@ -82,6 +82,9 @@ CASES = {
     "circular-mixed-arc": (MIXED, arc(-19.25, 200.75, 1), "both", {}),
     "circular-lobes-3": ({"lobes": (3, 0.004)}, full(2.5), "both", {}),
     "circular-off-centre": ({"circle": (0.3, -0.2, 0.005)}, full(2.5), "both", {}),
+    "circular-lobes-5": ({"lobes": (5, 0.003)}, full(2), "both", {}),
+    "circular-common-lag": ({"scale_x": -2e-6, "scale_y": -2e-6}, full(2.5), "both", {}),
+    "circular-one-sense-ellipse": ({"squareness": 5e-5}, full(2.5), "ccw", {}),
     "circular-one-sense": ({"lobes": (4, 0.003)}, full(2.5), "cw", {}),
     "circular-feedback": ({"squareness": 5e-5}, full(2.5), "both", {"source": "feedback"}),
     "circular-cyclic": ({"cyclic": ("X", 0.002, 20.0, 0.5), "squareness": 3e-5}, [a + 0.25 for a in full(0.5)], "both", {}),
@@ -120,9 +123,9 @@ def ellipse_figures(amplitude, mean, at_20=0.0):
 
 def figures(name, case):
     truth = CASES[name][0]
-    if name in ("circular-squareness", "circular-servo-lag"):
+    if name in ("circular-squareness", "circular-servo-lag", "circular-one-sense-ellipse"):
         return ellipse_figures((R * truth.get("squareness", 0) + F * truth.get("servo", 0)) / 2, 0.0)
-    if name.startswith("circular-scale"):
+    if name.startswith("circular-scale") or name == "circular-common-lag":
         ex, ey = truth["scale_x"], truth["scale_y"]
         warm = case.get("temperature")
         shift = 0.0
@@ -132,6 +135,8 @@ def figures(name, case):
         found = ellipse_figures(R * (ex - ey) / 2, R * (ex + ey) / 2, shift)
         found |= {"/correction_to_20C_mm": shift, "/diagnosis/scale_x_at_20C": ex + shift / R,
                   "/diagnosis/scale_y_at_20C": ey + shift / R, "/diagnosis/common_lag/radius_change_mm": R * (ex + ey) / 2}
+        if ex + ey < 0:  # R (F tau / R)^2 / 2
+            found["/diagnosis/common_lag/lag_s_if_nothing_else"] = math.sqrt(-(ex + ey)) * R / F
         return found
     if "lobes" in truth:  # crests and troughs interlace, as above
         return ellipse_figures(truth["lobes"][1], 0.0)
@@ -157,10 +162,26 @@ def features(name):
         readings = [deviation({"spike": truth["spike"]}, trace, 1) for trace in
                     (math.radians(90 + 0.25 + 0.5 * k) for k in range(6))]
         found = {"/diagnosis/reversals/1/spike_mm": min(readings) if height < 0 else max(readings),
-                 "/diagnosis/reversals/0/step_mm": truth["backlash_x"], "/diagnosis/reversals/2/step_mm": truth["backlash_x"]}
+                 "/diagnosis/reversals/0/step_mm": truth["backlash_x"], "/diagnosis/reversals/2/step_mm": truth["backlash_x"],
+                 # four readings stand above half the highest, each for one step
+                 "/diagnosis/reversals/1/spike_width_deg": 4 * 0.5,
+                 "/diagnosis/reversals/1/spike_width_ms": math.radians(4 * 0.5) * R / F * 1000}
     if name == "circular-squareness":  # the only cause: its own ellipse is G
         found = {"/diagnosis/ranking/0/G_mm": R * truth["squareness"], "/diagnosis/ranking/0/G_b_mm": R * truth["squareness"],
                  "/diagnosis/ranking/0/peak_to_valley_mm": R * truth["squareness"]}
+        # centre and radius of even steps: normal matrix n diag(1/2, 1/2, 1); the widest gap is one step
+        found |= {"/parameters/D/condition": 2.0, "/traces/0/arc_deg": 357.5, "/traces/1/arc_deg": 357.5}
+        # no narrower ring exists
+        found |= {f"/parameters/{which}/gap": 0.0 for which in ("G_ccw", "G_cw", "G_b")}
+    if name == "circular-mixed-arc":
+        found = {"/traces/0/arc_deg": 220.0}
+    if name == "circular-feedback":
+        found = {f"/parameters/G_f_{which}/least_squares": R * truth["squareness"] for which in ("ccw", "cw", "b")}
+        found |= {f"/parameters/G_f_{which}/gap": 0.0 for which in ("ccw", "cw", "b")}
+    if name == "circular-lobes-5":  # alike in both senses and above the third harmonic: at right angles to every cause
+        found = {"/diagnosis/lobes/amplitude_mm": truth["lobes"][1], "/diagnosis/lobes/per_turn": 5}
+    if name == "circular-one-sense-ellipse":  # what the two causes make together is the ellipse
+        found = {"/diagnosis/not_separable/0/peak_to_valley_mm": R * truth["squareness"]}
     return found
 
 

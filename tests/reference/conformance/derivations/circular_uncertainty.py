@@ -36,6 +36,8 @@ def main():
     for key in ("G_ccw", "G_cw", "G_b", "F_max_ccw", "F_min_ccw", "F_max_cw", "F_min_cw", "D"):
         for place in ("value", "monte_carlo"):
             found[f"/parameters/{key}/expanded_uncertainty/{place}"] = 2 * u[key[0]]
+    for place, term in enumerate([device, terms[0], repeat, *terms[1:]]):
+        found[f"/budget/contributions/{place}/u_mm"] = term
     print(json.dumps({wanted["at"]: found[wanted["at"]] for wanted in document["expect"] if wanted["at"] in found}))
 
 
