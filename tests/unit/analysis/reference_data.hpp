@@ -2,6 +2,7 @@
 // Reads tests/reference and makes tables from it.
 
 #include "analysis/positioning_accuracy.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,7 +15,7 @@ namespace axiscal::test {
 using Rows = std::vector<std::vector<double>>;
 
 inline std::string reference_path(const std::string& name) {
-    return std::string{AXISCAL_SOURCE_DIR} + "/tests/reference/" + name;
+    return source_dir() + "/tests/reference/" + name;
 }
 
 inline nlohmann::json reference_json(const std::string& name) {

@@ -1,4 +1,5 @@
 #include "asked.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -38,7 +39,7 @@ json case_of_row(const std::vector<std::string>& cell) {
 }
 
 TEST(AirIndexCase, EveryRowOfTheReferenceComesOutWithinItsTolerance) {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/reference/air_index.csv"};
+    std::ifstream file{test::source_dir() + "/tests/reference/air_index.csv"};
     int rows = 0;
     for (std::string line; std::getline(file, line);) {
         std::istringstream cells{line};

@@ -1,3 +1,4 @@
+#include "tests/support/source_dir.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 
 #include <cmath>
@@ -29,7 +30,7 @@ json answer_to(const json& request) {
 }
 
 json reference(const std::string& name) {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/reference/" + name};
+    std::ifstream file{test::source_dir() + "/tests/reference/" + name};
     return json::parse(file);
 }
 

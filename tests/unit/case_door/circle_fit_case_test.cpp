@@ -1,3 +1,4 @@
+#include "tests/support/source_dir.hpp"
 #include "tests/unit/case_door/asked.hpp"
 
 #include <cmath>
@@ -19,7 +20,7 @@ json good_case() {
 }
 
 json reference(const std::string& name) {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/reference/" + name};
+    std::ifstream file{test::source_dir() + "/tests/reference/" + name};
     return json::parse(file).at("sets");
 }
 

@@ -1,6 +1,7 @@
 // The contract of "analysis": "circular".
 
 #include "asked.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -44,7 +45,7 @@ double value(const json& answer, const char* pointer) {
 }
 
 json reference_cases() {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/reference/ballbar_synthetic.json"};
+    std::ifstream file{test::source_dir() + "/tests/reference/ballbar_synthetic.json"};
     return json::parse(file).at("cases");
 }
 

@@ -1,5 +1,6 @@
 // `tolerances` of a positioning case, and the sets that are shipped.
 
+#include "tests/support/source_dir.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 
 #include <filesystem>
@@ -129,7 +130,7 @@ TEST(Limits, RefuseByField) {
 
 TEST(ShippedTolerances, AreReadAndMarkedToBeChecked) {
     const std::filesystem::path folder =
-        std::filesystem::path{AXISCAL_SOURCE_DIR} / "config/tolerances";
+        std::filesystem::path{test::source_dir()} / "config/tolerances";
     int sets = 0;
     for (const auto& entry : std::filesystem::directory_iterator{folder}) {
         if (entry.path().extension() != ".json") continue;

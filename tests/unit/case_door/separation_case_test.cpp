@@ -1,3 +1,4 @@
+#include "tests/support/source_dir.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 
 #include <fstream>
@@ -30,8 +31,7 @@ void expect_field(const std::string& line, const std::string& field) {
 }
 
 json reference_sets() {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} +
-                       "/tests/reference/chebyshev_separation.json"};
+    std::ifstream file{test::source_dir() + "/tests/reference/chebyshev_separation.json"};
     return json::parse(file).at("cases");
 }
 

@@ -1,3 +1,4 @@
+#include "tests/support/source_dir.hpp"
 #include "tests/unit/case_door/asked.hpp"
 
 #include <cmath>
@@ -69,8 +70,7 @@ json member_of(const json& request) {
 TEST(UncertaintyMember, GivesEveryUOfTheReferenceInTheUnitOfTheCase) {
     const std::map<std::string, std::string> keys{{"R_uni", "R_backward"}, {"B", "B"}, {"R", "R"},
                                                   {"E", "E_forward"},      {"M", "M"}, {"A", "A"}};
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} +
-                       "/tests/reference/uncertainty_thermal.json"};
+    std::ifstream file{test::source_dir() + "/tests/reference/uncertainty_thermal.json"};
     const json reference = json::parse(file);
     for (const json& entry : reference.at("uncertainty")) {
         SCOPED_TRACE(entry.at("id"));

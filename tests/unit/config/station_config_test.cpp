@@ -1,4 +1,5 @@
 #include "config/station_config.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -10,7 +11,7 @@
 namespace axiscal {
 namespace {
 
-const std::string example_path = AXISCAL_SOURCE_DIR "/config/station.example.toml";
+const std::string example_path = test::source_dir() + "/config/station.example.toml";
 
 std::string example_text() {
     std::ifstream file{example_path};

@@ -7,6 +7,7 @@
 #include "tests/support/pty_pair.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -26,7 +27,7 @@ namespace {
 
 using boost::asio::ip::tcp;
 
-const std::string shipped = std::string{AXISCAL_SOURCE_DIR} + "/config/profiles/";
+const std::string shipped = test::source_dir() + "/config/profiles/";
 
 std::string profile_keys(const std::string& name) {
     return "profile = \"" + shipped + name + ".toml\"\n";
@@ -120,7 +121,7 @@ private:
 class RtuTapeServer {
 public:
     explicit RtuTapeServer(const std::string& name) {
-        std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/traces/" + name + ".tape"};
+        std::ifstream file{test::source_dir() + "/tests/traces/" + name + ".tape"};
         std::stringstream text;
         text << file.rdbuf();
         tape_ = parse_tape(text.str()).value();
@@ -149,7 +150,7 @@ private:
 };
 
 std::vector<std::string> expected_lines(const std::string& name) {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/traces/" + name + ".expected"};
+    std::ifstream file{test::source_dir() + "/tests/traces/" + name + ".expected"};
     std::vector<std::string> lines;
     for (std::string line; std::getline(file, line);)
         lines.push_back(line);

@@ -1,6 +1,7 @@
 #include "drivers/environment/modbus_profile.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace axiscal {
 namespace {
 
-const std::string shipped = std::string{AXISCAL_SOURCE_DIR} + "/config/profiles";
+const std::string shipped = test::source_dir() + "/config/profiles";
 
 ModbusField field(WordType type, bool low_word_first = false) {
     ModbusField made;

@@ -1,6 +1,7 @@
 // The example station file against the drivers that it names.
 #include "config/station_config.hpp"
 #include "drivers/registry.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <cstdlib>
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 namespace axiscal {
 namespace {
 
-const std::string folder = AXISCAL_SOURCE_DIR "/config";
+const std::string folder = test::source_dir() + "/config";
 
 TEST(StationExample, IsAcceptedByTheDriversItNames) {
     setenv("AXISCAL_PROFILE_PATH", (folder + "/profiles").c_str(), 1);

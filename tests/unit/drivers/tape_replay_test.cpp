@@ -2,6 +2,7 @@
 #include "drivers/link/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
+#include "tests/support/source_dir.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -22,7 +23,7 @@ std::ostream& operator<<(std::ostream& out, const TapeCase& which) {
 }
 
 std::string file_text(const std::string& name) {
-    std::ifstream file{std::string{AXISCAL_SOURCE_DIR} + "/tests/traces/" + name};
+    std::ifstream file{test::source_dir() + "/tests/traces/" + name};
     EXPECT_TRUE(file) << name;
     std::stringstream text;
     text << file.rdbuf();

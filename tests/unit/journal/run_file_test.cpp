@@ -1,6 +1,7 @@
 #include "acquisition/journal/run_file.hpp"
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_dir.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>
@@ -216,7 +217,7 @@ TEST(RunFile, TellsANewerFormatFromADamagedFile) {
 }
 
 /// Made before the uncertainty statement was recorded; kept so that old runs stay readable.
-const std::string file_of_format_1 = AXISCAL_SOURCE_DIR "/tests/reference/fifty_points.axiscal";
+const std::string file_of_format_1 = test::source_dir() + "/tests/reference/fifty_points.axiscal";
 
 TEST(RunFile, OfFormat1IsReadWithoutUncertaintyStatement) {
     EXPECT_EQ(read_bytes(file_of_format_1).substr(60, 4), (std::string{"\0\0\0\1", 4}));

@@ -2,6 +2,7 @@
 
 #include "acquisition/publish/outbox.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -135,7 +136,7 @@ TEST(AxiscalPublish, KeepsTheEntryWhileTheDestinationIsReadOnly) {
 TEST(AxiscalPublish, ReadsDestinationAndStateFromTheStationFile) {
     const Site site;
     std::filesystem::create_directory(site.destination);
-    auto station = read_bytes(AXISCAL_SOURCE_DIR "/config/station.example.toml");
+    auto station = read_bytes(test::source_dir() + "/config/station.example.toml");
     const auto set = [&](const std::string& key, const std::string& value) {
         for (std::size_t at = 0; (at = station.find(key, at)) != std::string::npos; ++at) {
             const bool at_line_start = at == 0 || station[at - 1] == '\n' ||

@@ -1,4 +1,5 @@
 #include "scenario.hpp"
+#include "tests/support/source_dir.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ std::string refusal(const std::string& toml) {
 TEST(Scenario, EveryShippedFileIsRead) {
     int read = 0;
     for (const auto& entry : std::filesystem::directory_iterator(
-             AXISCAL_SOURCE_DIR "/tools/axiscal-simulate/scenarios")) {
+             test::source_dir() + "/tools/axiscal-simulate/scenarios")) {
         const auto scenario = read_scenario(entry.path().string());
         EXPECT_TRUE(scenario) << entry.path() << (scenario ? "" : scenario.error().detail);
         ++read;

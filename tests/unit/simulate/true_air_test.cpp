@@ -1,4 +1,5 @@
 // Expected numbers: tests/reference/air_index.csv (published NIST values; computed oracle rows).
+#include "tests/support/source_dir.hpp"
 #include "true_air.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ struct Row {
 };
 
 std::vector<Row> rows() {
-    std::ifstream file{AXISCAL_SOURCE_DIR "/tests/reference/air_index.csv"};
+    std::ifstream file{test::source_dir() + "/tests/reference/air_index.csv"};
     std::vector<Row> table;
     for (std::string line; std::getline(file, line);) {
         std::vector<std::string> cells;
