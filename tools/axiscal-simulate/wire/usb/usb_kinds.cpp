@@ -1,0 +1,43 @@
+#include "wire/usb/usb_kinds.hpp"
+
+#include <array>
+#include <sstream>
+
+namespace axiscal::simulate {
+
+namespace {
+
+/// One row a kind, by name.
+constexpr std::array<UsbKind, 0> kinds{};
+
+} // namespace
+
+std::string UsbWish::text(const std::string& name, const std::string& otherwise) const {
+    const auto found = settings.find(name);
+    return found == settings.end() ? otherwise : found->second;
+}
+
+Result<UsbWish> parse_usb_wish(const std::string& text) {
+    std::istringstream parts{text};
+    UsbWish wish;
+    std::getline(parts, wish.kind, ',');
+    for (std::string part; std::getline(parts, part, ',');) {
+        const auto equals = part.find('=');
+        if (equals == std::string::npos || equals == 0)
+            return fail(Fault::bad_request, "\"" + part + "\" in " + text + " is no name=value");
+        wish.settings[part.substr(0, equals)] = part.substr(equals + 1);
+    }
+    return wish;
+}
+
+Result<std::unique_ptr<UsbDevice>> make_usb_device(const UsbWish& wish, const UsbWorld& world) {
+    std::string known;
+    for (const UsbKind& kind : kinds) {
+        if (wish.kind == kind.name) return kind.make(wish, world);
+        known += known.empty() ? kind.name : std::string{", "} + kind.name;
+    }
+    return fail(Fault::bad_request,
+                "no USB device is of kind \"" + wish.kind + "\"; there are: " + known);
+}
+
+} // namespace axiscal::simulate
