@@ -70,6 +70,19 @@ def n_minus_1(model, t, p, pv, s, co2):
     return birch_downs_dry(t, p, s) - D("1e-10") * scale * (D("3.7345") - D("0.0401") * s) * pv
 
 
+# Where the equations are stated to hold (degC; Pa; %; nm; umol/mol). Temperatures: Ciddor 1996; NIST's page on
+# the shop-floor form; room air of both others.
+TEMPERATURES = {"ciddor": (-40, 100), "edlen_nist": (0, 40), "birch_downs": (15, 25), "bonsch_potulski": (15, 25)}
+RANGES = {"pressure": (60000, 120000), "relative_humidity": (0, 100), "vacuum_wavelength": (350, 1600)}
+
+
+def validity(model):
+    ranges = dict(RANGES, temperature=TEMPERATURES[model])
+    if model in ("ciddor", "bonsch_potulski"):
+        ranges["co2"] = (0, 2000)
+    return {f"/validity/{name}/{end}": limits[end] for name, limits in ranges.items() for end in (0, 1)}
+
+
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         case = json.load(file, parse_float=D, parse_int=D)["case"]
@@ -81,7 +94,8 @@ def main():
     found = n_minus_1(case["model"], t, p, pv, s, case.get("co2_ppm"))
     usual = {"ciddor": 450, "bonsch_potulski": 400}.get(case["model"])
     co2 = case.get("co2_ppm", usual)
-    print(json.dumps({"/n_minus_1": float(found), "/vapour_pressure_Pa": float(pv), "/co2_ppm": co2 and float(co2)}))
+    print(json.dumps({"/n_minus_1": float(found), "/vapour_pressure_Pa": float(pv), "/co2_ppm": co2 and float(co2),
+                      **validity(case["model"])}))
 
 
 main()

@@ -21,18 +21,38 @@ def rows(diagonal, side):
 
 
 def positioning(diagonal):
-    up, down = rows(diagonal, "forward"), rows(diagonal, "backward")
-    means = [side.mean(axis=1) for side in (up, down) if side is not None]
-    figures = {"E": np.max(means) - np.min(means)}
-    centre = np.mean(means, axis=0)
-    if down is not None:
-        figures["B"] = np.max(np.abs(means[0] - means[1]))
-        if up.shape[1] > 1:
-            s = [side.std(axis=1, ddof=1) for side in (up, down)]
-            both = 2 * s[0] + 2 * s[1] + np.abs(means[0] - means[1])
-            figures["R"] = np.max([both, 4 * s[0], 4 * s[1]])
+    """ISO 230-2 of one diagonal, zero at its start: parameters, slope, middle curve, figures of each target."""
+    sides = {side: rows(diagonal, side) for side in ("forward", "backward")}
+    sides = {side: readings for side, readings in sides.items() if readings is not None}
+    start = np.mean([readings[0].mean() for readings in sides.values()])
+    sides = {side: readings - start for side, readings in sides.items()}
+    means = {side: readings.mean(axis=1) for side, readings in sides.items()}
+    at = {"mean_" + side: mean for side, mean in means.items()}
+    figures = {"E_" + side: np.ptp(mean) for side, mean in means.items()}
+    at["mean"] = centre = np.mean(list(means.values()), axis=0)
+    figures["E"] = np.ptp(list(means.values()))
+    if len(means) == 2:
+        figures["M"] = np.ptp(centre)
+        at["B"] = means["forward"] - means["backward"]
+        figures["B"], figures["B_mean"] = np.max(np.abs(at["B"])), np.mean(at["B"])
+    if sides["forward"].shape[1] > 1:
+        spreads(sides, means, at, figures)
     slope = np.polyfit(diagonal["targets"], centre, 1)[0]
-    return figures, slope, centre
+    return figures, slope, centre, at
+
+
+def spreads(sides, means, at, figures):
+    s = {side: readings.std(axis=1, ddof=1) for side, readings in sides.items()}
+    for side in sides:
+        at["s_" + side], at["R_" + side] = s[side], 4 * s[side]
+        figures["R_" + side] = np.max(4 * s[side])
+        figures["A_" + side] = np.max(means[side] + 2 * s[side]) - np.min(means[side] - 2 * s[side])
+    if len(sides) == 2:
+        both = 2 * s["forward"] + 2 * s["backward"] + np.abs(at["B"])
+        at["R"] = np.max([both, at["R_forward"], at["R_backward"]], axis=0)
+        figures["R"] = np.max(at["R"])
+        figures["A"] = np.max([means[side] + 2 * s[side] for side in sides]) \
+            - np.min([means[side] - 2 * s[side] for side in sides])
 
 
 def displacement(case, found):
@@ -40,7 +60,7 @@ def displacement(case, found):
     results = [positioning(diagonal) for diagonal in case["diagonals"]]
     signs = np.array([diagonal["signs"] for diagonal in case["diagonals"]])
     lengths = np.sqrt((np.abs(signs) * box ** 2).sum(axis=1))
-    for i, (figures, slope, centre) in enumerate(results):
+    for i, (figures, slope, centre, at) in enumerate(results):
         targets = case["diagonals"][i]["targets"]
         found[f"/diagonals/{i}/length"] = lengths[i]
         found[f"/diagonals/{i}/length_error"] = slope * lengths[i]
@@ -48,6 +68,8 @@ def displacement(case, found):
         found[f"/diagonals/{i}/slope_end_points"] = (centre[-1] - centre[0]) / (targets[-1] - targets[0])
         for key, value in figures.items():
             found[f"/diagonals/{i}/parameters/{key}/value"] = value
+        for key, values in at.items():
+            found.update({f"/diagonals/{i}/positions/{k}/{key}": value for k, value in enumerate(values)})
     for kind, mask in (("body", np.all(signs != 0, axis=1)), ("faces", np.any(signs == 0, axis=1))):
         chosen = [results[i] for i in np.flatnonzero(mask)]
         if chosen:
@@ -55,7 +77,7 @@ def displacement(case, found):
                 if key in chosen[0][0]:
                     found[f"/{kind}/{key}_d"] = max(one[0][key] for one in chosen)
             found[f"/{kind}/slope_spread"] = max(one[1] for one in chosen) - min(one[1] for one in chosen)
-    errors = np.array([slope for _, slope, _ in results]) * lengths
+    errors = np.array([slope for _, slope, _, _ in results]) * lengths
     solve("/from_body_diagonals", np.all(signs != 0, axis=1), list(PAIRS), box, signs, lengths, errors, found)
     for pair, (i, j) in PAIRS.items():
         on_face = (signs[:, i] != 0) & (signs[:, j] != 0) & np.any(signs == 0, axis=1)
@@ -95,6 +117,7 @@ def step(case, found):
             matrix.append(row.copy())
             right.append(reading)
     solution = np.linalg.lstsq(np.array(matrix), np.array(right), rcond=None)[0]
+    closures(np.array(matrix) @ solution - np.array(right), order, case["diagonals"], found)
     ends = np.zeros((3, 3))
     for axis in range(3):
         for direction in range(3):
@@ -104,6 +127,19 @@ def step(case, found):
                 found[f"/moving/{'xyz'[axis]}/{'xyz'[direction]}/{node}"] = value
     for pair, (i, j) in PAIRS.items():
         found[f"/squareness_rad/{pair}"] = -(ends[j, i] / box[i] + ends[i, j] / box[j])
+
+
+def closures(residual, order, diagonals, found):
+    """What no error explains: each segment has four changes of reading and three unknowns, so what the solution leaves of
+    the four is one number up to sign; the largest of an axis."""
+    n = len(residual) // len(diagonals) // 3
+    largest = np.zeros(3)
+    for k, diagonal in enumerate(diagonals):
+        changes = np.diff(residual[3 * n * k:3 * n * (k + 1)], prepend=0)
+        for move, change in enumerate(changes):
+            largest[order[move % 3]] = max(largest[order[move % 3]], abs(change))
+    for axis in range(3):
+        found[f"/moving/{'xyz'[axis]}/closure"] = largest[axis]
 
 
 def main():

@@ -30,15 +30,19 @@ def change_at(times, x, minute):
 def of_series(found, place, times, x, case):
     window = case.get("window_min", F(60))
     largest = max(abs(x[j] - x[i]) for i, j in pairs(times, window))
+    last = min(j for i, j in pairs(times, window) if abs(x[j] - x[i]) == largest)
+    first = min(i for i, j in pairs(times, window) if j == last)
     found[place + "/total/range"] = max(x) - min(x)
+    found[place + "/total/from_min"], found[place + "/total/to_min"] = times[0], times[-1]
     found[place + "/total/u_EVE"] = (max(x) - min(x)) / F(2 * sqrt(3))
     found[place + "/window/range"] = largest
+    found[place + "/window/from_min"], found[place + "/window/to_min"] = times[first], times[last]
     found[place + "/window/u_EVE"] = largest / F(2 * sqrt(3))
-    found[place + "/end/change"] = x[-1] - x[0]
+    found[place + "/end/at_min"], found[place + "/end/change"] = times[-1], x[-1] - x[0]
     for k, minute in enumerate(case.get("at_min", [F(60)])):
         change = change_at(times, x, minute)
         if change is not None:
-            found[f"{place}/changes/{k}/change"] = change
+            found[f"{place}/changes/{k}/at_min"], found[f"{place}/changes/{k}/change"] = minute, change
 
 
 def slope(times, x):
@@ -47,12 +51,12 @@ def slope(times, x):
 
 
 def windows(times, x, window):
-    """(first index, slope) of every window that lies whole in the record."""
+    """(first index, last index, slope) of every window that lies whole in the record."""
     for last in range(len(times)):
         if times[last] - times[0] >= window:
             first = next(i for i in range(len(times)) if times[last] - times[i] <= window)
             if last > first:
-                yield first, slope(times[first:last + 1], x[first:last + 1])
+                yield first, last, slope(times[first:last + 1], x[first:last + 1])
 
 
 def of_temperature(found, place, times, x, channel):
@@ -60,12 +64,14 @@ def of_temperature(found, place, times, x, channel):
     slopes = list(windows(times, x, window))
     found[place + "/range"] = max(x) - min(x)
     if slopes:
-        found[place + "/gradient/K_per_h"] = 60 * max(slopes, key=lambda one: abs(one[1]))[1]
+        first, last, steepest = max(slopes, key=lambda one: abs(one[2]))
+        found[place + "/gradient/K_per_h"] = 60 * steepest
+        found[place + "/gradient/from_min"], found[place + "/gradient/to_min"] = times[first], times[last]
     for k in range(len(times)):
         band = "settled_band_K" not in channel or max(x[k:]) - min(x[k:]) <= channel["settled_band_K"]
         flat = "settled_slope_K_per_h" not in channel or (slopes and all(
-            abs(60 * s) <= channel["settled_slope_K_per_h"] for first, s in slopes if first >= k)
-            and any(first >= k for first, _ in slopes))
+            abs(60 * s) <= channel["settled_slope_K_per_h"] for first, _, s in slopes if first >= k)
+            and any(first >= k for first, _, _ in slopes))
         if band and flat and times[-1] - times[k] >= window:
             found[place + "/settled_from_min"] = times[k]
             break

@@ -18,6 +18,15 @@ def strain(body):
     return body["expansion_per_K"] * (t - 20)
 
 
+def of_temperatures(case, found):
+    """The mean of a body's sensors, and how many they are."""
+    for body in ("machine", "instrument"):
+        if body in case:
+            sensors = aslist(case[body]["temperature_degC"])
+            found[f"/{body}/temperature_degC"] = sum(sensors) / len(sensors)
+            found[f"/{body}/sensors"] = len(sensors)
+
+
 def cosine(angle):
     term, total = F(1), F(1)
     for k in range(1, 12):
@@ -47,8 +56,10 @@ def of_readings(case, found):
         found[f"/points/{i}/first_order"] = x - length * (machine - scale)
         chosen = "exact" if case.get("form") == "exact" else "first_order"
         found[f"/points/{i}/at_20C"] = found[f"/points/{i}/{chosen}"]
+        found[f"/points/{i}/exact_minus_first_order"] = found[f"/points/{i}/exact"] - found[f"/points/{i}/first_order"]
     found["/machine/strain"] = machine
     found["/instrument/strain"] = scale
+    of_temperatures(case, found)
 
 
 def beam_cosine(case):
@@ -57,6 +68,14 @@ def beam_cosine(case):
         return cosine(case.get("beam_angle_rad", F(0)))
     square = 1 / (1 + (case["beam_walk_mm"] / (2 * case["beam_walk_travel_mm"])) ** 2)
     return F(int_root(square.numerator * square.denominator * 10 ** 80), square.denominator * 10 ** 40)
+
+
+def beam_angle(case):
+    """Of a walk e over L by the series of arctan(e / (2 L))."""
+    if "beam_walk_mm" not in case:
+        return case.get("beam_angle_rad", F(0))
+    t = case["beam_walk_mm"] / (2 * case["beam_walk_travel_mm"])
+    return sum((-1) ** k * t ** (2 * k + 1) / (2 * k + 1) for k in range(12))
 
 
 def int_root(n):
@@ -85,6 +104,12 @@ def of_counts(case, found):
         if "machine" in case:
             found[f"/points/{i}/exact_mm"] = along_axis / (1 + strain(case["machine"]))
             found[f"/points/{i}/first_order_mm"] = along_axis * (1 - strain(case["machine"]))
+            found[f"/points/{i}/exact_minus_first_order_mm"] = \
+                found[f"/points/{i}/exact_mm"] - found[f"/points/{i}/first_order_mm"]
+            chosen = "exact_mm" if case.get("form") == "exact" else "first_order_mm"
+            found[f"/points/{i}/at_20C_mm"] = found[f"/points/{i}/{chosen}"]
+    found["/beam_angle_rad"] = beam_angle(case)
+    of_temperatures(case, found)
     if "abbe" in case:
         found["/abbe_mm"] = case["abbe"]["offset_mm"] * tangent(case["abbe"]["angle_rad"])
 

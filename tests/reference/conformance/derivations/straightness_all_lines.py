@@ -84,6 +84,9 @@ def straightness(case, found):
     for name, method in METHODS.items():
         slope, offset, width = method(xs, ys)
         found[f"/{name}/slope"], found[f"/{name}/offset"], found[f"/{name}/straightness"] = slope, offset, width
+        for i, (x, y) in enumerate(zip(xs, ys)):
+            steepness = root(1 + slope * slope) if name == "minimum_zone" else 1  # square to the line, as its width
+            found[f"/{name}/residuals/{i}"] = (y - offset - slope * x) / steepness
     for i, y in enumerate(ys):
         found[f"/line/{i}"] = y
     if "backward" in case:
@@ -97,6 +100,8 @@ def squareness(case, found):
             slope = method(*line_of(side, case))[0]
             opened -= atan(float(slope * side.get("positive_towards_other", 1)))
         found[f"/{name}/squareness_rad"] = opened
+        found[f"/{name}/squareness_um_per_m"] = opened * 1e6
+        found[f"/{name}/squareness_arcsec"] = opened * 648000 / pi
     found["/squareness_rad"] = found["/least_squares/squareness_rad"]
     found["/squareness_um_per_m"] = found["/squareness_rad"] * 1e6
     found["/squareness_arcsec"] = found["/squareness_rad"] * 648000 / pi

@@ -98,6 +98,19 @@ def as_simulated(case, m, terms, per_unit):
             for name in PARAMETERS if name in squares and not name.startswith("A")}
 
 
+def of_budgets(case, m, terms, squares):
+    """How each term counts in each parameter: factor^2 u^2 add up to the square of its u."""
+    found, per_term = {}, {name: variances(case, m, {name: terms[name]}) for name in terms}
+    for parameter in PARAMETERS:
+        counting = [name for name in ORDER if name in terms and per_term[name].get(parameter, 0) > 0]
+        for place, name in enumerate(counting if parameter in squares else []):
+            at = f"/parameters/{parameter}/budget/terms/{place}/"
+            found[at + "term"] = name
+            found[at + "u"] = terms[name]
+            found[at + "factor"] = (per_term[name][parameter] / terms[name] ** 2).sqrt()
+    return found
+
+
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         case = json.load(file, parse_float=D, parse_int=D)["case"]
@@ -122,6 +135,8 @@ def main():
             target = m.get("target_uncertainty", {}).get(name)
             if target is not None:
                 found[f"/parameters/{name}/target_uncertainty/met"] = 2 * squares[name].sqrt() / per_unit <= target
+    for at, value in of_budgets(case, m, terms, squares).items():
+        found[at] = value if at.endswith("/term") else float(value / per_unit if at.endswith("/u") else value)
     if "strict R" in squares:
         found["/parameters/R/budget/strict_propagation/u"] = float(squares["strict R"].sqrt() / per_unit)
     found.update(as_simulated(case, m, terms, per_unit))
