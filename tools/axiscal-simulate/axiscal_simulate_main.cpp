@@ -3,6 +3,7 @@
 #include "control_socket.hpp"
 #include "simulator.hpp"
 #include "truth.hpp"
+#include "wire/usb/usb_hub.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -24,7 +25,8 @@ constexpr int can_not_open = 1, is_refused = 3;
 struct Options {
     std::string scenario, program, truth, control, positions;
     std::vector<double> targets;
-    int approaches = 5, positions_field = 1, cnc_port = -1;
+    std::vector<std::string> devices;
+    int approaches = 5, positions_field = 1, cnc_port = -1, first_port = 0;
     bool run = false, one_way = false;
 };
 
@@ -60,17 +62,21 @@ int print_truth(const Options& options) {
     return file.flush() ? 0 : can_not_open;
 }
 
+/// Answers the control channel on a thread of its own until the returned thread is stopped.
+template <typename World>
+Result<std::jthread> answer_commands(const std::string& path, World& world) {
+    if (path.empty()) return std::jthread{};
+    AXISCAL_TRY(ControlSocket socket, ControlSocket::listen(path));
+    return std::jthread{[&world, s = std::move(socket)](std::stop_token stop) {
+        s.serve(stop, [&](const std::string& line) { return world.command(line).dump(); });
+    }};
+}
+
 /// Lives until quit, a signal, or an error of the start.
 int live(const Options& options, Simulator& world) {
     world.start(!options.positions.empty());
-    std::jthread control;
-    if (!options.control.empty()) {
-        auto socket = ControlSocket::listen(options.control);
-        if (!socket) return complain(socket.error(), can_not_open);
-        control = std::jthread{[&world, s = std::move(*socket)](std::stop_token stop) {
-            s.serve(stop, [&](const std::string& line) { return world.command(line).dump(); });
-        }};
-    }
+    const auto control = answer_commands(options.control, world);
+    if (!control) return complain(control.error(), can_not_open);
     nlohmann::json ready = world.places();
     if (!options.control.empty()) ready["control"] = options.control;
     std::cout << ready.dump() << std::endl;
@@ -111,6 +117,21 @@ int open_and_live(const Options& options) {
     return live(options, **world);
 }
 
+/// The devices stay plugged in until quit or a signal.
+int plug_usb(const Options& options) {
+    auto scenario = read_scenario(options.scenario);
+    if (!scenario) return complain(scenario.error(), is_refused);
+    auto hub = UsbHub::open(options.devices, {*scenario, SimClock{}}, options.first_port);
+    if (!hub) return complain(hub.error(), can_not_open);
+    const std::string ready = (*hub)->status().dump();
+    const auto control = answer_commands(options.control, **hub);
+    if (!control) return complain(control.error(), can_not_open);
+    std::cout << ready << std::endl;
+    while (!(*hub)->ended() && asked_to_end == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -136,10 +157,15 @@ int main(int argc, char** argv) {
     truth->add_option("--targets", options.targets, "targets in mm")->delimiter(',');
     truth->add_option("--approaches", options.approaches, "n in each direction");
     truth->add_flag("--one-way", options.one_way, "forward approaches only");
+    CLI::App* usb = app.add_subcommand("usb", "plug USB devices into the kernel's vhci_hcd; root");
+    usb->fallthrough();
+    usb->add_option("--device", options.devices, "KIND,name=value,... (README.md)")->required();
+    usb->add_option("--first-port", options.first_port, "socket of the first device, 0 to 7");
     CLI11_PARSE(app, argc, argv);
     if (options.scenario.empty()) {
         std::cerr << "axiscal-simulate: --scenario FILE is missing\n";
         return is_refused;
     }
+    if (usb->parsed()) return plug_usb(options);
     return truth->parsed() ? print_truth(options) : open_and_live(options);
 }

@@ -73,7 +73,8 @@ public:
     /// Bytes for an OUT endpoint (its number, without direction bit); done() takes them all.
     virtual UsbAnswer out(std::uint8_t endpoint, std::span<const std::uint8_t> data);
     /// At most `most` bytes of an IN endpoint (its number, without direction bit); hold() while
-    /// there are none. Fewer than `most` end the host's transfer.
+    /// there are none. Whatever is given ends the host's transfer, as a short packet does: a model
+    /// whose packets are full waits until it can fill `most`, as the wire would.
     virtual UsbAnswer in(std::uint8_t endpoint, std::size_t most);
 
     /// When this descriptor is readable, held transfers are asked again; -1: only by pace().
@@ -82,6 +83,8 @@ public:
     [[nodiscard]] virtual std::chrono::milliseconds pace() const {
         return std::chrono::milliseconds{5};
     }
+    /// What the host has set (line speed, latency), for people; the one thread-safe member.
+    [[nodiscard]] virtual std::string state() const { return {}; }
 };
 
 } // namespace axiscal::simulate

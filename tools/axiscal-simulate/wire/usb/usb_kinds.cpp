@@ -1,6 +1,10 @@
 #include "wire/usb/usb_kinds.hpp"
 
+#include "wire/usb/cdc_acm.hpp"
+#include "wire/usb/ftdi_uart.hpp"
+
 #include <array>
+#include <cstdlib>
 #include <sstream>
 
 namespace axiscal::simulate {
@@ -8,13 +12,22 @@ namespace axiscal::simulate {
 namespace {
 
 /// One row a kind, by name.
-constexpr std::array<UsbKind, 0> kinds{};
+constexpr std::array kinds{
+    UsbKind{"cdc-acm", make_cdc_acm},
+    UsbKind{"ftdi", make_ftdi_uart},
+};
 
 } // namespace
 
 std::string UsbWish::text(const std::string& name, const std::string& otherwise) const {
     const auto found = settings.find(name);
     return found == settings.end() ? otherwise : found->second;
+}
+
+std::uint16_t UsbWish::hexadecimal(const std::string& name, std::uint16_t otherwise) const {
+    const std::string number = text(name, "");
+    if (number.empty()) return otherwise;
+    return static_cast<std::uint16_t>(std::strtoul(number.c_str(), nullptr, 16));
 }
 
 Result<UsbWish> parse_usb_wish(const std::string& text) {

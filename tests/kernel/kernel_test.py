@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""The host's side of the kernel tests: one boot, many checks.
+
+kernel_test.py BOOT FOLDER PROGRAMS           boots, runs every check of boot_BOOT.py, keeps what it said in FOLDER
+kernel_test.py BOOT FOLDER PROGRAMS SENTENCE  tells how that check went in the last boot
+kernel_test.py shell FOLDER PROGRAMS COMMAND  boots and runs a shell line, by hand
+
+FOLDER keeps output.txt, console.log and the logs of all programs. Exit 77 (skipped) only where a
+program of the host is missing and AXISCAL_MAY_SKIP names kernel.
+"""
+
+import os
+import shlex
+import shutil
+import sys
+from pathlib import Path
+
+import machine
+
+SOURCE = machine.HERE.parent.parent
+LIMIT_S = int(os.environ.get("AXISCAL_LIMIT_S", "200"))
+SKIPPED = 77
+
+
+def missing(why):
+    print(why)
+    if "kernel" in os.environ.get("AXISCAL_MAY_SKIP", "").split(","):
+        sys.exit(SKIPPED)
+    sys.exit("or AXISCAL_MAY_SKIP=kernel")
+
+
+def tell(share, status):
+    """What the guest said; its console too where it did not reach its end."""
+    said = share / "output.txt"
+    print(said.read_text(errors="replace") if said.exists() else "the guest said nothing")
+    if status is None:
+        console = share / "console.log"
+        print(f"the guest did not reach its end; the last of {console}:")
+        print(console.read_text(errors="replace")[-4000:] if console.exists() else "(nothing)")
+
+
+def run_boot(name, share, programs, command=None):
+    shutil.rmtree(share, ignore_errors=True)
+    share.mkdir(parents=True)
+    inside = f"export AXISCAL_SOURCE={shlex.quote(str(SOURCE))} AXISCAL_PATH={shlex.quote(str(programs))}; "
+    append = ""
+    if command is None:
+        command = f"/usr/bin/python3 -B -u {shlex.quote(str(machine.HERE / f'boot_{name}.py'))}"
+        if name == "service":
+            import service_overlay
+            append = service_overlay.lay(share, programs)
+    try:
+        status = machine.boot(share, inside + command, LIMIT_S, append)
+    except machine.CanNotRun as why:
+        missing(str(why))
+    tell(share, status)
+    print(f"all of it stays in {share}")
+    return status
+
+
+def outcome(share, sentence):
+    """The line of the check in the last boot, and what follows it up to the next check."""
+    said = share / "output.txt"
+    if not said.exists():
+        if "kernel" in os.environ.get("AXISCAL_MAY_SKIP", "").split(","):
+            sys.exit(SKIPPED)
+        sys.exit(f"{share}: this machine has not booted yet")
+    lines = said.read_text(errors="replace").splitlines()
+    at = next((i for i, line in enumerate(lines) if line in (f"ok {sentence}",) or line.startswith(f"FAILED {sentence}:")), None)
+    if at is None:
+        print("\n".join(lines[-30:]))
+        sys.exit(f"the guest never came to {sentence}")
+    print("\n".join([lines[at], *(line for line in lines[at + 1 : at + 80] if line.startswith("  "))]))
+    return 0 if lines[at].startswith("ok ") else 1
+
+
+def main():
+    name, share, programs, *rest = sys.argv[1:]
+    share = Path(share).resolve()
+    if name == "shell":
+        return run_boot(name, share, programs, rest[0])
+    if rest:
+        return outcome(share, rest[0])
+    # A failed check is told by its own test: this one is the machine's.
+    return 1 if run_boot(name, share, programs) is None else 0
+
+
+sys.exit(main())
