@@ -2,7 +2,9 @@
 
 #include "config/measure.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
+#include "drivers/environment/environment_vaisala.hpp"
 #include "drivers/environment/modbus_instrument.hpp"
+#include "drivers/gauge/ascii_gauge.hpp"
 #include "drivers/laser/laser_umd.hpp"
 
 #include <algorithm>
@@ -17,6 +19,10 @@ constexpr std::array drivers{
     InstrumentDriver{"umd", "uMD0/uMD1/uMD2 laser or scale counter, serial ASCII", make_umd},
     InstrumentDriver{"dracal-vcp", "Dracal VCP air sensor (P, T, RH), serial ASCII",
                      make_dracal_vcp},
+    InstrumentDriver{"vaisala", "Vaisala PTU300 or PTB330 air sensor, serial ASCII", make_vaisala},
+    InstrumentDriver{"ascii-gauge",
+                     "HEIDENHAIN ND 28x, Mitutoyo, Sylvac length gauges, serial ASCII",
+                     make_ascii_gauge},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
 

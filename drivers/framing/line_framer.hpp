@@ -9,19 +9,22 @@
 
 namespace axiscal {
 
-/// Splits at LF and drops a CR before it. A line longer than the bound is dropped whole and
-/// counted. With `skip_first` everything up to the first LF is dropped too: a link that is opened
-/// in the middle of a record begins with half a line that may look like a whole one.
+/// Splits at LF and drops a CR before it (or at CR, for instruments that send no LF). A line longer
+/// than the bound is dropped whole and counted. With `skip_first` everything up to the first LF is
+/// dropped too: a link that is opened in the middle of a record begins with half a line that may
+/// look like a whole one.
 class LineFramer {
 public:
-    explicit LineFramer(std::size_t longest, bool skip_first = false)
+    explicit LineFramer(std::size_t longest, bool skip_first = false, char line_end = '\n')
         : longest_{longest}
+        , line_end_{line_end}
         , skipping_{skip_first} {}
 
     /// Calls `on_line(std::string_view)` for each complete line; the view ends with the call.
     template <class OnLine> void feed(std::span<const std::byte> bytes, OnLine&& on_line) {
         std::string_view rest{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-        for (auto end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+        for (auto end = rest.find(line_end_); end != std::string_view::npos;
+             end = rest.find(line_end_)) {
             finish(rest.substr(0, end), on_line);
             rest.remove_prefix(end + 1);
         }
@@ -56,6 +59,7 @@ private:
     std::string partial_;
     std::size_t longest_;
     std::uint64_t oversized_ = 0;
+    char line_end_;
     bool skipping_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +39,8 @@ struct LinkSettings {
     int baud = 115200;
     char parity = 'N';
     int data_bits = 8, stop_bits = 1;
+    std::optional<bool> dtr,
+        rts; ///< modem lines that power an interface; empty: as the kernel does
     std::string host;
     int port = 0;
     [[nodiscard]] std::string

@@ -76,6 +76,13 @@ bool make_raw(int descriptor, const LinkSettings& settings, speed_t speed) {
     return ::tcsetattr(descriptor, TCSANOW, &line) == 0;
 }
 
+/// Some interfaces take their power from the modem lines. A pty has none: nothing to set there.
+bool set_modem_line(int descriptor, int line, std::optional<bool> high) {
+    if (!high) return true;
+    const bool set = ::ioctl(descriptor, *high ? TIOCMBIS : TIOCMBIC, &line) == 0;
+    return set || errno == ENOTTY || errno == EINVAL;
+}
+
 DescriptorKind kind_of(const LinkSettings& settings) {
     DescriptorKind kind;
     kind.name = settings.describe();
@@ -114,6 +121,9 @@ Result<std::unique_ptr<ByteLink>> open_serial(Scheduler& scheduler, const LinkSe
     ::ioctl(tty.get(), TIOCEXCL); // best effort: root passes it anyway
     if (!make_raw(tty.get(), settings, speed->code))
         return fail(Fault::link_closed, name + " refuses these line settings", last_error());
+    if (!set_modem_line(tty.get(), TIOCM_DTR, settings.dtr) ||
+        !set_modem_line(tty.get(), TIOCM_RTS, settings.rts))
+        return fail(Fault::link_closed, name + " has no modem lines to power it", last_error());
     // What waited in the kernel before has no honest arrival time.
     ::tcflush(tty.get(), TCIFLUSH);
     return std::make_unique<DescriptorLink>(scheduler, tty.release(), kind_of(settings));

@@ -181,14 +181,17 @@ void read_laser(Fields& f, LaserScenario& laser) {
 
 void read_sensor(Fields& f, SensorScenario& sensor) {
     f.read("name", sensor.name);
-    f.one_of("kind", sensor.kind, {"dracal-vcp", "tm-th8", "xy-md02", "comet"});
+    f.one_of(
+        "kind", sensor.kind,
+        {"dracal-vcp", "tm-th8", "xy-md02", "comet", "nd-28x", "mitutoyo", "sylvac", "vaisala"});
     f.read("path", sensor.path);
     f.read("port", sensor.port);
     f.read("unit", sensor.unit);
     f.read("fraction_digits", sensor.fraction_digits);
     f.read("first_register", sensor.first_register);
     if (sensor.name.empty()) f.refuse("name", "is missing");
-    if (sensor.kind == "dracal-vcp" && sensor.path.empty()) f.refuse("path", "is missing");
+    const std::set<std::string> on_tcp{"tm-th8", "xy-md02", "comet"};
+    if (!on_tcp.contains(sensor.kind) && sensor.path.empty()) f.refuse("path", "is missing");
 }
 
 void read_cnc(Fields& f, CncScenario& cnc) {

@@ -65,7 +65,7 @@ struct LaserScenario {
 };
 
 struct SensorScenario {
-    std::string name, kind; ///< dracal-vcp, tm-th8, xy-md02, comet
+    std::string name, kind; ///< dracal-vcp, tm-th8, comet ... (README.md)
     std::string path = {};  ///< symlink to the pty; empty: Modbus TCP
     int port = 0, unit = 1, fraction_digits = 2, first_register = 0x31;
 };

@@ -65,21 +65,31 @@ const std::string umd_keys = "link = \"serial:/dev/null\"\nwavelength = \"632.99
 const std::string corner_cube = umd_keys + "fold = \"corner cube\"\n";
 const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string dracal_keys = "link = \"serial:/dev/null\"\n";
+/// Its value follows.
+const std::string model_keys = "link = \"serial:/dev/null\"\nmodel = ";
 
-INSTANTIATE_TEST_SUITE_P(Instruments,
-                         TapeReplay,
-                         ::testing::Values(TapeCase{"umd2-homodyne", "umd", corner_cube},
-                                           TapeCase{"umd1-heterodyne", "umd", corner_cube},
-                                           TapeCase{"umd0-homodyne", "umd", plane_mirror},
-                                           TapeCase{"umd2-sixteen-bit", "umd", corner_cube},
-                                           TapeCase{"dracal-vcp-pth450", "dracal-vcp", dracal_keys},
-                                           TapeCase{"dracal-vcp-faults", "dracal-vcp",
-                                                    dracal_keys}),
-                         [](const auto& which) {
-                             std::string name = which.param.tape;
-                             std::erase(name, '-');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Instruments,
+    TapeReplay,
+    ::testing::Values(TapeCase{"umd2-homodyne", "umd", corner_cube},
+                      TapeCase{"umd1-heterodyne", "umd", corner_cube},
+                      TapeCase{"umd0-homodyne", "umd", plane_mirror},
+                      TapeCase{"umd2-sixteen-bit", "umd", corner_cube},
+                      TapeCase{"dracal-vcp-pth450", "dracal-vcp", dracal_keys},
+                      TapeCase{"dracal-vcp-faults", "dracal-vcp", dracal_keys},
+                      TapeCase{"gauge-nd-28x", "ascii-gauge", model_keys + "\"nd-28x\"\n"},
+                      TapeCase{"gauge-mitutoyo", "ascii-gauge",
+                               model_keys + "\"mitutoyo\"\nunit = \"mm\"\n"},
+                      TapeCase{"gauge-sylvac", "ascii-gauge", model_keys + "\"sylvac\"\n"},
+                      TapeCase{"vaisala-ptu300", "vaisala", model_keys + "\"ptu300\"\n"},
+                      TapeCase{"vaisala-ptb330-poll", "vaisala",
+                               model_keys + "\"ptb330\"\naddress = 1\n"
+                                            "checksum = \"CS4\"\n"}),
+    [](const auto& which) {
+        std::string name = which.param.tape;
+        std::erase(name, '-');
+        return name;
+    });
 
 TEST(Tape, IsRefusedWithTheLineThatIsWrong) {
     const std::string header = "origin = simulator\n";

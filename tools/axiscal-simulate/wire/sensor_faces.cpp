@@ -1,6 +1,7 @@
 #include "wire/sensor_faces.hpp"
 
 #include "simulated_machine.hpp"
+#include "wire/text_face.hpp"
 
 #include <cmath>
 #include <thread>
@@ -218,6 +219,7 @@ double temperature_step_k(const SensorScenario& sensor) {
 
 Result<std::unique_ptr<Face>>
 open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+    if (is_text_kind(sensor.kind)) return open_text_face(scenario, sensor, clock);
     if (sensor.path.empty()) {
         auto face = std::make_unique<TcpFace>(scenario, sensor, clock);
         auto opened = face->open();

@@ -1,0 +1,251 @@
+// Length gauges and read-outs on a serial line that answer a request with one line of ASCII. What
+// differs between makers is a row in gauge_answer.cpp; there is one driver.
+//
+// Documents:
+//   nd-28x    HEIDENHAIN, user's manuals ND 281B (page 47), ND 280, ND 287: "Data format and
+//   control
+//             characters", "Measured value output".
+//   mitutoyo  Mitutoyo, QM-Height user's manual, 6.2.2 (output format). The request "1" and the
+//             error codes 91n are common knowledge and not in it.
+//   sylvac    Sylvac and Bowers, manuals of the opto RS duplex interface (commands ?, SET?, MM,
+//   IN).
+//             The frame 7E2 is common knowledge and not in them.
+// Nothing here was seen on a real device yet.
+//
+// A gauge is asked each period and heard all the time: a value that a person sends with the DATA
+// key counts as well. A value belongs to the arrival of its last byte less the time that its line
+// needs on the wire.
+
+#include "drivers/gauge/ascii_gauge.hpp"
+
+#include "config/settings.hpp"
+#include "drivers/framing/line_framer.hpp"
+#include "drivers/gauge/gauge_answer.hpp"
+#include "drivers/link/link_settings.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+constexpr std::size_t longest_line = 64;
+constexpr Duration link_patience = std::chrono::seconds{2};
+/// So many requests in a row without an answer, and the line is opened anew.
+constexpr int silent_requests = 10;
+
+struct GaugeSetup {
+    const GaugeModel* model = nullptr;
+    LinkSettings link;
+    std::optional<GaugeUnit> unit; ///< as stated; empty: the gauge tells
+    int sign = 1, input = 1;
+    Duration poll_period{};
+};
+
+/// Of the longest answer, 18 characters with start, parity and stop bits.
+Duration time_on_wire(const LinkSettings& line) {
+    constexpr int characters = 18;
+    const int bits = 1 + line.data_bits + (line.parity == 'N' ? 0 : 1) + line.stop_bits;
+    return std::chrono::nanoseconds{std::int64_t{1'000'000'000} * characters * bits / line.baud};
+}
+
+std::vector<std::byte> bytes_of(std::string_view text) {
+    const auto bytes = std::as_bytes(std::span{text});
+    return {bytes.begin(), bytes.end()};
+}
+
+class AsciiGauge final : public Instrument {
+public:
+    explicit AsciiGauge(GaugeSetup setup)
+        : setup_{std::move(setup)}
+        , latency_{time_on_wire(setup_.link)}
+        , channels_{{"length", ChannelKind::displacement, Medium::none, latency_}} {}
+    [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
+    Task<Result<void>> run(InstrumentContext context) override;
+    [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
+
+private:
+    Task<Result<void>>
+    hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
+    Task<Result<void>> ask_unit(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
+    void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
+    void learn_unit(GaugeUnit unit);
+    [[nodiscard]] bool is_echo(std::string_view line) const;
+
+    GaugeSetup setup_;
+    Duration latency_;
+    std::vector<Channel> channels_;
+    InstrumentCounters counters_;
+    std::optional<GaugeUnit> told_unit_; ///< by the gauge, on this connection
+    std::optional<Error> contradiction_;
+    bool answered_ = false, identified_ = false;
+    bool counted_before_ = false; ///< a value was handed up on an earlier connection
+    std::uint32_t epoch_ = 0;
+};
+
+/// An opto cable sends back what it was sent.
+bool AsciiGauge::is_echo(std::string_view line) const {
+    const auto without_end = [](std::string_view text) { return text.substr(0, text.find('\r')); };
+    return line == without_end(setup_.model->request) ||
+           (!setup_.model->unit_request.empty() && line == without_end(setup_.model->unit_request));
+}
+
+void AsciiGauge::learn_unit(GaugeUnit unit) {
+    told_unit_ = unit;
+    if (!setup_.unit || *setup_.unit == unit) return;
+    contradiction_ = Error{Fault::bad_configuration,
+                           "the gauge on " + setup_.link.describe() +
+                               " shows another unit than the station file states: press its unit "
+                               "key or correct `unit`"};
+}
+
+void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink) {
+    if (answer.input != setup_.input) return; // another input of the multiplexer
+    answered_ = true;
+    if (answer.unit) learn_unit(*answer.unit);
+    const auto unit = told_unit_ ? told_unit_ : setup_.unit;
+    if (contradiction_ || !unit) return;
+    ++counters_.samples;
+    if (!std::exchange(identified_, true))
+        sink.identify(
+            Identity{std::string{setup_.model->maker}, std::string{setup_.model->model}, "", ""});
+    const double metres = setup_.sign * length_of(answer.number, *unit).si();
+    sink.take(Sample{0, at - latency_, metres, 0, epoch_});
+    counted_before_ = true;
+}
+
+void AsciiGauge::take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink) {
+    if (line.starts_with('\n')) line.remove_prefix(1); // CR LF of a gauge whose lines end with CR
+    if (line.empty() || is_echo(line)) return;
+    if (const auto unit = unit_in_settings(line); unit && !setup_.model->unit_request.empty()) {
+        ++counters_.frames;
+        return learn_unit(*unit);
+    }
+    const auto answer = decode_gauge_answer(line, *setup_.model);
+    if (answer) {
+        ++counters_.frames;
+        return take_answer(*answer, read_at, sink);
+    }
+    if (answer.error().fault == Fault::bad_frame) {
+        ++counters_.bad_frames;
+        return;
+    }
+    ++counters_.frames;
+    answered_ = true;
+    sink.note(answer.error().fault, answer.error().detail);
+    sink.take(Sample::bad(0, read_at - latency_, Quality::signal_error, 0, epoch_));
+}
+
+/// The link and the framer are owned by run()'s frame, which waits.
+Task<Result<void>> AsciiGauge::hear_until(ByteLink& link,
+                                          InstrumentContext context,
+                                          LineFramer& framer,
+                                          MonotonicTime end) {
+    while (context.scheduler->now() < end && !contradiction_) {
+        const auto arrived = co_await link.read_some(end);
+        if (!arrived && arrived.error().fault == Fault::link_timeout) break;
+        if (!arrived) co_return tl::unexpected<Error>(arrived.error());
+        const auto oversized = framer.oversized();
+        framer.feed(arrived->bytes, [&](std::string_view line) {
+            take_line(line, arrived->read_at, *context.sink);
+        });
+        counters_.bad_frames += framer.oversized() - oversized;
+    }
+    if (contradiction_) co_return tl::unexpected<Error>(*contradiction_);
+    co_return Result<void>{};
+}
+
+/// A gauge that does not tell its unit when asked is believed what the station file states; without
+/// such a statement there is no value.
+Task<Result<void>>
+AsciiGauge::ask_unit(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    if (setup_.model->unit_request.empty()) co_return Result<void>{};
+    auto request = bytes_of(setup_.model->unit_request);
+    const MonotonicTime end = context.scheduler->now() + link_patience;
+    auto written = co_await link.write_all(std::move(request), end);
+    if (!written) co_return written;
+    while (!told_unit_ && context.scheduler->now() < end) {
+        const MonotonicTime soon =
+            std::min(end, context.scheduler->now() + std::chrono::milliseconds{100});
+        const auto heard = co_await hear_until(link, context, framer, soon);
+        if (!heard) co_return heard;
+    }
+    if (!told_unit_ && !setup_.unit)
+        co_return fail(Fault::bad_configuration,
+                       "the gauge on " + setup_.link.describe() +
+                           " does not tell its unit: state `unit` in the station file");
+    co_return Result<void>{};
+}
+
+Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    answered_ = false;
+    const MonotonicTime next = context.scheduler->now() + setup_.poll_period;
+    auto request = bytes_of(setup_.model->request);
+    const auto written = co_await link.write_all(std::move(request), next + link_patience);
+    if (!written) co_return written;
+    const auto heard = co_await hear_until(link, context, framer, next);
+    if (heard && !answered_) ++counters_.timeouts;
+    co_return heard;
+}
+
+Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
+    auto opened =
+        co_await context.links->open(setup_.link, context.scheduler->now() + link_patience);
+    if (!opened) co_return tl::unexpected<Error>(opened.error());
+    const std::unique_ptr<ByteLink> link = *std::move(opened);
+    channels_[0].latency_uncertainty = link->latency_uncertainty() + latency_ / 2;
+    if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
+    told_unit_.reset();
+    contradiction_.reset();
+    identified_ = false;
+    // The read-out may have been switched off meanwhile, and its zero with it.
+    if (std::exchange(counted_before_, false)) ++epoch_;
+    LineFramer framer{longest_line, false, setup_.model->line_end};
+    const auto known = co_await ask_unit(*link, context, framer);
+    if (!known) co_return known;
+    for (int silent = 0; silent < silent_requests; silent = answered_ ? 0 : silent + 1) {
+        const auto asked = co_await ask(*link, context, framer);
+        if (!asked) co_return asked;
+    }
+    co_return fail(Fault::link_timeout,
+                   "no value from the gauge on " + setup_.link.describe() +
+                       ": is it switched on, and are its line settings these?");
+}
+
+std::vector<std::string> model_names() {
+    std::vector<std::string> names;
+    for (const GaugeModel& model : gauge_models())
+        names.emplace_back(model.name);
+    return names;
+}
+
+std::optional<GaugeUnit> read_unit(Settings& options, const GaugeModel& model) {
+    if (!options.has("unit") && model.tells_unit()) {
+        options.choice("unit", {"mm", "inch"}, "mm"); // the key is known, the gauge tells
+        return std::nullopt;
+    }
+    return options.choice("unit", {"mm", "inch"}) == "inch" ? GaugeUnit::inches
+                                                            : GaugeUnit::millimetres;
+}
+
+} // namespace
+
+std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& /*config*/,
+                                             Settings& options) {
+    const GaugeModel* const named = find_gauge_model(options.choice("model", model_names()));
+    GaugeSetup setup;
+    setup.model = named ? named : &gauge_models().front(); // refused above
+    setup.link = read_link(options, setup.model->line);
+    setup.unit = read_unit(options, *setup.model);
+    setup.sign = options.choice("counting", {"normal", "reversed"}, "normal") == "normal" ? 1 : -1;
+    setup.input = static_cast<int>(options.integer("input", 1, 9, 1));
+    if (setup.input != 1 && !setup.model->has_inputs())
+        options.refuse("input", "this gauge has one input only: remove the key");
+    setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{20},
+                                         std::chrono::seconds{60}, setup.model->poll_period);
+    return std::make_unique<AsciiGauge>(std::move(setup));
+}
+
+} // namespace axiscal

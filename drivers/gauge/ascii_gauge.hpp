@@ -1,0 +1,10 @@
+#pragma once
+// Length gauges and read-outs that answer in ASCII, see ascii_gauge.cpp.
+
+#include "drivers/instrument.hpp"
+
+namespace axiscal {
+
+std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& config, Settings& options);
+
+} // namespace axiscal

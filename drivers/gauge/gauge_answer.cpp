@@ -1,0 +1,166 @@
+#include "drivers/gauge/gauge_answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace axiscal {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::string_view tolerance_marks = "<=>? ", series_marks = "SAGD ";
+
+constexpr std::array<std::string_view, 1> heidenhain_shapes{"+########## ums"};
+/// One reading of the manual counts the sign among the ten places.
+constexpr std::array<std::string_view, 1> heidenhain_nine_shapes{"+######### ums"};
+constexpr std::array<std::string_view, 1> mitutoyo_shapes{"0cA+########"};
+constexpr std::array<std::string_view, 4> sylvac_shapes{"M+999.999M", "M+999.99M", "M+99.9999M",
+                                                        "M+9.99999M"};
+
+constexpr std::span<const GaugeError> no_errors{};
+constexpr std::array mitutoyo_errors{
+    GaugeError{"91", Fault::signal_error, "the gauge sends an error code instead of a value"}};
+constexpr std::array sylvac_errors{
+    GaugeError{"ERR", Fault::signal_error, "the gauge answers with an error"}};
+
+LinkSettings serial(int baud, char parity, int data_bits, int stop_bits) {
+    LinkSettings line;
+    line.baud = baud;
+    line.parity = parity;
+    line.data_bits = data_bits;
+    line.stop_bits = stop_bits;
+    return line;
+}
+
+/// The opto head lives on the modem lines: DTR high and RTS low in duplex.
+LinkSettings opto_powered(LinkSettings line) {
+    line.dtr = true;
+    line.rts = false;
+    return line;
+}
+
+const std::array<GaugeModel, 4>& models() {
+    static const std::array<GaugeModel, 4> rows{
+        GaugeModel{"nd-28x", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
+                   heidenhain_shapes, no_errors, "", 200ms},
+        GaugeModel{"nd-28x-nine", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
+                   heidenhain_nine_shapes, no_errors, "", 200ms},
+        GaugeModel{"mitutoyo", "Mitutoyo", "ASCII output", serial(9600, 'N', 8, 1), "1", '\r',
+                   mitutoyo_shapes, mitutoyo_errors, "", 200ms},
+        GaugeModel{"sylvac", "Sylvac", "opto RS duplex", opto_powered(serial(4800, 'E', 7, 2)),
+                   "?\r", '\r', sylvac_shapes, sylvac_errors, "SET?\r", 200ms},
+    };
+    return rows;
+}
+
+/// The number's text without leading blanks: digits with at most one point.
+std::optional<double> plain_number(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    const bool clean = text.find_first_not_of("0123456789.") == std::string_view::npos &&
+                       text.find_first_of("0123456789") != std::string_view::npos &&
+                       std::ranges::count(text, '.') <= 1;
+    if (!clean) return std::nullopt;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    return whole ? std::optional{value} : std::nullopt;
+}
+
+bool in_number(char letter) {
+    return letter == ' ' || letter == '.' || (letter >= '0' && letter <= '9');
+}
+
+/// What one shape finds in one line.
+struct Match {
+    std::string number;
+    char sign = '+', unit = '\0', input = '1';
+};
+
+/// Takes one letter of the line at a letter of the shape; false: it does not fit.
+bool take(char shape, char letter, Match& match) {
+    switch (shape) {
+    case '+': match.sign = letter; return letter == '+' || letter == '-';
+    case '#': match.number += letter; return in_number(letter);
+    case '9': match.number += letter; return letter >= '0' && letter <= '9';
+    case '.': match.number += letter; return letter == '.';
+    case 'u': match.unit = letter; return letter == ' ' || letter == '"' || letter == '?';
+    case 'm': return tolerance_marks.find(letter) != std::string_view::npos;
+    case 's': return series_marks.find(letter) != std::string_view::npos;
+    case 'c': match.input = letter; return letter >= '1' && letter <= '9';
+    default: return shape == letter;
+    }
+}
+
+std::optional<Match> match_shape(std::string_view line, std::string_view shape) {
+    Match match;
+    std::size_t at = 0;
+    for (const char letter : shape) {
+        if (letter == 'M') {
+            const bool marked = at < line.size() && tolerance_marks.find(line[at]) != line.npos;
+            at += marked ? 1 : 0;
+            continue;
+        }
+        if (at == line.size() || !take(letter, line[at], match)) return std::nullopt;
+        ++at;
+    }
+    return at == line.size() ? std::optional{match} : std::nullopt;
+}
+
+bool mentions(std::span<const std::string_view> shapes, char letter) {
+    return std::ranges::any_of(
+        shapes, [&](std::string_view shape) { return shape.find(letter) != shape.npos; });
+}
+
+} // namespace
+
+bool GaugeModel::tells_unit() const {
+    return mentions(shapes, 'u') || !unit_request.empty();
+}
+
+bool GaugeModel::has_inputs() const {
+    return mentions(shapes, 'c');
+}
+
+std::span<const GaugeModel> gauge_models() {
+    return models();
+}
+
+const GaugeModel* find_gauge_model(std::string_view name) {
+    const auto found = std::ranges::find(models(), name, &GaugeModel::name);
+    return found == models().end() ? nullptr : &*found;
+}
+
+Result<GaugeAnswer> decode_gauge_answer(std::string_view line, const GaugeModel& model) {
+    for (const std::string_view shape : model.shapes) {
+        const auto match = match_shape(line, shape);
+        if (!match) continue;
+        if (match->unit == '?')
+            return fail(Fault::signal_error, "the read-out marks its value as faulty");
+        const auto number = plain_number(match->number);
+        if (!number) continue;
+        GaugeAnswer answer;
+        answer.number = match->sign == '-' ? -*number : *number;
+        if (match->unit != '\0')
+            answer.unit = match->unit == '"' ? GaugeUnit::inches : GaugeUnit::millimetres;
+        answer.input = match->input - '0';
+        return answer;
+    }
+    for (const GaugeError& error : model.errors)
+        if (line.starts_with(error.begins))
+            return fail(error.fault, std::string{error.sentence} + " (" + std::string{line} + ")");
+    return fail(Fault::bad_frame, "no answer of this gauge");
+}
+
+std::optional<GaugeUnit> unit_in_settings(std::string_view line) {
+    const std::string padded = " " + std::string{line} + " ";
+    if (padded.find(" MM ") != std::string::npos) return GaugeUnit::millimetres;
+    if (padded.find(" IN ") != std::string::npos) return GaugeUnit::inches;
+    return std::nullopt;
+}
+
+Length length_of(double number, GaugeUnit unit) {
+    return unit == GaugeUnit::inches ? inch(number) : mm(number);
+}
+
+} // namespace axiscal

@@ -1,0 +1,67 @@
+#pragma once
+// What ASCII length gauges and read-outs answer, one row a model: the request, the shape of the
+// answer, its unit, its error answers. Pure. Documents of the rows: see ascii_gauge.cpp.
+
+#include "analysis/quantity/quantity.hpp"
+#include "analysis/quantity/result.hpp"
+#include "drivers/link/byte_link.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace axiscal {
+
+enum class GaugeUnit : std::uint8_t { millimetres, inches };
+
+/// An answer that begins so is an error of the gauge and no value.
+struct GaugeError {
+    std::string_view begins;
+    Fault fault = Fault::signal_error;
+    std::string_view sentence;
+};
+
+/// One model of gauge. `shapes` are the answers it may give, letter by letter:
+///   +  the sign, '+' or '-'          #  one place of the number: blank, digit or point
+///   9  a digit of the number         .  its point
+///   m  a tolerance mark: < = > ? or blank    M  the same, or nothing
+///   s  a mark of a series: S A G D or blank  c  the input, a digit
+///   u  the unit: blank mm, '"' inch, '?' a fault    any other: itself
+/// Every shape has one length: a record that lost a letter is refused, since -5.23 without its
+/// point is a number as well.
+struct GaugeModel {
+    std::string_view name; ///< in the station file
+    std::string_view maker, model;
+    LinkSettings line; ///< baud, parity, bits and modem lines as the maker delivers it
+    std::string_view request;
+    char line_end = '\n';
+    std::span<const std::string_view> shapes;
+    std::span<const GaugeError> errors;
+    std::string_view unit_request; ///< asked once at the beginning; empty: the gauge cannot tell
+    Duration poll_period{};
+    [[nodiscard]] bool tells_unit() const;
+    [[nodiscard]] bool has_inputs() const;
+};
+
+std::span<const GaugeModel> gauge_models();
+/// Null when there is none of this name.
+const GaugeModel* find_gauge_model(std::string_view name);
+
+struct GaugeAnswer {
+    double number = 0;             ///< with its sign, in the gauge's unit
+    std::optional<GaugeUnit> unit; ///< empty: the answer does not tell
+    int input = 1;                 ///< of a multiplexer; 1 where there is only one
+};
+
+/// One line without its end. A blank where a digit may stand counts only before the first digit:
+/// "-      5.23" is -5.23; "5 23" is none.
+/// @errors Fault::signal_error with the gauge's own complaint; Fault::bad_frame for any other text.
+Result<GaugeAnswer> decode_gauge_answer(std::string_view line, const GaugeModel& model);
+
+/// The unit in the answer to `unit_request`: a word "MM" or "IN". Empty when it holds neither.
+std::optional<GaugeUnit> unit_in_settings(std::string_view line);
+
+Length length_of(double number, GaugeUnit unit);
+
+} // namespace axiscal

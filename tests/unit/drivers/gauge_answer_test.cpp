@@ -1,0 +1,107 @@
+// Literal answers: ND 281B manual page 47, QM-Height manual 6.2.2, Sylvac opto RS manual.
+#include "drivers/gauge/gauge_answer.hpp"
+#include "tests/support/made_instrument.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+const GaugeModel& model(std::string_view name) {
+    return *find_gauge_model(name);
+}
+
+TEST(GaugeAnswer, ReadsTheHeidenhainRecordOfTheManual) {
+    // -5.23 mm, within the sorting limits, current value of a series.
+    const auto answer = decode_gauge_answer("-      5.23  =A", model("nd-28x"));
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->number, -5.23);
+    EXPECT_EQ(answer->unit, GaugeUnit::millimetres);
+}
+
+TEST(GaugeAnswer, ReadsAHeidenhainRecordWhoseSignIsOneOfTheTenPlaces) {
+    const auto answer = decode_gauge_answer("+  12.3456    ", model("nd-28x-nine"));
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->number, 12.3456);
+}
+
+TEST(GaugeAnswer, TakesInchesFromTheHeidenhainMark) {
+    const auto answer = decode_gauge_answer("+   1.00000 \"  ", model("nd-28x"));
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->unit, GaugeUnit::inches);
+    EXPECT_DOUBLE_EQ(length_of(answer->number, *answer->unit).in(mm), 25.4);
+}
+
+TEST(GaugeAnswer, HasNoValueWhereHeidenhainMarksAFault) {
+    EXPECT_EQ(decode_gauge_answer("+      0.00 ?  ", model("nd-28x")).error().fault,
+              Fault::signal_error);
+}
+
+TEST(GaugeAnswer, ReadsTheMitutoyoRecordsOfTheManual) {
+    const auto metric = decode_gauge_answer("01A+0000.123", model("mitutoyo"));
+    ASSERT_TRUE(metric);
+    EXPECT_EQ(metric->number, 0.123);
+    EXPECT_EQ(metric->input, 1);
+    EXPECT_EQ(metric->unit, std::nullopt); // the record does not tell
+    const auto inches = decode_gauge_answer("01A+00.12345", model("mitutoyo"));
+    ASSERT_TRUE(inches);
+    EXPECT_EQ(inches->number, 0.12345);
+    EXPECT_EQ(decode_gauge_answer("03A-0000.001", model("mitutoyo"))->input, 3);
+}
+
+TEST(GaugeAnswer, TellsAMitutoyoErrorFromAValue) {
+    const auto error = decode_gauge_answer("911", model("mitutoyo"));
+    ASSERT_FALSE(error);
+    EXPECT_EQ(error.error().fault, Fault::signal_error);
+    EXPECT_NE(error.error().detail.find("911"), std::string::npos);
+}
+
+TEST(GaugeAnswer, ReadsASylvacValueWithAndWithoutAToleranceMark) {
+    for (const std::string_view line : {"+012.345", "+012.345=", "<+012.345", "+012.345>"}) {
+        const auto answer = decode_gauge_answer(line, model("sylvac"));
+        ASSERT_TRUE(answer) << line;
+        EXPECT_EQ(answer->number, 12.345) << line;
+    }
+    EXPECT_EQ(unit_in_settings("MM RES2 REF1 NOR CHA+ B1"), GaugeUnit::millimetres);
+    EXPECT_EQ(unit_in_settings("IN RES2"), GaugeUnit::inches);
+    EXPECT_EQ(unit_in_settings("+012.345"), std::nullopt);
+}
+
+TEST(GaugeAnswer, RefusesEveryShortenedOrLengthenedRecord) {
+    const std::pair<std::string_view, std::string_view> fixed[] = {
+        {"nd-28x", "-      5.23  =A"}, {"mitutoyo", "01A+0000.123"}, {"sylvac", "+012.345"}};
+    for (const auto& [name, record] : fixed)
+        for (std::size_t at = 0; at < record.size(); ++at) {
+            std::string cut{record}, doubled{record};
+            cut.erase(at, 1);
+            if (name == "sylvac" && at > 4) continue; // one place less is its coarser resolution
+            doubled.insert(at, 1, 'x');
+            EXPECT_FALSE(decode_gauge_answer(cut, model(name))) << cut;
+            EXPECT_FALSE(decode_gauge_answer(doubled, model(name))) << doubled;
+        }
+}
+
+TEST(GaugeAnswer, RefusesWhatIsNoNumber) {
+    for (const std::string_view line : {"+     5 .23  =A", "+          .  =A",
+                                        "+   1.2.3   = ", " ", "", "+", "-  1e5", "+          x"})
+        EXPECT_EQ(decode_gauge_answer(line, model("nd-28x")).error().fault, Fault::bad_frame)
+            << line;
+    for (const std::string_view line : {"+", "+.", "+1.2.3", "012.345", "+12.345", "+0123.456"})
+        EXPECT_EQ(decode_gauge_answer(line, model("sylvac")).error().fault, Fault::bad_frame)
+            << line;
+}
+
+TEST(AsciiGauge, WantsTheUnitOfAGaugeThatDoesNotTellIt) {
+    const std::string keys = "link = \"serial:/dev/null\"\nmodel = \"mitutoyo\"\n";
+    const auto silent = testing::make_instrument("ascii-gauge", keys);
+    ASSERT_EQ(silent.refusals.size(), 1U);
+    EXPECT_EQ(silent.refusals[0].key, "unit");
+    EXPECT_TRUE(testing::make_instrument("ascii-gauge", keys + "unit = \"mm\"\n").refusals.empty());
+    const auto inputs = testing::make_instrument(
+        "ascii-gauge", "link = \"serial:/dev/null\"\nmodel = \"sylvac\"\ninput = 2\n");
+    ASSERT_EQ(inputs.refusals.size(), 1U);
+    EXPECT_EQ(inputs.refusals[0].key, "input");
+}
+
+} // namespace
+} // namespace axiscal

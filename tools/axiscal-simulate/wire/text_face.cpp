@@ -1,0 +1,99 @@
+#include "wire/text_face.hpp"
+
+#include "simulated_machine.hpp"
+#include "wire/gauge_line.hpp"
+#include "wire/pty.hpp"
+#include "wire/vaisala_line.hpp"
+
+#include <functional>
+#include <set>
+
+namespace axiscal::simulate {
+
+namespace {
+
+constexpr std::size_t longest_request = 256;
+
+const std::set<std::string> gauge_kinds{"nd-28x", "mitutoyo", "sylvac"};
+
+/// Hears requests and answers them; flooding repeats the last answer without being asked.
+class TextFace final : public Face {
+public:
+    /// Takes from the typed bytes what it has understood and gives the answer at this time.
+    using Answer = std::function<std::string(std::string& typed, double seconds)>;
+    TextFace(
+        const SensorScenario& sensor, std::uint64_t seed, SimClock clock, Pty pty, Answer answer)
+        : Face{sensor.name}
+        , path_{sensor.path}
+        , seed_{seed}
+        , clock_{clock}
+        , pty_{std::move(pty)}
+        , answer_{std::move(answer)} {}
+    void run(std::stop_token stop) override;
+    [[nodiscard]] nlohmann::json place() const override { return {{"path", path_}}; }
+
+private:
+    void send(const std::string& answer);
+
+    std::string path_;
+    std::uint64_t seed_, answers_ = 0;
+    SimClock clock_;
+    Pty pty_;
+    Answer answer_;
+};
+
+void TextFace::send(const std::string& answer) {
+    ++answers_;
+    if (behaviour() == Behaviour::off) return;
+    pty_.write(behaviour() == Behaviour::garbage ? garbage_bytes(seed_, answers_) : answer);
+}
+
+void TextFace::run(std::stop_token stop) {
+    std::string typed, last;
+    while (!stop.stop_requested()) {
+        typed += pty_.read(std::chrono::milliseconds{20});
+        const std::string answer = answer_(typed, clock_.now_s());
+        if (typed.size() > longest_request) typed.clear();
+        if (!answer.empty()) send(last = answer);
+        for (int i = 0; i < 100 && behaviour() == Behaviour::flood; ++i)
+            pty_.write(last);
+    }
+}
+
+} // namespace
+
+bool is_text_kind(const std::string& kind) {
+    return kind == "vaisala" || gauge_kinds.contains(kind);
+}
+
+double gauge_reading_mm(const Scenario& scenario, double seconds) {
+    const ThermalScenario& thermal = scenario.thermal;
+    const double warmer_k = thermal.material.at(seconds) - thermal.material.at(0);
+    return thermal.expansion_um_per_m_k * 1e-3 * warmer_k;
+}
+
+namespace {
+
+TextFace::Answer answer_of(const Scenario& scenario, const std::string& kind) {
+    if (kind != "vaisala")
+        return [scenario, kind](std::string& typed, double seconds) {
+            return gauge_answer(kind, typed, gauge_reading_mm(scenario, seconds));
+        };
+    return [scenario, transmitter = VaisalaTransmitter{}](std::string& typed,
+                                                          double seconds) mutable {
+        const TrueAir air = air_at(scenario.air, seconds);
+        return transmitter.answer(typed, {air.pressure.in(hectopascal),
+                                          air.temperature.in_celsius(), air.humidity.in(percent)});
+    };
+}
+
+} // namespace
+
+Result<std::unique_ptr<Face>>
+open_text_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+    AXISCAL_TRY(Pty pty, Pty::open(sensor.path));
+    return std::make_unique<TextFace>(sensor, scenario.seed, clock, std::move(pty),
+                                      answer_of(scenario, sensor.kind));
+}
+
+} // namespace axiscal::simulate

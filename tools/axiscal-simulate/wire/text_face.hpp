@@ -1,0 +1,23 @@
+#pragma once
+// Instruments that answer text on a serial line: length gauges and air sensors.
+
+#include "scenario.hpp"
+#include "sim_clock.hpp"
+#include "wire/face.hpp"
+
+#include <memory>
+
+namespace axiscal::simulate {
+
+/// True for kinds that answer text on a pseudo terminal.
+bool is_text_kind(const std::string& kind);
+
+/// What a length gauge shows that touches the machine one metre from its fixed point, at rest: the
+/// growth since the beginning, in mm.
+double gauge_reading_mm(const Scenario& scenario, double seconds);
+
+/// @errors io, refused.
+Result<std::unique_ptr<Face>>
+open_text_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock);
+
+} // namespace axiscal::simulate
