@@ -1,6 +1,6 @@
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_file_open.hpp"
 #include "acquisition/journal/schema.hpp"
-#include "acquisition/journal/statement.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -51,8 +51,10 @@ Result<void> check_schema(const Database& database, const std::string& path, int
     return {};
 }
 
+} // namespace
+
 // SQLite forgives a last page that is cut short; without a WAL the size is known exactly.
-Result<void> check_size(const Database& database, const std::string& path) {
+Result<void> check_run_file_size(const Database& database, const std::string& path) {
     std::error_code error;
     if (std::filesystem::exists(path + "-wal", error)) return {};
     AXISCAL_TRY(const auto pages, database.integer_of("PRAGMA page_count"));
@@ -63,19 +65,14 @@ Result<void> check_size(const Database& database, const std::string& path) {
     return {};
 }
 
-Result<void> check_pages(const Database& database, const std::string& path) {
+Result<void> check_run_file_pages(const Database& database, const std::string& path) {
     AXISCAL_TRY(const auto verdict, database.value_of("PRAGMA quick_check(1)"));
     if (verdict == Value{std::string{"ok"}}) return {};
     const auto* word = std::get_if<std::string>(&verdict);
     return bad(path, "damaged: " + (word ? *word : std::string{"no verdict"}));
 }
 
-struct CheckedFile {
-    std::unique_ptr<Database> database;
-    int format = run_file_version;
-};
-
-Result<CheckedFile> open_file(const std::string& path) {
+Result<CheckedFile> open_run_file(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return fail(Fault::not_found, path + " is not a file");
@@ -87,8 +84,10 @@ Result<CheckedFile> open_file(const std::string& path) {
     return CheckedFile{std::move(database), format};
 }
 
+namespace {
+
 Result<std::unique_ptr<Database>> open_checked(const std::string& path) {
-    AXISCAL_TRY(CheckedFile file, open_file(path));
+    AXISCAL_TRY(CheckedFile file, open_run_file(path));
     return std::move(file.database);
 }
 
@@ -175,10 +174,10 @@ void put_in_order(RunRecord& run) {
 } // namespace
 
 Result<RunFileContents> read_run_file_contents(const std::string& path) {
-    AXISCAL_TRY(const auto file, open_file(path));
+    AXISCAL_TRY(const auto file, open_run_file(path));
     const auto& [database, format] = file;
-    AXISCAL_CHECK(check_size(*database, path));
-    AXISCAL_CHECK(check_pages(*database, path));
+    AXISCAL_CHECK(check_run_file_size(*database, path));
+    AXISCAL_CHECK(check_run_file_pages(*database, path));
     AXISCAL_CHECK(check_header(*database, path));
     AXISCAL_TRY(auto cursors, open_cursors(*database, path, format));
     RunFileContents contents;

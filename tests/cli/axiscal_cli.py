@@ -27,7 +27,7 @@ RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", "--pass"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out"],
-            "export": ["RUN", "--out"], "check-config": ["FILE"],
+            "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
         "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
@@ -77,7 +77,7 @@ class Help(Scratch):
 
     def test_exit_codes_are_told(self):
         told = self.expect(0, "--help").stdout
-        for code in range(8):
+        for code in range(9):
             self.assertRegex(told, rf"\b{code} ")
 
     def test_wrong_usage_is_2_with_a_hint(self):

@@ -12,6 +12,7 @@ enum ExitCode : int {
     exit_no_contact = 5, ///< no daemon at that door
     exit_incomplete = 6, ///< the run ended without all its points
     exit_disagrees = 7,  ///< a figure of the conformance kit is not what it must be
+    exit_changed = 8,    ///< a run file or its certificate is not what was written
 };
 
 } // namespace axiscal

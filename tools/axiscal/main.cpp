@@ -26,14 +26,15 @@ constexpr const char* footer = R"(A run, from start to certificate:
 
 Exit codes: 0 done; 1 a file or the disk failed; 2 wrong usage; 3 input refused (case, run file,
 station file); 4 the station refuses (rights, busy, not armed); 5 axiscald does not answer;
-6 the run ended incomplete; 7 a figure of the conformance kit disagrees.)";
+6 the run ended incomplete; 7 a figure of the conformance kit disagrees; 8 a run file or its
+certificate is not what was written.)";
 
 struct Options {
     bool json = false;
     DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
     std::string token_file;
     std::string config = "/etc/axiscal/station.toml";
-    std::string file, out = ".", reason;
+    std::string file, out = ".", reason, certificate;
     bool until_published = false, drivers = false;
     ArmOrder arm;
     std::vector<std::string> statements;
@@ -137,6 +138,12 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
         daemon_options(*app.get_subcommand(name), options);
 }
 
+constexpr const char* verify_footer =
+    R"(Exit codes: 0 every row is as it was written, the figures computed anew are those that were stored, and
+the certificate says the same; 8 something is not, and each row is named with its table and number;
+3 the file is no run file, or its pages are damaged; 1 it cannot be read.
+A run that is still open can be verified as well. See docs/run-file.md for what the chain can show.)";
+
 void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* analyze = app.add_subcommand(
         "analyze",
@@ -169,6 +176,17 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
     write->callback(
         [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });
+
+    auto* verify = app.add_subcommand(
+        "verify", "Is a run file what was written? Names each changed, missing or added row");
+    verify->add_option("RUN", options.file, "run file")->required();
+    verify->add_option("--certificate", options.certificate,
+                       "certificate.json to hold against it; default: the one beside it, if it is "
+                       "of the same run");
+    verify->footer(verify_footer);
+    verify->callback([&] {
+        chosen = [&] { return command_verify(options.file, options.certificate, options.json); };
+    });
 
     auto* check = app.add_subcommand("check-config",
                                      "Every refusal of a station file at once, with its line");

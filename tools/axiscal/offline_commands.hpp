@@ -23,6 +23,10 @@ int command_program(const ProgramRequest& request, bool json);
 /// axiscal-report; its line of JSON, or the same for people, names the files.
 int command_export(const std::string& run_file, const std::string& out_directory, bool json);
 
+/// Holds a run file against its hash chain and its certificate; `certificate` empty: the one beside
+/// it. Exit 8 when a row or a figure is not what was written; each is named.
+int command_verify(const std::string& run_file, const std::string& certificate, bool json);
+
 /// Every refusal of the station file at once, with file:line.
 int command_check_config(const std::string& station_file, bool json);
 

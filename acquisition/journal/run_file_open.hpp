@@ -1,0 +1,23 @@
+#pragma once
+// The first looks at a run file that its readers share: identity, schema, size, pages.
+
+#include "acquisition/journal/statement.hpp"
+
+#include <memory>
+#include <string>
+
+namespace axiscal {
+
+struct CheckedFile {
+    std::unique_ptr<Database> database; ///< in a read transaction: one state while a run goes on
+    int format = 1;
+};
+
+/// @errors Fault::not_found; Fault::bad_run_file when it is none, newer, or of another schema.
+Result<CheckedFile> open_run_file(const std::string& path);
+/// A file without WAL is as long as its page count says. @errors Fault::bad_run_file.
+Result<void> check_run_file_size(const Database& database, const std::string& path);
+/// SQLite's own check of every page. @errors Fault::bad_run_file.
+Result<void> check_run_file_pages(const Database& database, const std::string& path);
+
+} // namespace axiscal

@@ -1,0 +1,186 @@
+#include "acquisition/publish/run_verify.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/run_certificate.hpp"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a certificate says of the run. The rest of its document (words, summaries of the
+/// environment) may be told in another way by a later version.
+constexpr std::array held_places{"/parameters",
+                                 "/positions",
+                                 "/expanded_uncertainty",
+                                 "/standard",
+                                 "/unit",
+                                 "/run/id",
+                                 "/run/plan",
+                                 "/run/deviations",
+                                 "/run/config_sha256",
+                                 "/run/datums",
+                                 "/run/result_digest",
+                                 "/run/run_file_sha256"};
+
+Result<Json> read_certificate(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path))
+        return fail(Fault::not_found, "cannot read " + path);
+    const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    Json document = Json::parse(text, nullptr, false);
+    const Json::json_pointer id{"/run/id"};
+    if (!document.is_object() || !document.contains(id) || !document[id].is_string())
+        return fail(Fault::bad_case, path + " is no certificate.json of a run");
+    return document;
+}
+
+/// The certificate to hold against the run: the one named, or the one beside it, if it is its own.
+Result<std::optional<Json>>
+certificate_for(const std::string& run_file, const std::string& run_id, std::string& path) {
+    if (!path.empty()) {
+        AXISCAL_TRY(Json document, read_certificate(path));
+        return std::optional{std::move(document)};
+    }
+    const std::string beside = folder_of(run_file) + "/certificate.json";
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(beside, error)) return std::optional<Json>{};
+    auto document = read_certificate(beside);
+    if (document && (*document)["run"]["id"] != run_id) return std::optional<Json>{};
+    path = beside;
+    if (!document) return tl::unexpected<Error>(document.error());
+    return std::optional{*std::move(document)};
+}
+
+std::string shown(const Json& value) {
+    constexpr std::size_t longest = 80;
+    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+void compare(const Json& printed, const Json& right, VerifyReport& report) {
+    for (const char* text : held_places) {
+        const Json::json_pointer place{text};
+        const Json there = printed.contains(place) ? printed[place] : Json{};
+        const Json due = right.contains(place) ? right[place] : Json{};
+        for (const auto& step : Json::diff(due, there)) {
+            const std::string where = text + step["path"].get<std::string>();
+            const Json::json_pointer at{step["path"].get<std::string>()};
+            report.certificate_findings.push_back(
+                {where, where + " says " + (there.contains(at) ? shown(there[at]) : "nothing") +
+                            ", the run file gives " +
+                            (due.contains(at) ? shown(due[at]) : "nothing")});
+        }
+    }
+}
+
+/// Without figures the marks that need none are held: the file's own hash, the run, the datums.
+Json marks_of(const VerifyReport& report, const Json& printed) {
+    Json right = printed;
+    right["run"]["id"] = report.run_id;
+    right["run"]["run_file_sha256"] = report.file_sha256;
+    return right;
+}
+
+Json findings_json(const ChainReport& chain) {
+    Json list = Json::array();
+    for (const RowFinding& finding : chain.findings)
+        list.push_back({{"table", finding.table},
+                        {"row", finding.link},
+                        {"what", name_of(finding.damage)},
+                        {"about", finding.row.empty() ? Json{} : Json(finding.row)},
+                        {"sentence", finding.sentence}});
+    return list;
+}
+
+std::string state_in_words(const ChainReport& chain) {
+    if (!chain.closed) return "the run is still open";
+    return chain.complete ? "the run is complete" : "the run was closed as incomplete";
+}
+
+} // namespace
+
+Result<VerifyReport> verify_run(const std::string& run_file, const std::string& certificate) {
+    VerifyReport report;
+    report.run_file = run_file;
+    AXISCAL_TRY(report.chain, verify_chain(run_file));
+    AXISCAL_TRY(report.file_sha256, sha256_of_file(run_file));
+    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
+    report.run_id = summary.run_id;
+    report.certificate = certificate;
+    AXISCAL_TRY(const auto printed, certificate_for(run_file, report.run_id, report.certificate));
+    std::optional<Json> right;
+    if (!report.chain.intact()) {
+        report.no_figures = "rows are not what they were";
+    } else if (!report.chain.complete) {
+        report.no_figures = state_in_words(report.chain);
+    } else if (auto made = certificate_of_run_file(run_file)) {
+        report.result_digest = made->result_digest;
+        right = certificate_to_json(*made);
+    } else if (const auto stored = read_stored_result(run_file)) {
+        report.wrong_result = describe(made.error());
+    } else {
+        report.no_figures = describe(made.error());
+    }
+    if (printed) compare(*printed, right ? *right : marks_of(report, *printed), report);
+    return report;
+}
+
+nlohmann::ordered_json to_json(const VerifyReport& report) {
+    Json document;
+    document["run_file"] = report.run_file;
+    document["run_id"] = report.run_id;
+    document["sha256"] = report.file_sha256;
+    document["intact"] = report.intact();
+    document["format"] = report.chain.format;
+    document["closed"] = report.chain.closed;
+    document["complete"] = report.chain.complete;
+    document["links"] = report.chain.links;
+    document["chain_head"] = report.chain.chain_head;
+    for (const auto& [table, count] : report.chain.rows)
+        document["rows"][table] = count;
+    document["findings"] = findings_json(report.chain);
+    document["findings_untold"] = report.chain.untold;
+    document["result_digest"] = report.result_digest.empty() ? Json{} : Json(report.result_digest);
+    document["no_figures"] = report.no_figures ? Json(*report.no_figures) : Json{};
+    document["wrong_result"] = report.wrong_result ? Json(*report.wrong_result) : Json{};
+    document["certificate"] = report.certificate.empty() ? Json{} : Json(report.certificate);
+    document["certificate_findings"] = Json::array();
+    for (const auto& [place, sentence] : report.certificate_findings)
+        document["certificate_findings"].push_back({{"place", place}, {"sentence", sentence}});
+    return document;
+}
+
+std::string to_text(const VerifyReport& report) {
+    std::string text;
+    const auto line = [&](const std::string& words) { text += words + "\n"; };
+    for (const RowFinding& finding : report.chain.findings)
+        line(finding.sentence);
+    if (report.chain.untold > 0) line("... and " + std::to_string(report.chain.untold) + " more");
+    if (report.wrong_result) line(*report.wrong_result);
+    for (const CertificateFinding& finding : report.certificate_findings)
+        line(report.certificate + ": " + finding.sentence);
+    if (!report.intact()) {
+        line(report.run_file + " is NOT what was written.");
+        return text;
+    }
+    line(report.run_file + ": " + std::to_string(report.chain.links) +
+         " rows, each as it was written; " + state_in_words(report.chain) + ".");
+    line("  chain   " + report.chain.chain_head);
+    line("  file    " + report.file_sha256);
+    line(report.result_digest.empty() ? "  figures none: " + report.no_figures.value_or("")
+                                      : "  figures " + report.result_digest + ", computed anew");
+    line(report.certificate.empty() ? "  no certificate.json beside it was held against it"
+                                    : "  " + report.certificate + " says the same");
+    return text;
+}
+
+} // namespace axiscal
