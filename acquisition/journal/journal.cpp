@@ -7,10 +7,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
-#include <condition_variable>
 #include <deque>
-#include <mutex>
-#include <stop_token>
 #include <thread>
 
 namespace axiscal {
@@ -22,10 +19,12 @@ constexpr std::chrono::seconds longest_unsaved{2};
 
 struct Journal::Worker {
     using Job = std::function<void()>;
-    using Clock = std::chrono::steady_clock;
 
-    Worker(boost::asio::any_io_executor loop_executor, JournalThread where)
-        : loop{std::move(loop_executor)} {
+    Worker(boost::asio::any_io_executor loop_executor,
+           JournalThread where,
+           JournalClock& journal_clock)
+        : loop{std::move(loop_executor)}
+        , clock{journal_clock} {
         if (where == JournalThread::own)
             thread = std::jthread{[this](const std::stop_token& stop) { serve(stop); }};
     }
@@ -51,7 +50,7 @@ struct Journal::Worker {
             const std::scoped_lock lock{mutex};
             queue.insert(queue.end(), std::make_move_iterator(items.begin()),
                          std::make_move_iterator(items.end()));
-            if (!save_at) save_at = Clock::now() + longest_unsaved;
+            if (!save_at) save_at = clock.now() + longest_unsaved;
         }
         if (thread.joinable()) return wake.notify_one();
         (void)save_notes(); // a failure is remembered and fails the next commit
@@ -61,13 +60,11 @@ struct Journal::Worker {
     void serve(const std::stop_token& stop) {
         std::unique_lock lock{mutex};
         while (!stop.stop_requested() || !jobs.empty()) {
-            const auto has_work = [this] { return !jobs.empty(); };
-            if (save_at)
-                wake.wait_until(lock, stop, *save_at, has_work);
-            else
-                wake.wait(lock, stop, [this] { return !jobs.empty() || save_at; });
-            if (save_at && Clock::now() >= *save_at) {
-                save_at = Clock::now() + longest_unsaved; // if it is before a run
+            const auto until = save_at;
+            clock.sleep({lock, wake, stop}, until,
+                        [this, until] { return !jobs.empty() || save_at != until; });
+            if (save_at && clock.now() >= *save_at) {
+                save_at = clock.now() + longest_unsaved; // if it is before a run
                 run_unlocked(lock, [this] { (void)save_notes(); });
             }
             if (jobs.empty()) continue;
@@ -138,10 +135,11 @@ struct Journal::Worker {
     std::condition_variable_any wake;
     std::deque<Job> jobs;
     RunBatch noted;
-    std::optional<Clock::time_point> save_at; // when something is noted
+    std::optional<JournalClock::Time> save_at; // when something is noted
     std::optional<Error> broken;
     std::optional<RunFileWriter> writer;
     boost::asio::any_io_executor loop;
+    JournalClock& clock;
     std::jthread thread;
 };
 
@@ -181,9 +179,9 @@ Task<Result<T>> perform(Worker* worker, std::function<Result<T>()> work) {
 
 } // namespace
 
-Journal::Journal(Scheduler& scheduler, JournalThread thread)
+Journal::Journal(Scheduler& scheduler, JournalThread thread, JournalClock& clock)
     : scheduler_{scheduler}
-    , worker_{std::make_unique<Worker>(scheduler.executor(), thread)} {}
+    , worker_{std::make_unique<Worker>(scheduler.executor(), thread, clock)} {}
 Journal::~Journal() = default;
 
 Task<Result<void>> Journal::open(std::string path, RunRecord header) {

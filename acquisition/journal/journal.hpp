@@ -1,6 +1,7 @@
 #pragma once
 // The one writer of an open run: a thread that owns the run file, and the only maker of receipts.
 
+#include "acquisition/journal/journal_clock.hpp"
 #include "analysis/run_record.hpp"
 #include "drivers/journal_receipt.hpp"
 #include "drivers/scheduler.hpp"
@@ -28,7 +29,10 @@ enum class JournalThread : std::uint8_t { own, caller };
 /// A failed commit is final: every later one fails with Fault::not_durable and the first cause.
 class Journal {
 public:
-    explicit Journal(Scheduler& scheduler, JournalThread thread = JournalThread::own);
+    /// @param clock  what a thread of its own waits by; must outlive the journal.
+    explicit Journal(Scheduler& scheduler,
+                     JournalThread thread = JournalThread::own,
+                     JournalClock& clock = JournalClock::steady());
     /// Writes what was noted and leaves an open run open, to be resumed.
     ~Journal();
     Journal(const Journal&) = delete;

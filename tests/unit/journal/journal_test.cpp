@@ -4,6 +4,7 @@
 #include "drivers/asio_scheduler.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
+#include "tests/unit/journal/manual_clock.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -14,12 +15,13 @@
 #include <filesystem>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 
 namespace axiscal {
 namespace {
 
+using namespace std::chrono_literals;
+using testing::ManualClock;
 using testing::RandomRun;
 using testing::same_bits;
 using testing::ScratchFolder;
@@ -44,8 +46,9 @@ struct Station {
     boost::asio::io_context loop{1};
     AsioScheduler scheduler{loop};
     Journal journal;
-    explicit Station(JournalThread thread = JournalThread::own)
-        : journal{scheduler, thread} {}
+    explicit Station(JournalThread thread = JournalThread::own,
+                     JournalClock& clock = JournalClock::steady())
+        : journal{scheduler, thread, clock} {}
     Result<void> run(Task<Result<void>> task) { return finish(loop, std::move(task)); }
     Result<Receipt> receipt(Task<Result<JournalReceipt>> task) {
         return finish(loop, unpack(std::move(task)));
@@ -150,55 +153,61 @@ TEST(Journal, WritesNotesWithoutACommitOnFlushAndAtTheEnd) {
     EXPECT_EQ(read_run_file(path)->events.size(), 2U);
 }
 
-/// How many events are on disk within a time that only bounds a failing test. `meanwhile` is done
-/// between two looks.
-template <class Meanwhile>
-std::size_t events_in_time(const std::string& path, std::size_t wanted, Meanwhile meanwhile) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
-    for (;;) {
-        const std::size_t found = read_run_file(path)->events.size();
-        if (found >= wanted || std::chrono::steady_clock::now() > end) return found;
-        meanwhile();
-    }
+std::size_t events_on_disk(const std::string& path) {
+    return read_run_file(path)->events.size();
 }
 
-TEST(Journal, WritesNotesByItselfWithinSeconds) {
+TEST(Journal, WritesNotesByItselfAfterTwoSeconds) {
     const ScratchFolder scratch;
-    Station station;
+    ManualClock clock;
+    Station station{JournalThread::own, clock};
     RandomRun random{10};
     const auto path = scratch.file("r.axiscal");
     ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
-    const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds{50}); };
     station.journal.note(random.event());
-    EXPECT_EQ(events_in_time(path, 1, wait), 1U);
+    ASSERT_TRUE(clock.rests_until(2s));
+    EXPECT_EQ(events_on_disk(path), 0U);
+    clock.advance(2s);
+    ASSERT_TRUE(clock.rests());
+    EXPECT_EQ(events_on_disk(path), 1U);
     station.journal.note(random.event()); // not only once
-    EXPECT_EQ(events_in_time(path, 2, wait), 2U);
+    ASSERT_TRUE(clock.rests_until(4s));
+    clock.advance(2s);
+    ASSERT_TRUE(clock.rests());
+    EXPECT_EQ(events_on_disk(path), 2U);
 }
 
 // 2026-11-21: each job began the two seconds anew.
 TEST(Journal, WritesNotesByItselfAlsoWhileItIsAskedAllTheTime) {
     const ScratchFolder scratch;
-    Station station;
+    ManualClock clock;
+    Station station{JournalThread::own, clock};
     RandomRun random{11};
     const auto path = scratch.file("r.axiscal");
     ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
     station.journal.note(random.event());
-    const auto ask = [&] {
+    for (int asked = 0; asked < 4; ++asked) {
+        EXPECT_EQ(events_on_disk(path), 0U);
+        clock.advance(500ms);
         EXPECT_FALSE(station.receipt(station.journal.receipt_for(0)));
-        std::this_thread::sleep_for(std::chrono::milliseconds{20});
-    };
-    EXPECT_EQ(events_in_time(path, 1, ask), 1U);
+    }
+    EXPECT_EQ(events_on_disk(path), 1U); // before it answered the last time
 }
 
 TEST(Journal, KeepsWhatIsNotedBeforeARunForTheRun) {
     const ScratchFolder scratch;
-    Station station;
+    ManualClock clock;
+    Station station{JournalThread::own, clock};
     RandomRun random{12};
     station.journal.note(random.event());
-    std::this_thread::sleep_for(std::chrono::milliseconds{2200}); // the time to save it comes first
+    ASSERT_TRUE(clock.rests_until(2s));
+    clock.advance(2s); // the time to save it comes first
+    ASSERT_TRUE(clock.rests_until(4s));
     const auto path = scratch.file("r.axiscal");
     ASSERT_TRUE(station.run(station.journal.open(path, random.header())));
-    EXPECT_EQ(events_in_time(path, 1, [] {}), 1U);
+    clock.advance(2s);
+    ASSERT_TRUE(clock.rests());
+    EXPECT_EQ(events_on_disk(path), 1U);
 }
 
 TEST(Journal, GivesReceiptsOnResumeOnlyForWhatIsInTheFile) {
