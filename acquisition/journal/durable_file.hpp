@@ -16,6 +16,8 @@ public:
     explicit FileHandle(int descriptor)
         : descriptor_{descriptor} {}
     ~FileHandle();
+    FileHandle(const FileHandle&) = delete;
+    FileHandle& operator=(const FileHandle&) = delete;
     FileHandle(FileHandle&& other) noexcept
         : descriptor_{std::exchange(other.descriptor_, -1)} {}
     FileHandle& operator=(FileHandle&&) = delete;

@@ -45,10 +45,10 @@ public:
     static Result<std::unique_ptr<Database>> in_memory();
 
     Result<void> execute(const std::string& sql);
-    Result<Statement> prepare(const std::string& sql) const;
+    [[nodiscard]] Result<Statement> prepare(const std::string& sql) const;
     /// First column of the first row; NULL when there is none.
-    Result<Value> value_of(const std::string& sql) const;
-    Result<std::int64_t> integer_of(const std::string& sql) const;
+    [[nodiscard]] Result<Value> value_of(const std::string& sql) const;
+    [[nodiscard]] Result<std::int64_t> integer_of(const std::string& sql) const;
     [[nodiscard]] tl::unexpected<Error> failure() const;
 
 private:

@@ -45,7 +45,7 @@ private:
         MonotonicTime due{};
     };
     bool destination_ready(MonotonicTime now);
-    bool is_due(const std::string& run_id, MonotonicTime now) const;
+    [[nodiscard]] bool is_due(const std::string& run_id, MonotonicTime now) const;
     Result<void> publish(OutboxEntry entry, std::int64_t utc_ns);
     void remember(const std::string& run_id, const Error& why, MonotonicTime now);
 

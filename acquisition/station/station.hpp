@@ -89,7 +89,7 @@ private:
     void perform(CommitEvent action);
     void perform(Acknowledge action);
     void perform(RepublishDone action);
-    void perform(Refuse action);
+    void perform(const Refuse& action);
     void perform(RecordEvent action);
     void perform(SetState action);
     void perform(Close action);
@@ -104,7 +104,7 @@ private:
     Task<Result<std::string>> open_and_tie(ArmRequest request);
     void begin_run(RunRecord header, std::string path, RunMachine machine);
     [[nodiscard]] Result<std::vector<std::string>> open_runs() const;
-    Result<RunPlan> plan_for(const ArmRequest& request) const;
+    [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> ready_to_measure() const;
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
     Task<Result<void>> await_datum();

@@ -51,7 +51,7 @@ void Station::perform(PublishArmed) {
 
 void Station::perform(OpenWindow action) {
     open_window_ = action.window;
-    spawn(scheduler_, watch_window(std::move(action)));
+    spawn(scheduler_, watch_window(action));
 }
 
 void Station::perform(CloseWindow action) {
@@ -121,7 +121,7 @@ void Station::perform(RepublishDone action) {
     perform(Acknowledge{action.sequence, -1});
 }
 
-void Station::perform(Refuse action) {
+void Station::perform(const Refuse& action) {
     const Error error{action.fault, action.sentence, {}, {}};
     run_->refusal = error;
     if (action.origin != TriggerOrigin::manual) return refuse_on_port(action.sequence, error);

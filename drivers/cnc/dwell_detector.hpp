@@ -45,7 +45,7 @@ public:
 private:
     struct Reading {
         MonotonicTime at;
-        double position_mm;
+        double position_mm = 0;
     };
     void enter(const Reading& reading);
     void arm();

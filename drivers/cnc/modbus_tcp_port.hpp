@@ -28,7 +28,7 @@ public:
 private:
     struct Client;
     using Acceptor = boost::asio::ip::tcp::acceptor;
-    Result<Acceptor> listen(const TriggerContext& context) const;
+    [[nodiscard]] Result<Acceptor> listen(const TriggerContext& context) const;
     Task<void> accept_clients(Acceptor& acceptor, Scheduler* scheduler);
     void admit(boost::asio::ip::tcp::socket socket, Scheduler* scheduler);
     static Task<void> attend(std::shared_ptr<Client> client);

@@ -67,7 +67,7 @@ template <typename World>
 Result<std::jthread> answer_commands(const std::string& path, World& world) {
     if (path.empty()) return std::jthread{};
     AXISCAL_TRY(ControlSocket socket, ControlSocket::listen(path));
-    return std::jthread{[&world, s = std::move(socket)](std::stop_token stop) {
+    return std::jthread{[&world, s = std::move(socket)](const std::stop_token& stop) {
         s.serve(stop, [&](const std::string& line) { return world.command(line).dump(); });
     }};
 }

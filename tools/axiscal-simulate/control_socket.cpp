@@ -61,7 +61,7 @@ ControlSocket::~ControlSocket() {
     if (!path_.empty()) ::unlink(path_.c_str());
 }
 
-void ControlSocket::serve(std::stop_token stop, const Obey& obey) const {
+void ControlSocket::serve(const std::stop_token& stop, const Obey& obey) const {
     std::map<int, std::string> clients;
     while (!stop.stop_requested()) {
         std::vector<pollfd> waits{{listener_, POLLIN, 0}};

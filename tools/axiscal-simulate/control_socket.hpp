@@ -18,8 +18,10 @@ public:
     ControlSocket(ControlSocket&& other) noexcept;
     ControlSocket& operator=(ControlSocket&&) = delete;
     ~ControlSocket();
+    ControlSocket(const ControlSocket&) = delete;
+    ControlSocket& operator=(const ControlSocket&) = delete;
     /// Answers clients until stopped (looks every 50 ms).
-    void serve(std::stop_token stop, const Obey& obey) const;
+    void serve(const std::stop_token& stop, const Obey& obey) const;
 
 private:
     ControlSocket(int listener, std::string path)

@@ -59,11 +59,13 @@ Result<void> Simulator::open_faces() {
 
 void Simulator::start(bool external_positions) {
     if (laser_ && !external_positions)
-        threads_.emplace_back([this](std::stop_token stop) { laser_->run(stop); });
+        threads_.emplace_back([this](const std::stop_token& stop) { laser_->run(stop); });
     for (const auto& sensor : sensors_)
-        threads_.emplace_back([face = sensor.get()](std::stop_token stop) { face->run(stop); });
-    if (cable_) threads_.emplace_back([this](std::stop_token stop) { cable_->run(stop); });
-    if (exchange_) threads_.emplace_back([this](std::stop_token stop) { exchange_->run(stop); });
+        threads_.emplace_back(
+            [face = sensor.get()](const std::stop_token& stop) { face->run(stop); });
+    if (cable_) threads_.emplace_back([this](const std::stop_token& stop) { cable_->run(stop); });
+    if (exchange_)
+        threads_.emplace_back([this](const std::stop_token& stop) { exchange_->run(stop); });
 }
 
 std::string Simulator::feed_lines(const std::string& text, int field) {

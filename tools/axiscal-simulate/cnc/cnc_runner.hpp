@@ -27,6 +27,8 @@ class CncRunner final : private MachineActions {
 public:
     CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock);
     ~CncRunner() override;
+    CncRunner(const CncRunner&) = delete;
+    CncRunner& operator=(const CncRunner&) = delete;
     /// @errors busy; not_found; bad_request for a program that is not understood.
     Result<void> start(const std::string& path);
     void stop();

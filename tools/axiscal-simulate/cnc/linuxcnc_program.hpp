@@ -34,7 +34,7 @@ private:
     static Result<Block> read_o_word(const std::string& text, int line);
     Result<void> add_line(const std::string& line, int number);
     Result<void> match_o_words();
-    Result<void> check() const;
+    [[nodiscard]] Result<void> check() const;
     Result<void> execute(const Block& block, State& state, MachineActions& machine) const;
     Result<void> execute_words(const Block& block, State& state, MachineActions& machine) const;
     static Result<void> assign(const Block& block, State& state);

@@ -20,6 +20,8 @@ public:
     Pty(Pty&& other) noexcept;
     Pty& operator=(Pty&&) = delete;
     ~Pty();
+    Pty(const Pty&) = delete;
+    Pty& operator=(const Pty&) = delete;
 
     /// A late reader finds everything of the last 1.5 s (64 KiB), as behind the kernel's tty layer.
     /// What nobody reads for longer is thrown away as a whole, and counted once, so that the next

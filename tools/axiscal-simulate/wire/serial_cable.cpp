@@ -10,7 +10,7 @@ Result<std::unique_ptr<SerialCable>> SerialCable::open(const std::string& a, con
     return std::unique_ptr<SerialCable>{new SerialCable{std::move(one), std::move(other)}};
 }
 
-void SerialCable::run(std::stop_token stop) {
+void SerialCable::run(const std::stop_token& stop) {
     std::jthread back{[this](std::stop_token end) {
         while (!end.stop_requested())
             if (const auto bytes = b_.read(std::chrono::milliseconds{20}); !bytes.empty())

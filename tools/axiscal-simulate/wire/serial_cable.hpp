@@ -14,7 +14,7 @@ public:
     /// Both names are symlinks to the two ends. @errors as Pty::open.
     static Result<std::unique_ptr<SerialCable>> open(const std::string& a, const std::string& b);
     /// Carries bytes both ways until stopped.
-    void run(std::stop_token stop);
+    void run(const std::stop_token& stop);
 
 private:
     SerialCable(Pty a, Pty b)

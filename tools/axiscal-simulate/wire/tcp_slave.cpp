@@ -80,7 +80,7 @@ bool TcpSlave::serve(int socket, Bytes& pending) {
     return true;
 }
 
-void TcpSlave::run(std::stop_token stop, const std::function<void()>& idle) {
+void TcpSlave::run(const std::stop_token& stop, const std::function<void()>& idle) {
     while (!stop.stop_requested()) {
         std::vector<pollfd> waits{{listener_, POLLIN, 0}};
         for (const auto& [socket, pending] : clients_)

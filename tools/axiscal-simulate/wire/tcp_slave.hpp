@@ -23,7 +23,7 @@ public:
     TcpSlave& operator=(const TcpSlave&) = delete;
 
     /// Serves until stopped; calls idle about every 20 ms.
-    void run(std::stop_token stop, const std::function<void()>& idle = {});
+    void run(const std::stop_token& stop, const std::function<void()>& idle = {});
     [[nodiscard]] int port() const { return port_; }
 
 private:

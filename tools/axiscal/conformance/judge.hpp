@@ -10,7 +10,7 @@
 
 namespace axiscal {
 
-struct FigureVerdict {
+struct FigureVerdict { // NOLINT(bugprone-exception-escape): as Expectation
     Expectation wanted;
     bool agrees = false;
     double digits = 0;     ///< of a number; `most_digits` where it is equal bit by bit
