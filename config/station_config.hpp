@@ -2,6 +2,7 @@
 // The station file as checked structs. Reading opens no device.
 
 #include "analysis/run_record.hpp"
+#include "config/address_range.hpp"
 #include "config/instrument_config.hpp"
 #include "config/settings.hpp"
 
@@ -33,6 +34,8 @@ struct TriggerConfig {
     int base_address = 0;        ///< mirrored: base of the block in the CNC's map
     bool low_word_first = false; ///< 32-bit word order
     int client_limit = 8;
+    /// Clients that may connect; empty only where the listener hears this PC alone.
+    std::vector<AddressRange> allowed_clients;
     Duration poll_interval = std::chrono::milliseconds{75};
     bool watch_heartbeat = false; ///< CNC_HEARTBEAT frozen > 2 s is a fault
     /// coil-and-index: how long a rising coil with the previous index waits for the index to be

@@ -45,16 +45,32 @@ void refuse_unused(Settings& trigger, bool used, Keys keys, const std::string& o
             trigger.refuse(key, "belongs to " + owner + " and says nothing here: remove it");
 }
 
+/// Modbus has no password: who may reach the door may write to it.
+void read_allowed_clients(Settings& trigger, TriggerConfig& config) {
+    for (const std::string& client : trigger.texts("allowed_clients", std::vector<std::string>{})) {
+        if (auto range = parse_address_range(client))
+            config.allowed_clients.push_back(*range);
+        else
+            trigger.refuse("allowed_clients", range.error().detail);
+    }
+    const bool judged = trigger.refused("host") || trigger.refused("allowed_clients");
+    if (judged || is_loopback(config.host) || !config.allowed_clients.empty()) return;
+    trigger.refuse("host", "\"" + config.host +
+                               "\" is heard by other computers: name those that may connect, as in "
+                               "allowed_clients = [\"192.168.10.20\"]");
+}
+
 void read_tcp(Settings& trigger, TriggerConfig& config) {
     const bool server = config.transport == TriggerTransport::tcp_server;
     const bool client = config.transport == TriggerTransport::tcp_client;
     refuse_unused(trigger, server || client, {"host", "port"}, "the transports over TCP");
-    refuse_unused(trigger, server, {"client_limit"}, "transport \"tcp\"");
+    refuse_unused(trigger, server, {"client_limit", "allowed_clients"}, "transport \"tcp\"");
     refuse_unused(trigger, client, {"base_address", "poll_interval"}, "transport \"tcp-mirrored\"");
     if (server) {
         config.host = read_address(trigger, "host", config.host);
         config.client_limit =
             static_cast<int>(trigger.integer("client_limit", 1, 100, config.client_limit));
+        read_allowed_clients(trigger, config);
     }
     if (client) {
         config.host = trigger.text("host");

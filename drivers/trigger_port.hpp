@@ -63,6 +63,19 @@ struct PortStatus {
     AxisKind axis_kind = AxisKind::linear;
 };
 
+/// Counted, never silent.
+struct PortCounters {
+    std::uint64_t requests = 0;     ///< answered, exceptions included
+    std::uint64_t exceptions = 0;   ///< of these, refused by the map or the protocol
+    std::uint64_t refused = 0;      ///< clients beyond the limit
+    std::uint64_t strangers = 0;    ///< clients that the allow-list does not name
+    std::uint64_t hung_up = 0;      ///< clients cut off: garbage, silence in a frame, not reading
+    std::uint64_t reconnects = 0;   ///< lines opened again after an error
+    std::uint64_t torn_reads = 0;   ///< mirrored: the block changed between its two readings
+    std::uint64_t overtaken = 0;    ///< RTU: something followed the request, so nobody was answered
+    std::uint64_t late_indices = 0; ///< coil-and-index: the index came after its coil
+};
+
 struct TriggerContext {
     Scheduler* scheduler = nullptr;
     TriggerSink* sink = nullptr;
@@ -83,6 +96,7 @@ public:
     virtual void publish(const PortStatus& status) = 0;
     /// The axis position as it is read, fed by the station; only the dwell port listens.
     virtual void position(MonotonicTime at, double position_mm);
+    [[nodiscard]] virtual PortCounters counters() const { return {}; }
     [[nodiscard]] virtual std::string
     describe() const = 0; ///< "sequence-block, Modbus TCP 127.0.0.1:1502"
 };

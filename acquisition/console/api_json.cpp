@@ -59,6 +59,18 @@ Json to_json(const RunStatus& run) {
             {"certificate", run.certificate}};
 }
 
+Json trigger_json(const StationStatus& status) {
+    const PortCounters& counters = status.trigger_counters;
+    return {{"port", status.trigger},
+            {"cnc_silent", status.cnc_silent},
+            {"note", status.trigger_note},
+            {"requests", counters.requests},
+            {"exceptions", counters.exceptions},
+            {"refused", counters.refused},
+            {"strangers", counters.strangers},
+            {"hung_up", counters.hung_up}};
+}
+
 } // namespace
 
 nlohmann::ordered_json to_json(const InstrumentView& view) {
@@ -101,10 +113,7 @@ nlohmann::ordered_json to_json(const StationStatus& status) {
             {"axis", to_json(status.axis)},
             {"channels", std::move(channels)},
             {"instruments", std::move(instruments)},
-            {"trigger",
-             {{"port", status.trigger},
-              {"cnc_silent", status.cnc_silent},
-              {"note", status.trigger_note}}},
+            {"trigger", trigger_json(status)},
             {"run", status.run ? to_json(*status.run) : Json(nullptr)},
             {"run_open", status.run_open},
             {"outbox_entries", status.outbox_entries},

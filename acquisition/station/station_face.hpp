@@ -5,6 +5,7 @@
 #include "analysis/run_record.hpp"
 #include "drivers/sample.hpp"
 #include "drivers/scheduler.hpp"
+#include "drivers/trigger_port.hpp"
 
 #include <map>
 #include <optional>
@@ -58,6 +59,7 @@ struct StationStatus {
     std::vector<ChannelView> channels;
     std::vector<InstrumentView> instruments;
     std::string trigger, trigger_note;
+    PortCounters trigger_counters;
     bool cnc_silent = false;
     std::optional<RunStatus> run; ///< the open run, or the last one since start
     bool run_open = false;

@@ -168,6 +168,7 @@ StationStatus Station::status() const {
     status.instruments = supervisor_.view();
     status.trigger = port_->describe();
     status.trigger_note = port_note_;
+    status.trigger_counters = port_->counters();
     status.cnc_silent = cnc_silent_;
     if (run_ && machine_) status.run = run_status();
     status.run_open = run_open();

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -107,8 +108,24 @@ Task<void> ModbusTcpPort::accept_clients(Acceptor& acceptor, Scheduler* schedule
     }
 }
 
+/// Told once for each address that is not followed by another one; counted always.
+bool ModbusTcpPort::is_stranger(const tcp::socket& socket) {
+    if (config_.allowed_clients.empty()) return false;
+    boost::system::error_code gone;
+    const auto remote = socket.remote_endpoint(gone);
+    const std::string from = gone ? "" : remote.address().to_string();
+    const auto names_it = [&from](const AddressRange& range) { return range.covers(from); };
+    if (std::ranges::any_of(config_.allowed_clients, names_it)) return false;
+    ++desk_->counters.strangers;
+    if (!from.empty() && std::exchange(last_stranger_, from) != from)
+        desk_->note(Fault::refused, describe() + " turned " + from +
+                                        " away: trigger.allowed_clients does not name it.");
+    return true;
+}
+
 void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
     std::erase_if(clients_, [](const auto& client) { return client.expired(); });
+    if (is_stranger(socket)) return; // the socket closes here
     if (*open_clients_ >= config_.client_limit) {
         ++desk_->counters.refused;
         desk_->note(Fault::refused, describe() + " has all its " +

@@ -9,18 +9,6 @@
 
 namespace axiscal {
 
-/// Counted, never silent.
-struct PortCounters {
-    std::uint64_t requests = 0;     ///< answered, exceptions included
-    std::uint64_t exceptions = 0;   ///< of these, refused by the map or the protocol
-    std::uint64_t refused = 0;      ///< clients beyond the limit
-    std::uint64_t hung_up = 0;      ///< clients cut off: garbage, silence in a frame, not reading
-    std::uint64_t reconnects = 0;   ///< lines opened again after an error
-    std::uint64_t torn_reads = 0;   ///< mirrored: the block changed between its two readings
-    std::uint64_t overtaken = 0;    ///< RTU: something followed the request, so nobody was answered
-    std::uint64_t late_indices = 0; ///< coil-and-index: the index came after its coil
-};
-
 class TriggerDesk {
 public:
     explicit TriggerDesk(std::unique_ptr<RegisterMap> map)
@@ -60,7 +48,7 @@ public:
     void acknowledge(const JournalReceipt& receipt) override { desk_->acknowledge(receipt); }
     void refuse(std::uint16_t sequence, Fault fault) override { desk_->refuse(sequence, fault); }
     void publish(const PortStatus& status) override { desk_->publish(status); }
-    [[nodiscard]] const PortCounters& counters() const { return desk_->counters; }
+    [[nodiscard]] PortCounters counters() const override { return desk_->counters; }
 
 protected:
     MappedPort(std::unique_ptr<RegisterMap> map, TriggerConfig config)

@@ -120,6 +120,7 @@ class Bench:
         self.folder = Path(tempfile.mkdtemp(prefix="axiscal-"))
         self.processes = {}
         self.logs = []
+        self.daemon_environment = {}
         self.share = self.folder / "share"
         self.share.mkdir()
         self.scenario = tomllib.loads(
@@ -194,6 +195,7 @@ class Bench:
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
+                env={**os.environ, **(self.daemon_environment if name == "axiscald" else {})},
                 preexec_fn=lambda: lib.prctl(DIE_WITH_PARENT, signal.SIGKILL),
             )
         self.processes[name] = process

@@ -329,6 +329,13 @@ INSTANTIATE_TEST_SUITE_P(
                     "trigger.port: is missing"},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp-mirrored\"\nport = 502\n",
                     "trigger.host: is missing"},
+        TriggerCase{
+            "shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\nhost = \"0.0.0.0\"",
+            "trigger.host: \"0.0.0.0\" is heard by other computers: name those that may "
+            "connect"},
+        TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\nhost = "
+                    "\"0.0.0.0\"\nallowed_clients = [\"cnc\"]",
+                    "trigger.allowed_clients: \"cnc\" is no address"},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp\"\nport = 502\nbaud = 9600\n",
                     "trigger.baud: belongs to transport \"rtu\""},
         TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 502\n"

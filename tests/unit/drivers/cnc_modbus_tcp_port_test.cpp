@@ -244,6 +244,37 @@ TEST_F(ModbusTcp, TurnsTheNinthClientAwayAndTakesItWhenOneLeaves) {
     EXPECT_EQ(ask(late, read_request_words, 8), zero_words);
 }
 
+/// The allow-list names others than this PC.
+class ModbusTcpForOthers : public ModbusTcp {
+protected:
+    static TriggerConfig config_for(const std::string& allowed) {
+        TriggerConfig config = any_free_port();
+        config.allowed_clients.push_back(*parse_address_range(allowed));
+        return config;
+    }
+    ModbusTcpPort others{std::make_unique<Acknowledging<SequenceBlockMap>>(false, false),
+                         config_for("192.168.10.0/24"), ClientPatience{}};
+    RunningPort running_for_others{others, scheduler};
+    ModbusTcpPort here{std::make_unique<Acknowledging<SequenceBlockMap>>(false, false),
+                       config_for("127.0.0.0/8"), ClientPatience{}};
+    RunningPort running_here{here, scheduler};
+};
+
+TEST_F(ModbusTcpForOthers, TurnsAwayWhomTheListDoesNotNameAndSaysSoOnce) {
+    ASSERT_TRUE(pump_until([&] { return others.bound_port() != 0 && here.bound_port() != 0; }));
+    for (int tries = 0; tries < 3; ++tries) {
+        RawModbusClient stranger{others.bound_port()};
+        EXPECT_TRUE(is_hung_up(stranger));
+    }
+    EXPECT_EQ(others.counters().strangers, 3U);
+    ASSERT_EQ(running_for_others.sink.notes.size(), 1U);
+    EXPECT_NE(running_for_others.sink.notes[0].second.find("127.0.0.1"), std::string::npos);
+    RawModbusClient named{here.bound_port()};
+    named.send(framed(7, read_request_words));
+    EXPECT_TRUE(receives(named, 15));
+    EXPECT_EQ(here.counters().strangers, 0U);
+}
+
 TEST_F(ModbusTcp, EndsWithoutExceptionWhenCancelled) {
     auto cnc = connect();
     running.cancel();

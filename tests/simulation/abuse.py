@@ -1,0 +1,232 @@
+"""The Modbus door under abuse: a whole run goes on while fifty others do what no client may.
+
+The daemon is the shipped program; a preloaded meter (tests/support/meter) reads the CPU time of its
+loop from outside. AXISCAL_ABUSE_REQUESTS sets how many requests are answered at least."""
+
+import os
+import random
+import selectors
+import socket
+import struct
+import time
+from pathlib import Path
+
+import bench
+from bench import expect, sentence
+
+REQUESTS = int(os.environ.get("AXISCAL_ABUSE_REQUESTS", "100000"))
+LONGEST_CALLBACK_MS = float(os.environ.get("AXISCAL_LONGEST_CALLBACK_MS", "2"))
+RSS_GROWTH_KIB = 8192  # kernel pages come and go; a leak of 100 bytes a request is 10 MB
+CLIENTS = 50
+
+
+def framed(transaction, pdu):
+    return struct.pack(">HHHB", transaction & 0xFFFF, 0, len(pdu) + 1, 1) + pdu
+
+
+READ = framed(1, struct.pack(">BHH", 3, 0, 33))
+READ_ANSWER = 9 + 66
+BURST = 40
+
+# What the map or the protocol must refuse; none of it may move a word.
+ILLEGAL = [
+    framed(2, pdu)
+    for pdu in (
+        struct.pack(">BHH", 6, 16, 1),  # DAEMON_HEARTBEAT is not the CNC's
+        struct.pack(">BHH", 6, 18, 7),  # ACK_SEQ
+        struct.pack(">BHHBH", 16, 32, 1, 2, 9),  # FAULT_SEQ
+        struct.pack(">BHHBHH", 16, 9, 2, 4, 0, 0),  # half inside the CNC's words
+        struct.pack(">BHH", 6, 65535, 1),
+        struct.pack(">BHH", 3, 33, 1),
+        struct.pack(">BHH", 4, 0, 126),
+        struct.pack(">BHH", 3, 0, 0),
+        struct.pack(">BHH", 1, 0, 1),  # no coils here
+        struct.pack(">BHH", 5, 0, 0xFF00),
+        struct.pack(">BHHHHBH", 23, 0, 40, 0, 1, 2, 5),
+        struct.pack(">BHHHHBH", 23, 0, 1, 18, 1, 2, 5),
+        struct.pack(">BBBB", 0x2B, 0x0E, 1, 0),
+        struct.pack(">B", 7),
+        struct.pack(">BH", 3, 0),  # cut short
+        struct.pack(">BHHB", 16, 0, 2, 200),  # count and bytes disagree
+    )
+]
+
+
+class Rude:
+    """One client; `turn` is called whenever its socket may be read or its time has come."""
+
+    def __init__(self, port, kind, dice):
+        self.port, self.kind, self.dice = port, kind, dice
+        self.wire = None
+        self.answered = self.hung_up = self.connects = 0
+        self.next_at = 0.0
+
+    def connect(self):
+        self.wire = socket.socket()
+        self.wire.setblocking(False)
+        self.wire.connect_ex(("127.0.0.1", self.port))
+        self.connects += 1
+        self.owed = 0
+
+    def leave(self, hard=False):
+        if hard:
+            self.wire.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+        self.wire.close()
+        self.wire = None
+
+    def take(self):
+        """Reads what is there. False when the station has hung up."""
+        try:
+            got = self.wire.recv(1 << 16)
+        except BlockingIOError:
+            return True
+        except OSError:
+            got = b""
+        self.owed -= len(got)
+        return bool(got)
+
+    def send(self, data):
+        try:
+            return self.wire.send(data)
+        except OSError:
+            return 0
+
+    def turn(self, now):
+        if self.wire is None:
+            self.connect()
+            return
+        if self.kind != "deaf" and not self.take():
+            self.hung_up += 1
+            self.leave()
+            return
+        if now >= self.next_at:
+            getattr(self, self.kind)(now)
+
+    def flood(self, _now):
+        if self.owed <= 0 and self.send(READ * BURST) == len(READ) * BURST:
+            self.answered += BURST
+            self.owed = READ_ANSWER * BURST
+
+    def illegal(self, now):
+        if self.owed > 0:
+            return
+        data = b"".join(self.dice.sample(ILLEGAL, 8))
+        if self.send(data) == len(data):
+            self.answered += 8
+            self.owed = 8 * 9
+        self.next_at = now + 0.002
+
+    def loris(self, now):
+        self.send(b"\0")
+        self.next_at = now + 0.4
+
+    def half_open(self, now):
+        if self.dice.random() < 0.5:
+            self.send(READ[: self.dice.randint(1, len(READ) - 1)])
+        self.leave(hard=self.dice.random() < 0.5)
+        self.next_at = now + 0.02
+
+    def noise(self, now):
+        self.send(self.dice.randbytes(self.dice.randint(1, 600)))
+        self.next_at = now + 0.01
+
+    def deaf(self, now):
+        while self.send(READ * BURST):
+            pass
+        if self.dice.random() < 0.02:
+            self.leave(hard=True)
+        self.next_at = now + 0.1
+
+
+def abuse(b, port, enough):
+    """Fifty at once until enough() is true; gives back the clients."""
+    dice = random.Random(20261121)
+    kinds = ["flood"] * 20 + ["illegal"] * 10 + ["loris"] * 5 + ["half_open"] * 5
+    kinds += ["noise"] * 5 + ["deaf"] * 5
+    crowd = [Rude(port, kind, random.Random(dice.random())) for kind in kinds]
+    expect(len(crowd) == CLIENTS, "the crowd is fifty")
+    while not enough(crowd):
+        now = time.monotonic()
+        for one in crowd:
+            one.turn(now)
+        time.sleep(0.0005)  # the CNC and the simulator live on this computer, too
+    for one in crowd:
+        if one.wire:
+            one.leave(hard=True)
+    return crowd
+
+
+class Meter:
+    def __init__(self, path):
+        self.path = path
+        path.write_bytes(bytes(24))
+
+    def begin(self):
+        with open(self.path, "r+b") as file:
+            file.write(bytes(24))
+
+    def read(self):
+        return struct.unpack("QQQ", self.path.read_bytes())
+
+
+def open_files(pid):
+    return len(os.listdir(f"/proc/{pid}/fd"))
+
+
+def resident_kib(pid):
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
+
+
+@sentence("ModbusDoorUnderAbuseDelaysNobodyAndLeaksNothing")
+def door(b):
+    b.station["cycle"].update(approaches=5)
+    b.station["trigger"]["client_limit"] = CLIENTS + 1
+    meter = Meter(b.folder / "meter")
+    b.daemon_environment = {
+        "AXISCAL_LOOP_METER": str(meter.path),
+        "LD_PRELOAD": os.environ["AXISCAL_METER"],
+        "ASAN_OPTIONS": "verify_asan_link_order=0",
+    }
+    b.begin_run()
+    port = b.station["trigger"]["port"]
+    pid = b.processes["axiscald"].pid
+    before = open_files(pid)
+    # A first crowd, so that buffers and pools have their size.
+    abuse(b, port, lambda crowd: sum(one.answered for one in crowd) > REQUESTS / 10)
+    bench.wait_until("the first crowd is gone", lambda: open_files(pid) <= before, 30)
+    warm_kib = resident_kib(pid)
+    meter.begin()
+    start = b.status()["trigger"]
+
+    def enough(crowd):
+        return sum(one.answered for one in crowd) > REQUESTS
+
+    crowd = abuse(b, port, enough)
+    bench.wait_until("the crowd is gone", lambda: open_files(pid) <= before, 30)
+    longest_ns, _, spans = meter.read()
+    grown_kib = resident_kib(pid) - warm_kib
+    end = b.status()["trigger"]
+    told = {key: end[key] - start[key] for key in ("requests", "exceptions", "refused", "hung_up")}
+    print(f"{told['requests']} requests answered, {told['exceptions']} of them refused, "
+          f"{told['hung_up']} clients hung up on; longest span of the loop "
+          f"{longest_ns / 1e6:.3f} ms CPU in {spans} spans; resident memory {grown_kib:+d} KiB, "
+          f"open files {before}")
+    expect(spans > 1000, "the meter has seen the loop")
+    expect(longest_ns < LONGEST_CALLBACK_MS * 1e6, f"the loop was held for {longest_ns} ns of CPU")
+    expect(grown_kib < RSS_GROWTH_KIB, f"resident memory grew by {grown_kib} KiB")
+    expect(told["requests"] >= 0.9 * REQUESTS, f"{told}")
+    illegal = sum(one.answered for one in crowd if one.kind == "illegal")
+    expect(told["exceptions"] >= 0.9 * illegal, f"{illegal} illegal ones, {told}")
+    noisy = sum(one.hung_up for one in crowd if one.kind in ("loris", "noise"))
+    expect(noisy > 0 and told["hung_up"] >= noisy, f"{noisy} seen, {told}")
+    run = b.run()
+    expect(run["fault"] == "" or run["state"] == "complete", f"the run suffered: {run}")
+    certificate = b.finish()
+    expect(b.run()["step"] == b.run()["steps"] == 50, f"{b.run()}")
+    rows = certificate["run"]["deviations"]
+    expect([len(row) for row in rows["forward"] + rows["backward"]] == [5] * 10, f"{rows}")
+
+
+if __name__ == "__main__":
+    bench.main()
