@@ -32,6 +32,7 @@ DescriptorLink::DescriptorLink(Scheduler& scheduler, int descriptor, DescriptorK
 DescriptorLink::~DescriptorLink() {
     // A pty that somebody else keeps open would stay exclusive.
     if (!kind_.is_socket) ::ioctl(descriptor_.native_handle(), TIOCNXCL);
+    if (kind_.close) kind_.close(descriptor_.release());
 }
 
 Task<boost::system::error_code> DescriptorLink::readiness(WaitType what) {

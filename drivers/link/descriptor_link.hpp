@@ -5,6 +5,8 @@
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 
+#include <functional>
+
 namespace axiscal {
 
 struct DescriptorKind {
@@ -12,6 +14,7 @@ struct DescriptorKind {
     bool is_socket = false;
     Duration latency_uncertainty{};
     std::string remark;
+    std::function<void(int)> close; ///< who closes it, where close(2) can block; empty: the link
 };
 
 /// Owns a non-blocking descriptor. Every read waits for readiness first, so that a flooding

@@ -9,10 +9,20 @@ RealLinkOpener::RealLinkOpener(Scheduler& scheduler)
     : scheduler_{scheduler}
     , buses_{scheduler.executor()} {}
 
+RealLinkOpener::~RealLinkOpener() {
+    for (auto& [path, porter] : porters_)
+        porter->forget_loop();
+}
+
 Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings& settings,
                                                              MonotonicTime deadline) {
-    if (settings.kind == LinkSettings::Kind::serial) co_return open_serial(scheduler_, settings);
-    auto opened = co_await open_tcp(scheduler_, settings, deadline);
+    if (settings.kind == LinkSettings::Kind::tcp) {
+        auto connected = co_await open_tcp(scheduler_, settings, deadline);
+        co_return connected;
+    }
+    auto& porter = porters_[settings.path];
+    if (!porter) porter = std::make_shared<TtyPorter>(settings.describe(), scheduler_.executor());
+    auto opened = co_await open_serial(scheduler_, porter, settings, deadline);
     co_return opened;
 }
 

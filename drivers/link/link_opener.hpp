@@ -3,6 +3,9 @@
 
 #include "drivers/link/byte_link.hpp"
 #include "drivers/link/modbus_bus.hpp"
+#include "drivers/link/tty_porter.hpp"
+
+#include <map>
 
 namespace axiscal {
 
@@ -11,12 +14,16 @@ public:
     /// `scheduler` is borrowed and must outlive the opener; the opener must outlive its
     /// instruments' coroutines, and be destroyed before the loop (its bus threads are joined here).
     explicit RealLinkOpener(Scheduler& scheduler);
+    ~RealLinkOpener() override;
+    RealLinkOpener(const RealLinkOpener&) = delete;
+    RealLinkOpener& operator=(const RealLinkOpener&) = delete;
     Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                  MonotonicTime deadline) override;
     [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
 
 private:
     Scheduler& scheduler_;
+    std::map<std::string, std::shared_ptr<TtyPorter>> porters_; ///< by path
     ModbusBuses buses_;
 };
 

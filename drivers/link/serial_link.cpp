@@ -108,7 +108,7 @@ std::optional<int> usb_latency_timer_ms(const std::string& tty_path, const std::
     return timer_ms;
 }
 
-Result<std::unique_ptr<ByteLink>> open_serial(Scheduler& scheduler, const LinkSettings& settings) {
+Result<int> open_tty(const LinkSettings& settings) {
     const std::string name = settings.describe();
     const auto speed = std::ranges::find(baud_rows, settings.baud, &BaudRow::baud);
     if (speed == baud_rows.end())
@@ -126,7 +126,19 @@ Result<std::unique_ptr<ByteLink>> open_serial(Scheduler& scheduler, const LinkSe
         return fail(Fault::link_closed, name + " has no modem lines to power it", last_error());
     // What waited in the kernel before has no honest arrival time.
     ::tcflush(tty.get(), TCIFLUSH);
-    return std::make_unique<DescriptorLink>(scheduler, tty.release(), kind_of(settings));
+    return tty.release();
+}
+
+Task<Result<std::unique_ptr<ByteLink>>> open_serial(Scheduler& scheduler,
+                                                    std::shared_ptr<TtyPorter> porter,
+                                                    LinkSettings settings,
+                                                    MonotonicTime deadline) {
+    TtyOpener opener = [settings] { return open_tty(settings); };
+    const auto tty = co_await porter->open(scheduler, std::move(opener), deadline);
+    if (!tty) co_return tl::unexpected<Error>(tty.error());
+    DescriptorKind kind = kind_of(settings);
+    kind.close = [porter](int descriptor) { porter->close(descriptor); };
+    co_return std::make_unique<DescriptorLink>(scheduler, *tty, std::move(kind));
 }
 
 } // namespace axiscal

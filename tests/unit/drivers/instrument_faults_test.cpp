@@ -1,11 +1,11 @@
 // Instruments that die, flood or send garbage, on real ptys.
 #include "drivers/asio_scheduler.hpp"
-#include "drivers/link/link_opener.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/pty_pair.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/watched_opener.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -33,9 +33,9 @@ public:
         pty = std::make_unique<testing::PtyPair>();
         std::filesystem::create_symlink(pty->path, device_);
         ended.reset();
+        const int before = opener_.answers();
         boost::asio::co_spawn(loop_, run(), boost::asio::detached);
-        loop_.restart();
-        loop_.poll(); // the link is open when the test writes
+        EXPECT_TRUE(testing::loop_until(loop_, [&] { return opener_.answers() > before; }));
     }
     [[nodiscard]] const InstrumentCounters& counters() const { return instrument_->counters(); }
 
@@ -52,7 +52,7 @@ private:
 
     boost::asio::io_context& loop_;
     AsioScheduler scheduler_;
-    RealLinkOpener opener_{scheduler_};
+    testing::WatchedOpener opener_{scheduler_};
     testing::ScratchFolder folder_;
     std::string device_;
     std::unique_ptr<Instrument> instrument_;
