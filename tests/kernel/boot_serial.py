@@ -1,39 +1,127 @@
-"""Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm,
-a Modbus sensor by ftdi_sio. A plain guest with udev."""
+"""Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm, a
+Modbus sensor by ftdi_sio, behind udev's names. A plain guest with udev, no systemd.
 
+The checks run in their order on one station that never ends: what one of them breaks, it mends.
+"""
+
+import contextlib
+import os
 import sys
-
-from guest import SOURCE, Commands, Programs, check, expect, load_modules, run_checks, start_udev, wait_until
 from pathlib import Path
 
+from guest import check, expect, load_modules, run_checks, start_udev, wait_until
+from usb_station import LINKS, RECOVERY_S, Undisturbed, UsbStation
 
-class World:
-    def __init__(self, programs):
-        self.programs = programs
+SENSORS = ("air", "material")
+GONE = ("unavailable", "faulty")
 
 
-@check("TheKernelMakesATerminalOfEachAdapter")
-def terminals(world):
-    world.programs.start_ready(
-        "world", "axiscal-simulate", "--scenario", SOURCE / "tools/axiscal-simulate/scenarios/demo.toml",
-        "--control", "/run/world.sock")
-    world.programs.start_ready(
-        "usb", "axiscal-simulate", "usb", "--scenario", SOURCE / "tools/axiscal-simulate/scenarios/demo.toml",
-        "--control", "/run/usb.sock",
-        "--device", "cdc-acm,called=laser,serial=1234560,behind=laser.tty",
-        "--device", "cdc-acm,called=air,vendor=289b,product=0505,maker=Dracal,name=VCP-PTH450,serial=E24638,behind=air.tty",
-        "--device", "ftdi,called=material,serial=A600AXIS,behind=material.tty")
-    for node in ("/dev/ttyACM0", "/dev/ttyACM1", "/dev/ttyUSB0", "/dev/axiscal/umd-1234560-00"):
-        wait_until(f"{node} is there", Path(node).exists)
-    print(sorted(map(str, Path("/dev/axiscal").iterdir())), sorted(map(str, Path("/dev/serial/by-id").iterdir())))
-    print(Commands("/run/usb.sock").ask("status"))
+def told(station, name, since):
+    """What the log says of one instrument since that line, without its changes of state."""
+    lines = [line for line in station.logged()[since:] if f"{name}:" in line or f"{name} is " in line]
+    print("\n".join(lines))
+    return [line for line in lines if f"{name}:" in line]
+
+
+def suffers(station, names, begin, end, others):
+    """`begin` spoils the named instruments, all of them are given up, `end` mends them, all come
+    back; the others lose nothing meanwhile. The log says once that each is gone, and its reason once
+    at most (the same reason again is only counted)."""
+    since = len(station.logged())
+    with contextlib.ExitStack() as mending:
+        with Undisturbed(station, *others):
+            for name in names:
+                mending.callback(end, name)
+                begin(name)
+            for name in names:
+                station.wait_for_state(name, GONE)
+            mending.close()
+            station.wait_until_good(*names)
+    for name in names:
+        reasons = told(station, name, since)
+        gone = [line for line in station.logged()[since:] if any(f"{name} is {state}" in line for state in GONE)]
+        expect(len(gone) == 1, f"that {name} is gone is told {len(gone)} times: {gone}")
+        expect(len(reasons) <= 1, f"why {name} is gone is told {len(reasons)} times: {reasons}")
+
+
+def unplugged(station, names, others):
+    nodes = {name: os.path.realpath(LINKS[name]) for name in names}
+
+    def plug(name):
+        station.usb(f"plug {name}")
+        wait_until(f"udev made {LINKS[name]} again", Path(LINKS[name]).exists)
+
+    suffers(station, names, lambda name: station.usb(f"unplug {name}"), plug, others)
+    back = {name: os.path.realpath(LINKS[name]) for name in names}
+    expect(back == nodes, f"a dead descriptor held its node: {nodes} came back as {back}")
+
+
+def spoilt(station, names, fault, others):
+    suffers(station, names, lambda name: station.usb(f"fault {name} {fault}"),
+            lambda name: station.usb(f"fault {name} none"), others)
+
+
+@check("StationReadsInstrumentsThroughTheKernelsDrivers")
+def reads(station):
+    station.start()
+    station.wait_until_good(*LINKS, limit_s=30)
+    expect([line for line in station.logged() if "laser:" in line] == [], "a fresh station complains")
+    print({name: os.path.realpath(link) for name, link in LINKS.items()})
+
+
+@check("UnpluggedCounterIsUnavailableAndComesBack")
+def laser_unplugged(station):
+    unplugged(station, ["laser"], SENSORS)
+
+
+@check("UnpluggedSensorsAreUnavailableAndComeBack")
+def sensors_unplugged(station):
+    unplugged(station, SENSORS, ["laser"])
+
+
+@check("CounterThatSaysNakForEverIsGivenUpAndComesBack")
+def laser_mute(station):
+    spoilt(station, ["laser"], "mute", SENSORS)
+
+
+@check("SensorsThatSayNakForEverAreGivenUpAndComeBack")
+def sensors_mute(station):
+    spoilt(station, SENSORS, "mute", ["laser"])
+
+
+@check("ShortReadsOfTheCounterAreNoRecords")
+def laser_cut(station):
+    spoilt(station, ["laser"], "cut 3", SENSORS)
+
+
+@check("GarbledRecordsOfTheCounterAreCountedAndNeverRead")
+def laser_garbled(station):
+    """A bit above ASCII in each transfer: what stands between is read, and its gaps are counted."""
+    before = station.instrument("laser")
+    with Undisturbed(station, *SENSORS):
+        station.usb("fault laser corrupt 128")
+        wait_until("garbled records are counted",
+                   lambda: station.instrument("laser")["bad_frames"] > before["bad_frames"] + 100)
+        station.usb("fault laser none")
+    station.wait_until_good("laser")
+    after = station.instrument("laser")
+    expect(after["lost_records"] > before["lost_records"], f"no gap is counted: {after}")
+    expect(after["restarts"] == before["restarts"], "a garbled record ended the connection")
+
+
+@check("OneWrongBitFailsTheSensorsChecksums")
+def sensors_corrupt(station):
+    before = {name: station.instrument(name)["checksum_errors"] for name in SENSORS}
+    spoilt(station, SENSORS, "corrupt 1", ["laser"])
+    for name in SENSORS:
+        expect(station.instrument(name)["checksum_errors"] > before[name], f"{name} counts no wrong checksum")
 
 
 def main():
     load_modules("vhci_hcd", "cdc_acm", "ftdi_sio")
     start_udev()
-    with Programs() as programs:
-        return run_checks(World(programs))
+    with UsbStation() as station:
+        return run_checks(station)
 
 
 sys.exit(main())

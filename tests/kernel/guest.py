@@ -6,13 +6,12 @@ for by condition and deadline; a deadline is generous, the guest is eight times 
 """
 
 import contextlib
+import io
 import json
 import os
-import re
 import shutil
 import socket
 import subprocess
-import sys
 import textwrap
 import time
 import traceback
@@ -41,14 +40,17 @@ def run_checks(*worlds):
     failed = 0
     for sentence, function in _checks:
         began = time.monotonic()
+        told = io.StringIO()
         try:
-            function(*worlds)
-            print(f"ok {sentence}\n  {time.monotonic() - began:.1f} s")
+            with contextlib.redirect_stdout(told):
+                function(*worlds)
+            print(f"ok {sentence}")
         except Exception as error:
             failed += 1
-            why = " ".join(str(error).split()) or type(error).__name__
-            print(f"FAILED {sentence}: {why[:400]}")
-            print(textwrap.indent(traceback.format_exc(), "  "))
+            print(f"FAILED {sentence}: {' '.join(str(error).split())[:400] or type(error).__name__}")
+            told.write(traceback.format_exc())
+        told.write(f"{time.monotonic() - began:.1f} s")
+        print(textwrap.indent(told.getvalue(), "  "))
     return 1 if failed else 0
 
 

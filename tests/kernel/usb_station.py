@@ -1,0 +1,104 @@
+"""A station whose instruments are USB devices on the guest's own kernel: axiscal-simulate makes the
+truth on pseudo terminals, `axiscal-simulate usb` carries each through a real driver, axiscald opens
+what udev names."""
+
+import sys
+from pathlib import Path
+
+from guest import SHARE, SOURCE, Commands, expect, wait_until
+
+sys.path.insert(0, str(SOURCE / "tests/simulation"))
+import bench  # noqa: E402  (the bench of the whole-run tests, here with other wires)
+
+RECOVERY_S = 5.0  # from the node's return to good values
+GIVEN_UP_S = 30.0  # the slowest driver's patience (10 s), and a slow guest
+LASER = {"called": "laser", "serial": "7391230"}  # 16c0:0483, a Teensy
+AIR = {"called": "air", "vendor": "289b", "product": "0505", "maker": "Dracal", "name": "VCP-PTH450-CAL",
+       "serial": "E24638"}
+MATERIAL = {"called": "material", "serial": "A600AXIS"}  # 0403:6001
+LINKS = {"laser": "/dev/axiscal/umd-7391230-00", "air": "/dev/axiscal/dracal-E24638-00",
+         "material": "/dev/axiscal/ftdi-A600AXIS-00"}
+
+
+class UsbStation(bench.Bench):
+    """As Bench; `wires` says which kind of adapter each instrument sits behind."""
+
+    def __init__(self):
+        super().__init__()
+        self.links = dict(LINKS)
+        self.wires = {"laser": ("cdc-acm", LASER), "air": ("cdc-acm", AIR), "material": ("ftdi", MATERIAL)}
+        for instrument in self.station["instrument"]:
+            instrument["link"] = "serial:" + LINKS[instrument["name"]]
+        for part in [self.scenario["laser"], *self.scenario["sensor"]]:
+            part["path"] = str(self.folder / part["path"])
+
+    def start_simulator(self):
+        super().start_simulator()
+        self.start_usb()
+
+    def start_usb(self):
+        words = ["usb", "--scenario", self.folder / "scenario.json", "--control", self.folder / "usb.sock"]
+        for name, (kind, settings) in self.wires.items():
+            behind = {**settings, "behind": str(self.folder / f"{name}.tty")}
+            words += ["--device", ",".join([kind, *(f"{key}={value}" for key, value in behind.items())])]
+        world = self.processes.pop("axiscal-simulate")
+        log = self.spawn("axiscal-simulate", *words)
+        self.wait_for_line("axiscal-simulate", log, '"ready":true')
+        self.processes["usb"] = self.processes.pop("axiscal-simulate")
+        self.processes["axiscal-simulate"] = world
+        for link in self.links.values():
+            wait_until(f"udev made {link}", Path(link).exists)
+
+    def usb(self, command):
+        Commands(self.folder / "usb.sock").do(command)
+
+    def state(self, name):
+        return self.instrument(name)["state"]
+
+    def wait_for_state(self, name, states, limit_s=GIVEN_UP_S):
+        return wait_until(f"{name} is {' or '.join(states)}", lambda: self.state(name) in states, limit_s)
+
+    def good(self, name):
+        """Every channel of the instrument that a role uses has a value now."""
+        channels = [c for c in self.status()["channels"] if c["instrument"] == name and c["used"]]
+        return channels and all(c["value"] is not None for c in channels)
+
+    def wait_until_good(self, *names, limit_s=RECOVERY_S):
+        for name in names:
+            wait_until(f"{name} gives good values again", lambda: self.state(name) == "available" and self.good(name), limit_s)
+
+    def logged(self):
+        return next(log for log in self.logs if log.name.startswith("axiscald")).read_text(errors="replace").splitlines()
+
+    def __exit__(self, *failure):
+        """The logs go to the host; failures are the checks' own to tell."""
+        for process in self.processes.values():
+            process.kill()
+            process.wait()
+        for log in self.logs:
+            (SHARE / log.name).write_bytes(log.read_bytes())
+
+
+class Undisturbed:
+    """Watches that instruments go on without a loss while something happens to others."""
+
+    def __init__(self, station, *names):
+        self.station, self.names = station, names
+
+    def counts(self, name):
+        one = self.station.instrument(name)
+        losses = {key: one[key] for key in ("restarts", "bad_frames", "checksum_errors", "gaps", "lost_records")}
+        return losses, one["frames"]
+
+    def __enter__(self):
+        self.before = {name: self.counts(name) for name in self.names}
+        return self
+
+    def __exit__(self, kind, *_):
+        if kind is not None:
+            return
+        for name, (losses, frames) in self.before.items():
+            now, frames_now = self.counts(name)
+            expect(now == losses, f"{name} was disturbed: {losses} became {now}")
+            expect(frames_now > frames, f"{name} stood still")
+            expect(self.station.state(name) == "available", f"{name} is {self.station.state(name)}")
