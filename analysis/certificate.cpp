@@ -183,6 +183,8 @@ Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256)
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
     certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor);
+    simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
+                 certificate.result);
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);

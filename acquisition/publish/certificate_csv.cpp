@@ -80,6 +80,11 @@ void append_parameters(std::string& csv, const Certificate& certificate) {
                         {"# target_uncertainty", key, number(target->at("value").get<double>()),
                          unit, target->at("met").get<bool>() ? "met" : "not met"});
     }
+    for (const auto& [key, parameter] : document.at("parameters").items())
+        if (const auto drawn = parameter.find("monte_carlo"); drawn != parameter.end())
+            append_line(csv, {"# simulated", key, number(drawn->at("u").get<double>()), unit,
+                              "95 % from " + number(drawn->at("interval_95")[0].get<double>()),
+                              "to " + number(drawn->at("interval_95")[1].get<double>())});
     for (const auto& [key, reason] : certificate.result.not_evaluated)
         append_line(csv, {"# not_evaluated", key, field(reason)});
 }
@@ -92,6 +97,9 @@ void append_budget(std::string& csv, const Certificate& certificate) {
             append_line(csv,
                         {"# budget", std::string{name_of(term.term)}, number(term.u / divisor),
                          field(certificate.result.unit), field(term.formula), field(term.status)});
+    if (known.simulation)
+        append_line(csv, {"# simulation", std::to_string(known.simulation->trials) + " sessions",
+                          "seed " + std::to_string(known.simulation->seed)});
     for (const MissingTerm& term : known.missing)
         append_line(csv, {"# preliminary", "not stated", field(term.words)});
 }

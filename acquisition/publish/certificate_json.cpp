@@ -252,6 +252,8 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
             targets[parameter] = limit.in(um) / budget_units_per(certificate.result.unit);
     if (known.budget)
         add_uncertainty_json(document, *known.budget, targets, certificate.result.unit);
+    if (known.budget && known.simulation)
+        add_simulation_json(document, *known.simulation, *known.budget, certificate.result.unit);
     document["preliminary"] = certificate.preliminary;
     if (!certificate.preliminary) return;
     document["missing"] = Json::array();

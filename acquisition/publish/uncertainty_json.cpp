@@ -1,5 +1,7 @@
 #include "acquisition/publish/uncertainty_json.hpp"
 
+#include <cmath>
+
 namespace axiscal {
 namespace {
 
@@ -70,14 +72,33 @@ void add_to_parameter(ordered_json& parameter,
     parameter["target_uncertainty"]["met"] = U <= target->second;
 }
 
-} // namespace
-
-double budget_units_per(const std::string& unit) {
-    constexpr double um_per_mm = 1e3, um_per_m = 1e6, arcsec_per_deg = 3600;
-    if (unit == "mm") return um_per_mm;
-    if (unit == "m") return um_per_m;
-    return unit == "deg" ? arcsec_per_deg : 1;
+ordered_json simulated_json(const MonteCarloFigure& figure) {
+    const auto& [symmetric, shortest] = figure.interval;
+    ordered_json object;
+    object["mean"] = figure.mean;
+    object["u"] = figure.u;
+    object["interval_95"] = {symmetric.low, symmetric.high};
+    object["shortest_95"] = {shortest.low, shortest.high};
+    return object;
 }
+
+/// The source's u(R) counts the spread of one direction for both: told with its size.
+std::vector<std::string>
+remarks_on(const MonteCarloResult& simulated, const UncertaintyBudget& budget, double divisor) {
+    std::vector<std::string> remarks{
+        "each reading is drawn by itself, so E and M count the environment at two targets, as "
+        "eve_model difference does"};
+    const auto ratio = conservatism_of_R(budget, simulated, divisor);
+    if (!ratio) return remarks;
+    const long percent = std::lround(std::fabs(*ratio - 1) * 100);
+    remarks.push_back("u(R) by the source's formula is " + std::to_string(percent) + " % " +
+                      (*ratio >= 1 ? "above" : "below") +
+                      " the simulated one: the formula adds u(B) to the spread of one direction "
+                      "counted in full; strict propagation is under budget of R");
+    return remarks;
+}
+
+} // namespace
 
 void add_uncertainty_json(ordered_json& document,
                           const UncertaintyBudget& budget,
@@ -89,6 +110,27 @@ void add_uncertainty_json(ordered_json& document,
             found != document["parameters"].end())
             add_to_parameter(*found, target_uncertainty, budget, figure, divisor);
     document["budget"] = budget_json(budget, unit, divisor);
+}
+
+void add_simulation_json(ordered_json& document,
+                         const MonteCarloResult& simulated,
+                         const UncertaintyBudget& budget,
+                         const std::string& unit) {
+    for (const MonteCarloFigure& figure : simulated.figures)
+        if (auto found = document["parameters"].find(figure.key);
+            found != document["parameters"].end())
+            (*found)["monte_carlo"] = simulated_json(figure);
+    ordered_json& summary = document["monte_carlo"];
+    summary["trials"] = simulated.trials;
+    summary["seed"] = simulated.seed;
+    summary["generator"] = "xoshiro256+, 8 streams out of splitmix64(seed)";
+    summary["remarks"] = remarks_on(simulated, budget, budget_units_per(unit));
+    const auto evaluated = document["parameters"].find("R");
+    if (evaluated != document["parameters"].end() &&
+        scatters_less_than_stated(evaluated->at("value").get<double>(), simulated))
+        summary["remarks"].push_back("the readings scatter less than the stated E_VE allows (the "
+                                     "simulated mean of R lies above R by more than its u): look "
+                                     "at E_VE");
 }
 
 } // namespace axiscal

@@ -3,15 +3,13 @@
 // Pure.
 
 #include "analysis/uncertainty/budget.hpp"
+#include "analysis/uncertainty/monte_carlo.hpp"
 
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace axiscal {
-
-/// How many of the budget's unit (um, arcsec) make one of the document's ("mm", "m", "deg").
-double budget_units_per(const std::string& unit);
 
 /// Each parameter of `document` that the budget knows gains "expanded_uncertainty" {value, k},
 /// "budget" and, where a target is given, "target_uncertainty" {value, met}; the document gains
@@ -20,5 +18,13 @@ void add_uncertainty_json(nlohmann::ordered_json& document,
                           const UncertaintyBudget& budget,
                           const std::map<std::string, double>& target_uncertainty,
                           const std::string& unit);
+
+/// Each parameter of `document` that was simulated gains "monte_carlo" {mean, u, interval_95,
+/// shortest_95}, the document "monte_carlo" with trials, seed, generator and remarks, all in
+/// `unit`.
+void add_simulation_json(nlohmann::ordered_json& document,
+                         const MonteCarloResult& simulated,
+                         const UncertaintyBudget& budget,
+                         const std::string& unit);
 
 } // namespace axiscal

@@ -233,4 +233,11 @@ const std::vector<std::string>& uncertain_parameters() {
     return keys;
 }
 
+double budget_units_per(std::string_view unit) {
+    constexpr double um_per_mm = 1e3, um_per_m = 1e6, arcsec_per_deg = 3600;
+    if (unit == "mm") return um_per_mm;
+    if (unit == "m") return um_per_m;
+    return unit == "deg" ? arcsec_per_deg : 1;
+}
+
 } // namespace axiscal

@@ -107,6 +107,9 @@ Result<UncertaintyBudget> make_budget(const UncertaintyStatement& statement,
                                       int targets,
                                       double edition_k = 2);
 
+/// How many of the budget's unit (um, arcsec) make one of a result's ("mm", "m", "deg").
+double budget_units_per(std::string_view unit);
+
 /// Every contract key of a parameter that can have an uncertainty, in the contract's order.
 const std::vector<std::string>& uncertain_parameters();
 

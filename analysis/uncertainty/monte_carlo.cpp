@@ -178,6 +178,26 @@ SessionErrors session_errors(const UncertaintyBudget& budget, double budget_per_
     return errors;
 }
 
+const MonteCarloFigure* MonteCarloResult::find(std::string_view key) const {
+    const auto found = std::ranges::find(figures, key, &MonteCarloFigure::key);
+    return found == figures.end() ? nullptr : &*found;
+}
+
+std::optional<double> conservatism_of_R(const UncertaintyBudget& budget,
+                                        const MonteCarloResult& simulated,
+                                        double budget_per_unit) {
+    const MonteCarloFigure* drawn = simulated.find("R");
+    const ParameterUncertainty* formula = budget.find("R");
+    if (!drawn || !formula || !(drawn->u > 0)) return std::nullopt;
+    return formula->u / budget_per_unit / drawn->u;
+}
+
+bool scatters_less_than_stated(std::optional<double> evaluated_R,
+                               const MonteCarloResult& simulated) {
+    const MonteCarloFigure* drawn = simulated.find("R");
+    return evaluated_R && drawn && drawn->mean > *evaluated_R + drawn->u;
+}
+
 int default_trials(const RunAt20C& run) {
     constexpr double most = 100'000, least = 10'000, readings_in_all = 2e7;
     const auto readings = static_cast<double>(readings_of(run));

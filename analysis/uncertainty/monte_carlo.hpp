@@ -8,7 +8,9 @@
 #include "analysis/uncertainty/figure_tally.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -49,6 +51,7 @@ struct MonteCarloResult {
     int trials = 0; ///< the request, rounded up to whole groups of eight
     std::uint64_t seed = 0;
     std::vector<MonteCarloFigure> figures; ///< those that `result` has, in the contract's order
+    [[nodiscard]] const MonteCarloFigure* find(std::string_view key) const;
 };
 
 /// Draws `trials` sessions about the measured one and evaluates each by the formulas of
@@ -60,6 +63,18 @@ Result<MonteCarloResult> simulate_sessions(const RunAt20C& run,
                                            const PositioningResult& result,
                                            const SessionErrors& errors,
                                            const MonteCarloRequest& request);
+
+/// u(R) of the budget's formula over the simulated one, both made of the same statement: above 1
+/// the formula is conservative. None where either lacks R.
+std::optional<double> conservatism_of_R(const UncertaintyBudget& budget,
+                                        const MonteCarloResult& simulated,
+                                        double budget_per_unit);
+
+/// Whether readings scatter less than the stated environment allows: the simulated mean of R lies
+/// above the evaluated R by more than its u. The formulas and the simulation then tell of E_VE, not
+/// of the machine. false without R.
+bool scatters_less_than_stated(std::optional<double> evaluated_R,
+                               const MonteCarloResult& simulated);
 
 /// Trials that a case gets when it does not say: 100000, fewer for many readings (2e7 in all),
 /// never below 10000. About 20 ms for 11 targets, 5 approaches, both directions.

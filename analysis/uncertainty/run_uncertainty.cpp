@@ -102,6 +102,17 @@ std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s) {
     return missing;
 }
 
+/// A number that a JSON reader with doubles keeps: below 2^53.
+std::uint64_t simulation_seed_of(const RunRecord& run) {
+    constexpr std::uint64_t fnv_offset = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
+    constexpr std::uint64_t kept = (std::uint64_t{1} << 53) - 1;
+    if (run.plan.seed) return *run.plan.seed & kept;
+    std::uint64_t hash = fnv_offset;
+    for (const char c : run.run_id)
+        hash = (hash ^ static_cast<unsigned char>(c)) * fnv_prime;
+    return hash & kept;
+}
+
 } // namespace
 
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k) {
@@ -121,6 +132,21 @@ RunUncertainty uncertainty_of(const RunRecord& run, double edition_k) {
     drop_incomplete(*budget);
     out.budget = *std::move(budget);
     return out;
+}
+
+void simulate_run(RunUncertainty& known,
+                  const RunRecord& run,
+                  const RunAt20C& deviations,
+                  const PositioningResult& result) {
+    if (!known.budget || known.budget->parameters.empty()) return;
+    const SessionErrors errors = session_errors(*known.budget, budget_units_per(result.unit));
+    auto simulated = simulate_sessions(deviations, result, errors,
+                                       {default_trials(deviations), simulation_seed_of(run)});
+    if (!simulated) return; // too many readings to simulate: the formulas stand alone
+    std::erase_if(simulated->figures, [&](const MonteCarloFigure& figure) {
+        return known.budget->find(figure.key) == nullptr;
+    });
+    known.simulation = *std::move(simulated);
 }
 
 const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter) {

@@ -4,6 +4,7 @@
 
 #include "analysis/run_record.hpp"
 #include "analysis/uncertainty/budget.hpp"
+#include "analysis/uncertainty/monte_carlo.hpp"
 
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct RunUncertainty {
     /// `parameters` holds those alone whose every term is stated: with a term left out, U would be
     /// too small. None without a statement in the run, or when it was refused.
     std::optional<UncertaintyBudget> budget;
+    /// The whole evaluation simulated with the same statement, beside the formulas: of the
+    /// parameters that `budget` holds, in the unit of the result. None without a budget.
+    std::optional<MonteCarloResult> simulation;
     std::vector<MissingTerm> missing; ///< empty: the certificate is final
     std::vector<std::string> remarks; ///< what was derived instead of stated
 };
@@ -33,6 +37,14 @@ struct RunUncertainty {
 /// standard uncertainty, if that one is. A statement that no budget can be made of (a beam off by a
 /// tenth of L) takes no measured run its certificate: it is named in `missing`.
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k);
+
+/// Fills `known.simulation`. The seed is the plan's or, of a plan without one, made of the run's id
+/// (FNV-1a), its low 53 bits: the same run gives the same bits anywhere and for ever, and a case
+/// can state the same seed. `result` was evaluated from `deviations`.
+void simulate_run(RunUncertainty& known,
+                  const RunRecord& run,
+                  const RunAt20C& deviations,
+                  const PositioningResult& result);
 
 /// U_T of one parameter; null when none is stated.
 const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter);

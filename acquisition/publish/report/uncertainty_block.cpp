@@ -4,6 +4,7 @@
 #include "acquisition/publish/report/certificate_pages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace axiscal {
@@ -90,10 +91,16 @@ void draw_terms(Sheet& sheet, const Certificate& certificate) {
 }
 
 struct ParameterGroup {
-    std::string symbols;
+    std::string symbols, simulated; ///< simulated u, one a symbol in their order
     const ParameterUncertainty* figure = nullptr;
     std::optional<double> target_um;
 };
+
+std::string simulated_u(const Certificate& certificate, const std::string& key) {
+    const auto& simulation = certificate.uncertainty.simulation;
+    const MonteCarloFigure* drawn = simulation ? simulation->find(key) : nullptr;
+    return drawn ? of_u(drawn->u * budget_units_per(certificate.result.unit)) : "–";
+}
 
 /// Evaluated parameters; neighbours of one budget and one target share a line.
 std::vector<ParameterGroup> parameter_groups(const Certificate& certificate) {
@@ -109,10 +116,13 @@ std::vector<ParameterGroup> parameter_groups(const Certificate& certificate) {
         const bool same = !groups.empty() && groups.back().figure->u == figure.u &&
                           groups.back().figure->formula == figure.formula &&
                           groups.back().target_um == target_um;
-        if (same)
+        const std::string simulated = simulated_u(certificate, figure.key);
+        if (same) {
             groups.back().symbols += ", " + std::string{line->symbol};
-        else
-            groups.push_back({std::string{line->symbol}, &figure, target_um});
+            groups.back().simulated += ", " + simulated;
+        } else {
+            groups.push_back({std::string{line->symbol}, simulated, &figure, target_um});
+        }
     }
     return groups;
 }
@@ -124,7 +134,8 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
         groups, [](const ParameterGroup& group) { return group.target_um.has_value(); });
     std::vector<TableColumn> columns{
         {"Parameter", "", Align::left},
-        {"u", "µm"},
+        {"u by formula", "µm"},
+        {"u simulated", "µm"},
         {"U = " + fixed(certificate.uncertainty.budget->coverage, 0) + " u", "µm"}};
     if (targets) {
         columns.push_back({"U_T", "µm"});
@@ -135,7 +146,7 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
     std::vector<TableRow> rows;
     for (const ParameterGroup& group : groups) {
         const ParameterUncertainty& figure = *group.figure;
-        TableRow row{group.symbols, of_u(figure.u), of_u(figure.expanded)};
+        TableRow row{group.symbols, of_u(figure.u), group.simulated, of_u(figure.expanded)};
         if (targets) {
             row.push_back(group.target_um ? of_u(*group.target_um) : "–");
             const bool met = group.target_um && figure.expanded <= *group.target_um;
@@ -163,6 +174,26 @@ void draw_legend(Sheet& sheet, const Certificate& certificate) {
     sheet.text(words, note);
 }
 
+/// What "u simulated" is, and by how much the formula of u(R) lies beside it.
+void draw_simulation(Sheet& sheet, const Certificate& certificate) {
+    const RunUncertainty& known = certificate.uncertainty;
+    if (!known.simulation) return;
+    std::string words = "Simulated: the whole evaluation of " +
+                        std::to_string(known.simulation->trials) +
+                        " sessions drawn about this one with the same statements (JCGM 101, seed " +
+                        std::to_string(known.simulation->seed) +
+                        "). Terms that grow with the length count by the distance of the targets, "
+                        "extremes by the targets that may become one.";
+    const auto ratio = conservatism_of_R(*known.budget, *known.simulation,
+                                         budget_units_per(certificate.result.unit));
+    if (ratio)
+        words += " u(R) by the source's formula is " + fixed(std::fabs(*ratio - 1) * 100, 0) +
+                 " % " + (*ratio >= 1 ? "above" : "below") + " the simulated one.";
+    if (scatters_less_than_stated(certificate.result.parameters.R, *known.simulation))
+        words += " The readings scatter less than the stated E_VE allows: look at E_VE.";
+    sheet.text(words, note);
+}
+
 } // namespace
 
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
@@ -185,6 +216,7 @@ void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
     draw_terms(sheet, certificate);
     draw_parameter_uncertainties(sheet, certificate);
     draw_legend(sheet, certificate);
+    draw_simulation(sheet, certificate);
 }
 
 } // namespace axiscal

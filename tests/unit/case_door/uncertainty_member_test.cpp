@@ -226,6 +226,34 @@ TEST(UncertaintyMemberRefuses, ByTheFieldAsItWasWritten) {
     request = rotary_case();
     request["uncertainty"]["length_m"] = 1;
     starts(refusal_of(request), ".length_m");
+    request = rotary_case();
+    request["uncertainty"]["eve_deg"] = 0.1;
+    starts(refusal_of(request), ".eve_deg");
+    request["uncertainty"] = {{"device_U_deg", 0.1}};
+    starts(refusal_of(request), ".k");
+}
+
+TEST(UncertaintyMemberRefuses, AnUnitOfTheOtherKindOfAxisWithTheOneToTake) {
+    json request = rotary_case();
+    request["uncertainty"] = {{"device_width_um", 2}};
+    EXPECT_EQ(refusal_of(request),
+              "refused: uncertainty.device_width_um: is a length; a rotary axis takes "
+              "'device_width_arcsec' or 'device_width_deg'");
+    request = good_case();
+    request["uncertainty"] = {{"eve_deg", 2}};
+    EXPECT_EQ(refusal_of(request),
+              "refused: uncertainty.eve_deg: is an angle; a linear axis takes 'eve_um'");
+}
+
+TEST(UncertaintyMember, OfARotaryAxisMayBeStatedInDegrees) {
+    json request = rotary_case();
+    const json in_seconds = answer_to(request);
+    request["uncertainty"] = {{"device_width_deg", 2.0 / 3600}, {"eve_deg", 0.5 / 3600}};
+    const json in_degrees = answer_to(request);
+    for (const auto& [key, parameter] : in_seconds.at("parameters").items())
+        EXPECT_NEAR(in_degrees.at("parameters").at(key).at("budget").at("u").get<double>(),
+                    parameter.at("budget").at("u").get<double>(), 1e-18)
+            << key;
 }
 
 } // namespace

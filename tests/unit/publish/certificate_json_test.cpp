@@ -81,6 +81,20 @@ TEST(CertificateJson, HoldsUAgainstItsTarget) {
     EXPECT_FALSE(parameters.at("A").contains("target_uncertainty"));
 }
 
+TEST(CertificateJson, ShowsTheSimulationBesideTheFormulaWithItsSeed) {
+    const Json document = certificate_to_json(test::certificate_of(stated_run()));
+    for (const auto& [key, parameter] : document.at("parameters").items()) {
+        const Json& drawn = parameter.at("monte_carlo");
+        EXPECT_GT(drawn.at("u"), 0) << key;
+        EXPECT_LT(drawn.at("interval_95").at(0), drawn.at("mean")) << key;
+        EXPECT_GT(drawn.at("interval_95").at(1), drawn.at("mean")) << key;
+    }
+    EXPECT_EQ(document.at("monte_carlo").at("seed"), 4711);
+    EXPECT_EQ(document.at("monte_carlo").at("trials"), 100000);
+    const std::string remark = document.at("monte_carlo").at("remarks").at(1);
+    EXPECT_NE(remark.find("% above the simulated one"), std::string::npos) << remark;
+}
+
 TEST(CertificateJson, SaysWhatIsMissingAndWhichParametersItLeavesWithoutU) {
     RunRecord run = stated_run();
     run.uncertainty->device_U = {};
@@ -203,6 +217,8 @@ TEST(CertificateCsv, TellsUItsTargetTheBudgetAndWhatIsMissing) {
     EXPECT_NE(final_one.find(",k = 2\r\n"), std::string::npos);
     EXPECT_NE(final_one.find("# target_uncertainty,R,0.002,mm,not met\r\n"), std::string::npos);
     EXPECT_NE(final_one.find("# budget,environment,"), std::string::npos);
+    EXPECT_NE(final_one.find("# simulated,A,0.00"), std::string::npos);
+    EXPECT_NE(final_one.find("# simulation,100000 sessions,seed 4711\r\n"), std::string::npos);
     EXPECT_EQ(final_one.find("not evaluated"), std::string::npos);
     EXPECT_EQ(final_one.find("preliminary"), std::string::npos);
     const std::string bare = certificate_csv(test::certificate_of(test::synthetic_run()));

@@ -5,7 +5,9 @@
 #include "acquisition/publish/result_digest.hpp"
 #include "analysis/certificate.hpp"
 #include "tests/unit/analysis/simulated_run.hpp"
+#include "tests/unit/analysis/stated_uncertainty.hpp"
 
+#include <bit>
 #include <gtest/gtest.h>
 
 namespace axiscal {
@@ -30,6 +32,21 @@ TEST(ResultBits, AreTheSameOnEveryPreset) {
     ASSERT_TRUE(certificate.has_value());
     EXPECT_EQ(result_digest(certificate->result),
               "4e3a6b01cc48de0a8abbdbbaf61199ab8d2ccd3d86a123d51ee28ab610f4cd64");
+}
+
+TEST(ResultBits, OfTheSimulationAreTheSameOnEveryPreset) {
+    RunRecord run = run_of_plain_arithmetic();
+    run.uncertainty = test::stated_uncertainty();
+    run.plan.seed = 1;
+    const auto certificate = make_certificate(std::move(run), "");
+    ASSERT_TRUE(certificate.has_value());
+    std::uint64_t digest = 0xcbf29ce484222325; // FNV-1a over whole words
+    for (const MonteCarloFigure& figure : certificate->uncertainty.simulation->figures)
+        for (const double number :
+             {figure.mean, figure.u, figure.interval.symmetric.low, figure.interval.symmetric.high,
+              figure.interval.shortest.low, figure.interval.shortest.high})
+            digest = (digest ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3;
+    EXPECT_EQ(digest, 12177281050924155743U);
 }
 
 } // namespace

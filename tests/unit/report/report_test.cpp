@@ -164,6 +164,17 @@ TEST_F(Report, OfACompleteBudgetIsFinalAndPrintsUOfEachParameter) {
         EXPECT_THAT(text, HasSubstr(words));
 }
 
+TEST_F(Report, PrintsTheSimulatedUBesideTheFormula) {
+    const std::string text = test::text_of(render(stated_run()));
+    for (const char* words :
+         {"u by formula", "u simulated", "100000 sessions", "seed 4711", "above the simulated one"})
+        EXPECT_THAT(text, HasSubstr(words));
+    const Certificate certificate = test::certificate_of(stated_run());
+    for (const MonteCarloFigure& figure : certificate.uncertainty.simulation->figures)
+        EXPECT_THAT(text, HasSubstr(fixed(figure.u * 1000, 3))) << figure.key;
+    EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("simulated")));
+}
+
 TEST_F(Report, HoldsUAgainstItsStatedTarget) {
     const std::string text = test::text_of(render(stated_run()));
     EXPECT_THAT(text, HasSubstr("U is above its stated target U_T for R."));

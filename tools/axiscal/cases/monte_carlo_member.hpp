@@ -19,14 +19,12 @@ struct MonteCarloMember {
 /// @errors Fault::bad_case with the field below "uncertainty.monte_carlo".
 Result<MonteCarloMember> monte_carlo_member(const nlohmann::json& member);
 
-/// Each parameter of `document` gains "monte_carlo" {mean, u, interval_95, shortest_95}, the
-/// document "monte_carlo" with trials, seed and remarks. budget_per_unit: see session_errors().
+/// Simulates and writes it down by add_simulation_json().
 /// @errors those of simulate_sessions(), with the field below "uncertainty.monte_carlo".
 Result<void> add_monte_carlo(nlohmann::ordered_json& document,
                              const MonteCarloMember& member,
                              const UncertaintyBudget& budget,
                              const RunAt20C& run,
-                             const PositioningResult& result,
-                             double budget_per_unit);
+                             const PositioningResult& result);
 
 } // namespace axiscal

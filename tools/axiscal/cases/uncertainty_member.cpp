@@ -15,13 +15,23 @@ using nlohmann::ordered_json;
 
 const std::string field_prefix = "uncertainty.";
 
+struct Number {
+    std::string key;
+    std::optional<double>* place;
+    double factor = 1; ///< into the unit of the statement
+};
+
 /// The statement's members by the keys of the contract.
-std::vector<std::pair<std::string, std::optional<double>*>> numbers_of(UncertaintyStatement& s) {
+std::vector<Number> numbers_of(UncertaintyStatement& s) {
+    constexpr double arcsec_per_deg = 3600;
     if (s.axis_kind == AxisKind::rotary)
         return {{"device_U_arcsec", &s.device_U},
+                {"device_U_deg", &s.device_U, arcsec_per_deg},
                 {"k", &s.device_k},
                 {"device_width_arcsec", &s.device_width},
-                {"eve_arcsec", &s.eve}};
+                {"device_width_deg", &s.device_width, arcsec_per_deg},
+                {"eve_arcsec", &s.eve},
+                {"eve_deg", &s.eve, arcsec_per_deg}};
     return {{"device_U_um", &s.device_U},
             {"k", &s.device_k},
             {"device_width_um", &s.device_width},
@@ -37,6 +47,21 @@ std::vector<std::pair<std::string, std::optional<double>*>> numbers_of(Uncertain
             {"device_temperature_offset_K", &s.device_temperature_offset_K},
             {"device_alpha_width_um_per_m_K", &s.device_alpha_width_um_per_m_K},
             {"eve_um", &s.eve}};
+}
+
+/// A micrometre is no angle without a radius, and an angle no length: told with the key to take.
+Result<void> check_units(const json& member, AxisKind kind) {
+    const bool rotary = kind == AxisKind::rotary;
+    for (const std::string name : {"device_U", "device_width", "eve"})
+        for (const char* unit : {"_um", "_arcsec", "_deg"}) {
+            const bool is_length = unit == std::string_view{"_um"};
+            if (is_length != rotary || !member.contains(name + unit)) continue;
+            return refuse(Fault::bad_case, field_prefix + name + unit,
+                          rotary ? "is a length; a rotary axis takes '" + name + "_arcsec' or '" +
+                                       name + "_deg'"
+                                 : "is an angle; a linear axis takes '" + name + "_um'");
+        }
+    return {};
 }
 
 Result<int> approaches_of(const json& member) {
@@ -75,12 +100,16 @@ Result<UncertaintyMember> uncertainty_member(const json& member, AxisKind kind) 
     out.statement.axis_kind = kind;
     const auto numbers = numbers_of(out.statement);
     Words known{"n", "eve_model", "target_uncertainty", "monte_carlo"};
-    for (const auto& [key, place] : numbers)
-        known.push_back(key);
+    for (const Number& number : numbers)
+        known.push_back(number.key);
+    if (member.is_object()) AXISCAL_CHECK(check_units(member, kind));
     AXISCAL_CHECK(check_object(member, "uncertainty", known));
-    for (const auto& [key, place] : numbers)
+    for (const auto& [key, place, factor] : numbers)
         if (member.contains(key)) {
-            AXISCAL_TRY(*place, number_at(member, key, field_prefix + key));
+            if (*place)
+                return refuse(Fault::bad_case, field_prefix + key, "is stated in another unit too");
+            AXISCAL_TRY(const double value, number_at(member, key, field_prefix + key));
+            *place = value * factor;
         }
     if (member.contains("n")) {
         AXISCAL_TRY(out.approaches, approaches_of(member));
@@ -110,8 +139,7 @@ Result<void> add_uncertainty(ordered_json& document,
         return refuse(Fault::bad_case, field_prefix + budget.error().field, budget.error().detail);
     add_uncertainty_json(document, *budget, member.target_uncertainty, result.unit);
     if (!member.monte_carlo.asked) return {};
-    return add_monte_carlo(document, member.monte_carlo, *budget, run, result,
-                           budget_units_per(result.unit));
+    return add_monte_carlo(document, member.monte_carlo, *budget, run, result);
 }
 
 } // namespace axiscal

@@ -132,6 +132,40 @@ TEST(RunUncertainty, OfAnImpossibleStatementIsMissingWithItsReason) {
     EXPECT_FALSE(uncertainty_of(run, 2).budget);
 }
 
+/// The figures of a run that is simulated beside its budget.
+MonteCarloResult simulated(RunRecord run) {
+    return *make_certificate(std::move(run), "").value().uncertainty.simulation;
+}
+
+TEST(RunUncertainty, IsSimulatedBesideTheFormulas) {
+    const MonteCarloResult drawn = simulated(stated_run());
+    EXPECT_EQ(drawn.figures.size(), 12U);
+    EXPECT_EQ(drawn.trials, 100'000);
+    // B_mean is linear in the readings: u_EVE sqrt(2 / (n m)), in mm; sampling 0.2 %
+    EXPECT_NEAR(drawn.find("B_mean")->u, 0.0017 / root_12 * std::sqrt(2.0 / 55), 1e-6 * 0.7);
+    EXPECT_EQ(drawn.find("C"), nullptr);
+}
+
+TEST(RunUncertainty, IsSimulatedOnlyForParametersWhoseEveryTermIsStated) {
+    RunRecord run = stated_run();
+    run.uncertainty->misalignment.reset();
+    const MonteCarloResult drawn = simulated(run);
+    EXPECT_TRUE(drawn.find("R") && drawn.find("B"));
+    EXPECT_FALSE(drawn.find("A") || drawn.find("E"));
+    run.uncertainty->eve.reset();
+    EXPECT_FALSE(make_certificate(run, "").value().uncertainty.simulation);
+    EXPECT_FALSE(make_certificate(test::simulated_run({}), "").value().uncertainty.simulation);
+}
+
+TEST(RunUncertainty, IsSimulatedWithTheSeedOfThePlanOrOneOfTheRunsId) {
+    RunRecord run = stated_run();
+    run.plan.seed = (std::uint64_t{1} << 60) + 4711; // a case can state 53 bits
+    EXPECT_EQ(simulated(run).seed, 4711U);
+    run.plan.seed.reset();
+    run.run_id = "foobar"; // 64-bit FNV-1a, published: 0x85944171f73967e8
+    EXPECT_EQ(simulated(run).seed, 0x85944171f73967e8U & 0x1fffffffffffffU);
+}
+
 TEST(RunUncertainty, FindsTheTargetOfEachParameter) {
     RunRecord run = stated_run();
     run.uncertainty->targets = {{"A", um(5)}, {"R", um(2)}};
