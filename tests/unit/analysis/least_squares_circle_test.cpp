@@ -28,7 +28,8 @@ std::string refusal(const Points& points) {
 }
 
 TEST(LeastSquaresCircle, AgreesWithEveryReferencePairOfNist) {
-    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+    const auto sets = test::reference_json("nist_circle2d.json").at("sets");
+    for (const auto& set : sets) {
         SCOPED_TRACE(set.at("id"));
         const auto circle = fit(points_of(set.at("points")));
         const auto& published = set.at("published_nist_lsc");
@@ -137,7 +138,8 @@ TEST(LeastSquaresCircleRefuses, WhatIsNotFiniteByItsPlace) {
 }
 
 TEST(ArcOfPoints, IsTheCircleWithoutTheLargestGap) {
-    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+    const auto sets = test::reference_json("nist_circle2d.json").at("sets");
+    for (const auto& set : sets) {
         const Points points = points_of(set.at("points"));
         const auto circle = fit(points);
         EXPECT_NEAR(arc_of_points_deg(points.x, points.y, circle.x, circle.y),

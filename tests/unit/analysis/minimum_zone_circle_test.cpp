@@ -46,7 +46,8 @@ void expect_certified(const Points& points, const MinimumZoneCircle& c) {
 }
 
 TEST(MinimumZoneCircle, IsNeverWiderThanTheThirdPartyProgramOnNistsSets) {
-    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+    const auto sets = test::reference_json("nist_circle2d.json").at("sets");
+    for (const auto& set : sets) {
         SCOPED_TRACE(set.at("id"));
         const Points points = points_of(set.at("points"));
         const auto circle = zone(points);
@@ -64,7 +65,8 @@ TEST(MinimumZoneCircle, IsNeverWiderThanTheThirdPartyProgramOnNistsSets) {
 }
 
 TEST(MinimumZoneCircle, HasTheWidthOfLobedCirclesInClosedForm) {
-    for (const auto& set : test::reference_json("circles.json").at("sets")) {
+    const auto sets = test::reference_json("circles.json").at("sets");
+    for (const auto& set : sets) {
         if (!set.contains("exact")) continue;
         SCOPED_TRACE(set.at("id"));
         const Points points = points_of(set.at("points"));
@@ -106,7 +108,8 @@ TEST(MinimumZoneCircleRefuses, LinesAndFewerThanThreeDistinctPoints) {
 }
 
 TEST(BoundingCircles, AgreeWithTheThirdPartyProgramOnNistsSets) {
-    for (const auto& set : test::reference_json("nist_circle2d.json").at("sets")) {
+    const auto sets = test::reference_json("nist_circle2d.json").at("sets");
+    for (const auto& set : sets) {
         SCOPED_TRACE(set.at("id"));
         const Points points = points_of(set.at("points"));
         const auto around = fit_minimum_circumscribed_circle(points.x, points.y);
