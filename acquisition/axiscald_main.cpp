@@ -126,6 +126,7 @@ struct Daemon {
 void log_to_stderr() {
     auto log = spdlog::stderr_logger_st("axiscald");
     // Under systemd the journal stamps the lines itself.
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread runs yet
     log->set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%l: %v" : "%H:%M:%S.%e %l: %v");
     log->flush_on(spdlog::level::info);
     spdlog::set_default_logger(std::move(log));

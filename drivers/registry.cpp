@@ -59,6 +59,7 @@ Result<const InstrumentDriver*> find_driver(std::string_view name) {
     const auto found = std::ranges::find(drivers, name, &InstrumentDriver::name);
     if (found != drivers.end()) return &*found;
     std::vector<std::string> names;
+    names.reserve(std::size(drivers));
     for (const InstrumentDriver& row : drivers)
         names.emplace_back(row.name);
     std::string reason = "there is no driver \"" + std::string{name} + "\"";

@@ -35,8 +35,18 @@ using Response = http::response<http::string_body>;
 constexpr auto quiet = asio::as_tuple(asio::use_awaitable);
 constexpr auto idle_limit =
     std::chrono::seconds{30}; // a client that neither asks nor reads is let go
-constexpr std::uint64_t body_limit = 64 * 1024;
+constexpr std::uint64_t body_limit = std::uint64_t{64} * 1024;
 constexpr std::size_t client_limit = 64;
+
+/// Empty when there is no such group.
+std::optional<gid_t> group_id(const std::string& name) {
+    std::vector<char> texts(1024);
+    group entry{};
+    group* found = nullptr;
+    while (::getgrnam_r(name.c_str(), &entry, texts.data(), texts.size(), &found) == ERANGE)
+        texts.resize(2 * texts.size());
+    return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
+}
 
 http::status status_of(Fault fault) {
     switch (fault) {
@@ -121,12 +131,12 @@ Result<void> HttpFace::Impl::listen_local() {
                         "; does its folder exist and may this user write there?",
                     error);
     if (config.group.empty()) return {};
-    const group* wanted = ::getgrnam(config.group.c_str());
-    if (wanted == nullptr)
+    const auto wanted = group_id(config.group);
+    if (!wanted)
         return fail(Fault::io,
                     "group '" + config.group +
                         "' does not exist; create it (systemd-sysusers) or set console.group");
-    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), wanted->gr_gid) != 0)
+    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), *wanted) != 0)
         return fail(Fault::io, "cannot give " + config.socket_path + " to group " + config.group,
                     {errno, std::generic_category()});
     return {};

@@ -94,7 +94,7 @@ sigset_t block_stop_signals() {
     ::sigemptyset(&stop);
     ::sigaddset(&stop, SIGTERM);
     ::sigaddset(&stop, SIGINT);
-    ::sigprocmask(SIG_BLOCK, &stop, nullptr);
+    ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
     return stop;
 }
 

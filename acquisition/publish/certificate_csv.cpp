@@ -68,13 +68,13 @@ void append_parameters(std::string& csv, const Certificate& certificate) {
     const std::string unit = field(certificate.result.unit);
     for (const auto& [key, parameter] : document.at("parameters").items()) {
         const std::string value = number(parameter.at("value").get<double>());
-        const auto U = parameter.find("expanded_uncertainty");
-        if (U == parameter.end())
+        const auto expanded = parameter.find("expanded_uncertainty");
+        if (expanded == parameter.end())
             append_line(csv, {"# parameter", key, value, unit, "U not evaluated"});
         else
             append_line(csv, {"# parameter", key, value, unit,
-                              "\u00B1 " + number(U->at("value").get<double>()),
-                              "k = " + number(U->at("k").get<double>())});
+                              "\u00B1 " + number(expanded->at("value").get<double>()),
+                              "k = " + number(expanded->at("k").get<double>())});
         if (const auto target = parameter.find("target_uncertainty"); target != parameter.end())
             append_line(csv,
                         {"# target_uncertainty", key, number(target->at("value").get<double>()),

@@ -70,7 +70,7 @@ Result<std::string> stage_entry(const std::string& outbox,
                                 const std::vector<OutboxFile>& files) {
     AXISCAL_TRY(const auto staging, begin_entry(outbox, run_id));
     for (const auto& [name, content] : files)
-        AXISCAL_CHECK(write_synced(staging + "/" + name, content));
+        AXISCAL_CHECK(write_synced((fs::path{staging} / name).string(), content));
     return finish_entry(outbox, run_id);
 }
 

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_folders = 1000;        // of one run id
-constexpr std::size_t block = 256 * 1024; // small enough for progress on a slow share
+constexpr int most_folders = 1000;                     // of one run id
+constexpr std::size_t block = std::size_t{256} * 1024; // small enough for progress on a slow share
 
 Result<std::vector<PublishedFile>> describe_files(const OutboxEntry& entry,
                                                   const Progress& progress) {

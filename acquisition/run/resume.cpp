@@ -4,8 +4,8 @@
 #include "acquisition/run/sequence.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -70,7 +70,9 @@ std::string skip_text(int step) {
 std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event) {
     if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words))
         return std::nullopt;
-    const int step = std::atoi(event.text.c_str() + skip_words.size());
+    const std::string_view digits = std::string_view{event.text}.substr(skip_words.size());
+    int step = -1; // stays where no number stands
+    std::from_chars(digits.data(), digits.data() + digits.size(), step);
     const bool planned = step >= 0 && step < static_cast<int>(run.plan.points.size());
     return planned ? std::optional{step} : std::nullopt;
 }

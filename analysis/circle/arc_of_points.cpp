@@ -62,11 +62,10 @@ std::vector<std::size_t> nearest_of_sectors(std::span<const double> x,
                                             double center_y) {
     constexpr std::size_t sectors = 64;
     struct Nearest {
-        double squared;
-        std::size_t index;
+        double squared = -1; // none yet
+        std::size_t index = 0;
     };
-    std::array<Nearest, sectors> nearest;
-    nearest.fill({-1, 0});
+    std::array<Nearest, sectors> nearest{};
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double dx = x[i] - center_x, dy = y[i] - center_y, squared = dx * dx + dy * dy;
         Nearest& best = nearest[sector_of(std::atan2(dy, dx), sectors)];

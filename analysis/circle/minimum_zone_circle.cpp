@@ -64,8 +64,10 @@ bool step_aside(const WorkingSet& set, Optimum& at, const Problem& problem) {
     constexpr double no_weight = 1e-7;
     const auto light = [](double weight) { return std::fabs(weight) < no_weight; };
     if (std::ranges::none_of(at.balance.weights, light)) return false;
-    const double extent = problem.checked.box.extent();
-    for (double size = extent / 4; size > 1e-9 * extent; size /= 4)
+    constexpr int sizes = 14; // down to 4e-9 of the extent
+    double size = problem.checked.box.extent();
+    for (int shrunk = 0; shrunk < sizes; ++shrunk) {
+        size /= 4;
         for (int direction = 0; direction < 8; ++direction) {
             const double angle = direction * 0.785398163397448;
             const CircleStep step{size * std::cos(angle), size * std::sin(angle), 0};
@@ -74,6 +76,7 @@ bool step_aside(const WorkingSet& set, Optimum& at, const Problem& problem) {
             at.circle = next;
             return true;
         }
+    }
     return false;
 }
 

@@ -21,16 +21,16 @@ std::string_view key_of(Cause cause) {
 
 std::array<double, cause_count>
 effects_at(const Aspect& at, double nominal_radius_mm, double feed_mm_per_s) {
-    const double c = at.cosine, s = at.sine, R = nominal_radius_mm;
+    const double c = at.cosine, s = at.sine, radius = nominal_radius_mm;
     const double toward_x = -at.sense * sign_of(s), toward_y = at.sense * sign_of(c);
     const double ccw = at.sense > 0 ? 1 : 0, cw = 1 - ccw;
     return {ccw * c,
             ccw * s,
             cw * c,
             cw * s,
-            R * c * c,
-            R * s * s,
-            -R * s * c,
+            radius * c * c,
+            radius * s * s,
+            -radius * s * c,
             at.sense * feed_mm_per_s * s * c,
             -toward_x * c / 2,
             -toward_y * s / 2,

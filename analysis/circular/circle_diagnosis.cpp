@@ -167,10 +167,10 @@ std::optional<CommonLag> common_lag_of(const CircularTest& test, const CircleDia
     const auto& x = out.of(Cause::scale_x).value;
     const auto& y = out.of(Cause::scale_y).value;
     if (!x || !y) return {};
-    const double R = test.nominal_radius_mm, turning = test.feed_mm_per_s / R;
-    CommonLag lag{R * (*x + *y) / 2, {}};
+    const double radius = test.nominal_radius_mm, turning = test.feed_mm_per_s / radius;
+    CommonLag lag{radius * (*x + *y) / 2, {}};
     if (lag.radius_change_mm <= 0)
-        lag.longest_s = std::sqrt(-2 * lag.radius_change_mm / R) / turning;
+        lag.longest_s = std::sqrt(-2 * lag.radius_change_mm / radius) / turning;
     return lag;
 }
 
@@ -192,17 +192,17 @@ std::array<bool, 2> whole_travel(const std::vector<SeenTrace>& traces) {
 
 Result<CircleDiagnosis> diagnose_circle(const CircularTest& test, const AxisNames& axes) {
     AXISCAL_CHECK(check_circular_test(test));
-    const double R = test.nominal_radius_mm, F = test.feed_mm_per_s;
+    const double radius = test.nominal_radius_mm, feed = test.feed_mm_per_s;
     const std::vector<SeenTrace> traces = see(test);
-    const Decomposition fitted = decompose(traces, R, F);
-    const Scene scene{test, traces, fitted, {axes, R, whole_travel(traces)}};
+    const Decomposition fitted = decompose(traces, radius, feed);
+    const Scene scene{test, traces, fitted, {axes, radius, whole_travel(traces)}};
     CircleDiagnosis out;
     take_estimates(scene, out);
     out.common_lag = common_lag_of(test, out);
-    const auto left = residuals_of(fitted, traces, R, F);
-    const ResidualScale scale = scale_of(left, R);
+    const auto left = residuals_of(fitted, traces, radius, feed);
+    const ResidualScale scale = scale_of(left, radius);
     out.lobes = find_lobes(left, scale);
-    out.reversals = find_reversals(left, scale, R, F);
+    out.reversals = find_reversals(left, scale, radius, feed);
     out.change_overs = find_change_overs(left, scale);
     out.vibration = find_vibration(left);
     rank_causes(scene, out);

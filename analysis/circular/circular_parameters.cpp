@@ -47,15 +47,15 @@ struct Extremes {
     [[nodiscard]] double range() const { return high - low; }
 };
 
-/// Distance of reading i from (a, b), minus R. Near the nominal centre by the difference of the
-/// squares, (d^2 - R^2) / (d + R), in which R^2 has cancelled exactly; far from it (short arcs
-/// alone) as it stands.
+/// Distance of reading i from (a, b), minus radius. Near the nominal centre by the difference of
+/// the squares, (d^2 - radius^2) / (d + radius), in which radius^2 has cancelled exactly; far from
+/// it (short arcs alone) as it stands.
 double radial_distance(const Path& path, std::size_t i, double a, double b) {
-    const double R = path.radius, dr = path.deviation[i];
-    if (a * a + b * b > R * R) return std::hypot(path.x[i] - a, path.y[i] - b) - R;
+    const double radius = path.radius, dr = path.deviation[i];
+    if (a * a + b * b > radius * radius) return std::hypot(path.x[i] - a, path.y[i] - b) - radius;
     const double projected = a * path.cosine[i] + b * path.sine[i];
-    const double excess = dr * (2 * R + dr) - 2 * (R + dr) * projected + (a * a + b * b);
-    return excess / (R + std::sqrt(std::max(R * R + excess, 0.0)));
+    const double excess = dr * (2 * radius + dr) - 2 * (radius + dr) * projected + (a * a + b * b);
+    return excess / (radius + std::sqrt(std::max(radius * radius + excess, 0.0)));
 }
 
 Extremes radii_about(const Path& path, double a, double b) {

@@ -66,7 +66,7 @@ public:
           CircularBudget& out)
         : out_{out} {
         const BarExpansion warm = bar.value_or(BarExpansion{});
-        const double R = test.nominal_radius_mm, L = warm.bar_length_mm;
+        const double radius = test.nominal_radius_mm, bar_length = warm.bar_length_mm;
         device_ =
             add("device", s.device_width_um, of_width * millimetre, "width / (2 sqrt 3)", "R");
         calibration_ = add("calibration", s.calibration_U_um,
@@ -76,16 +76,16 @@ public:
         drift_ = add("environment", s.eve_um, of_width * millimetre / std::sqrt(s.runs),
                      "E_VE / (2 sqrt 3) / sqrt(n)", "R");
         warmth(add("machine_temperature", s.machine_temperature_width_K,
-                   of_width * R * std::fabs(warm.machine_alpha_per_K),
+                   of_width * radius * std::fabs(warm.machine_alpha_per_K),
                    "R alpha_M width / (2 sqrt 3)", "R"));
         warmth(add("bar_temperature", s.bar_temperature_width_K,
-                   of_width * L * std::fabs(warm.bar_alpha_per_K), "L alpha_B width / (2 sqrt 3)",
-                   "R"));
+                   of_width * bar_length * std::fabs(warm.bar_alpha_per_K),
+                   "L alpha_B width / (2 sqrt 3)", "R"));
         warmth(add("machine_expansion", s.machine_alpha_width_per_K,
-                   of_width * R * std::fabs(warm.machine_degC - 20),
+                   of_width * radius * std::fabs(warm.machine_degC - 20),
                    "R |theta_M - 20| width / (2 sqrt 3)", "R"));
         warmth(add("bar_expansion", s.bar_alpha_width_per_K,
-                   of_width * L * std::fabs(warm.bar_degC - 20),
+                   of_width * bar_length * std::fabs(warm.bar_degC - 20),
                    "L |theta_B - 20| width / (2 sqrt 3)", "R"));
         centre_ = add("centre", s.centre_width_um, of_width * millimetre,
                       "width / (2 sqrt 3); F about the set-up centre", "R");

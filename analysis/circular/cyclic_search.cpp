@@ -130,19 +130,19 @@ std::optional<CyclicError> search_cyclic(const std::vector<ResidualTrace>& trace
                                          int axis,
                                          double nominal_radius_mm,
                                          const ResidualScale& scale) {
-    const double R = nominal_radius_mm;
-    const double shortest_pitch =
-        std::max(4 * longest_step(traces) * R * std::numbers::sqrt2 / 2, 2 * R / most_periods);
-    const double first = fewest_periods / (2 * R), last = 1 / shortest_pitch;
+    const double radius = nominal_radius_mm;
+    const double shortest_pitch = std::max(
+        4 * longest_step(traces) * radius * std::numbers::sqrt2 / 2, 2 * radius / most_periods);
+    const double first = fewest_periods / (2 * radius), last = 1 / shortest_pitch;
     if (!(last > first)) return {};
-    const double step = 1 / (2 * R * oversampling);
+    const double step = 1 / (2 * radius * oversampling);
     const auto count = static_cast<std::size_t>((last - first) / step) + 1;
     const auto along = [axis](const SeenPoint& point) {
         return axis == 0 ? point.aspect.cosine : point.aspect.sine;
     };
     constexpr double turn = 2 * std::numbers::pi;
     std::vector<Phasor> points =
-        phasors_of(traces, turn * first * R, turn * step * R, along, along);
+        phasors_of(traces, turn * first * radius, turn * step * radius, along, along);
     const Search seen = search(points, count, scale);
     // lobes that are even in angle, not in the axis' travel, are no error of the axis
     if (!seen.significant || search_lobes(traces, scale).best.taken >= seen.best.taken) return {};

@@ -81,9 +81,10 @@ double opened(const Box& box, const StepDiagonal& out, std::size_t i, std::size_
 } // namespace
 
 std::vector<std::string> step_diagonal_assumptions() {
-    return {"estimation, not a calibration: it cannot stand for the 21 parameters",
-            "the beam lies along the diagonal: an angle between them enters every curve at first "
-            "order and is not seen by the closure (Chapman 2003)",
+    constexpr const char* alignment =
+        "the beam lies along the diagonal: an angle between them enters every curve at first "
+        "order and is not seen by the closure (Chapman 2003)";
+    return {"estimation, not a calibration: it cannot stand for the 21 parameters", alignment,
             "the mirror is flat, square to the beam and does not tilt while it moves sideways",
             "no angular errors of the axes: levers differ between the diagonals",
             "no drift and no reversal between the moves; one direction of travel"};

@@ -118,8 +118,9 @@ harmonic_columns(const CentredPoints& points, double frequency, int harmonics) {
         columns[1].push_back(x / points.half_span);
         for (int h = 1; h <= harmonics; ++h) {
             const double phase = 2 * std::numbers::pi * h * (frequency * x);
-            columns[static_cast<std::size_t>(2 * h)].push_back(std::cos(phase));
-            columns[static_cast<std::size_t>(2 * h + 1)].push_back(std::sin(phase));
+            const std::size_t k = 2 * static_cast<std::size_t>(h);
+            columns[k].push_back(std::cos(phase));
+            columns[k + 1].push_back(std::sin(phase));
         }
     }
     return columns;
@@ -139,11 +140,12 @@ Result<Peak> search_pitch(const CentredPoints& points, const PeriodicQuestion& q
     Phases phases{points.steps, lowest, grid};
     Peak peak{lowest, range};
     double most = 0;
-    for (double k = 0; k <= steps; ++k, phases.advance()) {
+    const auto last = static_cast<std::size_t>(steps);
+    for (std::size_t k = 0; k <= last; ++k, phases.advance()) {
         const double taken = squares_taken(line, phases);
         if (taken <= most) continue;
         most = taken;
-        peak.frequency = std::min(lowest + k * grid, highest);
+        peak.frequency = std::min(lowest + static_cast<double>(k) * grid, highest);
     }
     return peak;
 }

@@ -8,6 +8,7 @@ namespace {
 /// Mean of all mean deviations of both directions (each target counts the same).
 double offset_of(const std::vector<PositionRow>& rows) {
     std::vector<double> means;
+    means.reserve(rows.size());
     for (const PositionRow& row : rows)
         means.push_back(row.mean ? *row.mean : row.mean_forward);
     return mean_of(means);

@@ -34,7 +34,7 @@ Result<void> check_question(const PeriodicQuestion& question) {
     if (question.harmonics < 1 || question.harmonics > most_harmonics)
         return refuse(Fault::bad_case, "harmonics", "must lie between 1 and 50");
     const auto unknowns =
-        static_cast<std::size_t>(2 + 2 * question.harmonics + (question.pitch ? 0 : 1));
+        2 + 2 * static_cast<std::size_t>(question.harmonics) + (question.pitch ? 0U : 1U);
     if (count <= unknowns)
         return refuse(Fault::bad_case, "positions",
                       "are " + std::to_string(count) + " for " + std::to_string(unknowns) +
@@ -206,7 +206,7 @@ evaluate_at(const CentredPoints& points, double frequency, int harmonics, bool f
     result.slope = fit.coefficients[1] / points.half_span;
     result.offset = fit.coefficients[0] - result.slope * points.middle;
     for (int h = 1; h <= harmonics; ++h) {
-        const auto k = static_cast<std::size_t>(2 * h);
+        const std::size_t k = 2 * static_cast<std::size_t>(h);
         result.harmonics.push_back(harmonic_of(fit.coefficients[k], fit.coefficients[k + 1], h,
                                                points.middle * frequency));
     }

@@ -111,8 +111,11 @@ void judge_random_part(const TargetQuestion& question, TargetFinding& finding) {
 /// Principal positions that the targets reach over and do not hold.
 void judge_principal_positions(const std::vector<double>& ascending, TargetFinding& finding) {
     std::string missing;
-    for (double place = 90 * std::ceil((ascending.front() - rounding) / 90);
-         place <= ascending.back() + rounding; place += 90) {
+    const double first = 90 * std::ceil((ascending.front() - rounding) / 90);
+    constexpr int most = 5; // within the 360 degrees of a short axis
+    for (int quarter = 0; quarter < most; ++quarter) {
+        const double place = first + 90.0 * quarter;
+        if (place > ascending.back() + rounding) break;
         const auto near = std::ranges::find_if(
             ascending, [&](double target) { return std::fabs(target - place) <= rounding; });
         if (near == ascending.end()) missing += (missing.empty() ? "" : ", ") + plain(place);

@@ -122,7 +122,9 @@ struct Scan {
         const double lattices = 1 + 2 * levels.span * (highest - lowest);
         // the middle of each three is tried when it stands no lower than its neighbours
         double before = 0, here = phase_at(levels, lowest - step).coherence;
-        for (double frequency = lowest; frequency <= highest + 2 * step; frequency += step) {
+        const auto steps = static_cast<std::size_t>((highest - lowest) / step) + 2;
+        for (std::size_t k = 0; k <= steps; ++k) {
+            const double frequency = lowest + static_cast<double>(k) * step;
             const double after = phase_at(levels, frequency).coherence;
             if (here >= before && here >= after && here > 0.7)
                 if (const auto candidate = fit_lattice(levels, frequency - step);

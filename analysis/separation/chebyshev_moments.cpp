@@ -156,8 +156,7 @@ ChebyshevMoments chebyshev_moments(std::span<const double> x,
     const auto add = choose_kernel();
     Totals totals;
     for (std::size_t first = 0; first < groups; first += chunk_groups) {
-        LaneSums sums;
-        std::memset(&sums, 0, sizeof sums);
+        LaneSums sums{};
         add(x.data() + first * lanes, y.data() + first * lanes,
             std::min(chunk_groups, groups - first), degree, range, sums);
         fold(sums, degree, totals);

@@ -36,10 +36,10 @@ double touched_part(const MinimumNormSolution& solution, std::size_t first, std:
 
 struct RowFit {
     const SeparationCase& stated;
-    std::size_t direction;
+    std::size_t direction = 0;
     DesignRow design;
     MinimumNormSolution solution;
-    std::size_t columns;
+    std::size_t columns = 0;
 
     /// Coefficients of U_1.. of an axis stand here.
     [[nodiscard]] std::size_t first_term(std::size_t axis) const {

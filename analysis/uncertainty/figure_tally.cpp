@@ -45,7 +45,6 @@ AXISCAL_LANE_AVX2 void add_avx2(FigureTally& tally, const Figures& sessions) {
 class Cumulative {
 public:
     explicit Cumulative(const std::uint32_t* counts) {
-        below_[0] = 0;
         for (std::size_t b = 0; b < FigureTally::buckets; ++b)
             below_[b + 1] = below_[b] + counts[b];
     }
@@ -62,7 +61,7 @@ public:
     }
 
 private:
-    std::array<double, FigureTally::buckets + 1> below_;
+    std::array<double, FigureTally::buckets + 1> below_{};
 };
 
 Interval symmetric_of(const Cumulative& cumulative, double coverage) {

@@ -35,6 +35,7 @@ std::vector<double> shape_of(const std::vector<double>& targets, double length) 
     const auto [low, high] = std::ranges::minmax(targets);
     const double whole = length > 0 ? length : high - low;
     std::vector<double> shape;
+    shape.reserve(targets.size());
     for (const double target : targets)
         shape.push_back(whole > 0 ? (target - low) / whole : 0);
     return shape;
@@ -129,8 +130,8 @@ std::array<double, figure_count> evaluated_of(const PositioningParameters& p,
 class Simulation {
 public:
     Simulation(const SessionModel& model, Draws draws)
-        : model_(model)
-        , draws_(std::move(draws))
+        : draws_(std::move(draws))
+        , model_(model)
         , scratch_{model} {}
     const Figures& next() {
         draws_.next();
@@ -140,8 +141,8 @@ public:
     }
 
 private:
-    const SessionModel& model_;
     Draws draws_;
+    const SessionModel& model_;
     SessionScratch scratch_;
     Figures figures_{};
 };

@@ -62,10 +62,10 @@ Result<void> check_once(const Fields& fields, const std::string& first, const st
 
 /// A factor without its companion would silently give a term of zero.
 Result<void> check_companions(const Fields& fields) {
-    const std::string device_U = fields.front().key;
+    const std::string device = fields.front().key;
     const std::vector<std::pair<std::string, std::string>> companions{
-        {device_U, "k"},
-        {"k", device_U},
+        {device, "k"},
+        {"k", device},
         {"misalignment_mm", "length_m"},
         {"misalignment_rad", "length_m"},
         {"temperature_width_K", "length_m"},

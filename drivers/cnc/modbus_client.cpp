@@ -125,7 +125,7 @@ Task<Result<std::vector<std::uint16_t>>> ModbusClient::read_holding(int address,
     put_word(pdu, count);
     auto asked = co_await ask(std::move(pdu));
     AXISCAL_CO_TRY(const Bytes answer, std::move(asked));
-    const auto bytes = static_cast<std::size_t>(2 * count);
+    const std::size_t bytes = 2 * static_cast<std::size_t>(count);
     if (answer.size() != bytes + 2 || answer[1] != bytes)
         co_return fail(Fault::bad_frame, place() + " sent another number of registers.");
     std::vector<std::uint16_t> words;

@@ -41,7 +41,7 @@ SequenceBlockMap::SequenceBlockMap(bool low_word_first, bool watch_heartbeat)
     : low_word_first_{low_word_first}
     , watch_heartbeat_{watch_heartbeat} {
     words_[acknowledged_sequence] = never_armed;
-    show(PortStatus{});
+    SequenceBlockMap::show(PortStatus{});
 }
 
 AddressSpace SequenceBlockMap::space() const {

@@ -33,6 +33,7 @@ constexpr std::array unit_rows{
 
 std::vector<std::string> unit_names() {
     std::vector<std::string> names;
+    names.reserve(unit_rows.size());
     for (const UnitRow& row : unit_rows)
         names.emplace_back(row.unit);
     return names;
@@ -214,6 +215,7 @@ Result<ModbusProfile> load_profile(const std::string& path) {
     const auto refusals = document.finish();
     if (refusals.empty()) return profile;
     std::vector<std::string> reasons;
+    reasons.reserve(refusals.size());
     for (const Refusal& refusal : refusals)
         reasons.push_back(refusal.describe());
     return fail(Fault::bad_configuration, joined(reasons, "; "));
@@ -222,9 +224,9 @@ Result<ModbusProfile> load_profile(const std::string& path) {
 Result<std::string> find_profile(const std::string& name, const std::vector<std::string>& folders) {
     if (name.find('/') != std::string::npos || name.ends_with(".toml")) return name;
     for (const std::string& folder : folders) {
-        const std::string path = folder + "/" + name + ".toml";
+        const std::filesystem::path path = std::filesystem::path{folder} / (name + ".toml");
         std::error_code missing;
-        if (std::filesystem::exists(path, missing)) return path;
+        if (std::filesystem::exists(path, missing)) return path.string();
     }
     return fail(Fault::not_found, "there is no profile \"" + name + "\" in " +
                                       joined(folders, ":") +

@@ -26,7 +26,7 @@ std::size_t split(std::string_view line, std::array<std::int64_t, long_record>& 
 } // namespace
 
 std::optional<UmdRecord> decode_umd_record(std::string_view line) {
-    std::array<std::int64_t, long_record> field;
+    std::array<std::int64_t, long_record> field{};
     const std::size_t count = split(line, field);
     if (count != short_record && count != long_record) return std::nullopt;
     UmdRecord record;

@@ -95,7 +95,7 @@ private:
         // 0: the response timeout bounds the whole reply, also one that trickles in.
         ::modbus_set_byte_timeout(context_, 0, 0);
     }
-    tl::unexpected<Error> failed(const std::string& what, int error_number) const {
+    [[nodiscard]] tl::unexpected<Error> failed(const std::string& what, int error_number) const {
         const std::string text =
             what + " " + settings_.describe() + ": " + ::modbus_strerror(error_number);
         return fail(fault_of(error_number), text);

@@ -79,7 +79,7 @@ int live(const Options& options, Simulator& world) {
     if (!control) return complain(control.error(), can_not_open);
     nlohmann::json ready = world.places();
     if (!options.control.empty()) ready["control"] = options.control;
-    std::cout << ready.dump() << std::endl;
+    std::cout << ready.dump() << '\n' << std::flush;
     if (options.run) {
         const auto answer = world.command("run");
         if (!answer["ok"].get<bool>()) return std::cerr << answer.dump() << "\n", is_refused;
@@ -126,15 +126,13 @@ int plug_usb(const Options& options) {
     const std::string ready = (*hub)->status().dump();
     const auto control = answer_commands(options.control, **hub);
     if (!control) return complain(control.error(), can_not_open);
-    std::cout << ready << std::endl;
+    std::cout << ready << '\n' << std::flush;
     while (!(*hub)->ended() && asked_to_end == 0)
         std::this_thread::sleep_for(std::chrono::milliseconds{50});
     return 0;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     struct sigaction action {};
     action.sa_handler = on_signal; // no SA_RESTART: a wait for positions ends too
@@ -168,4 +166,15 @@ int main(int argc, char** argv) {
     }
     if (usb->parsed()) return plug_usb(options);
     return truth->parsed() ? print_truth(options) : open_and_live(options);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& bug) {
+        std::fprintf(stderr, "axiscal-simulate: %s\n", bug.what());
+        return can_not_open;
+    }
 }

@@ -30,13 +30,12 @@ public:
         , refusals_{refusals} {
         if (!object_.is_object()) refuse("", "is not a table");
     }
-    ~Fields() {
+    /// Once everything known was read.
+    void refuse_what_is_left() {
         if (!object_.is_object()) return;
         for (const auto& [key, value] : object_.items())
             if (!seen_.contains(key)) refuse(key, "is not a known key");
     }
-    Fields(const Fields&) = delete;
-    Fields& operator=(const Fields&) = delete;
 
     template <class T> void read(const char* key, T& value) {
         const Json* found = find(key);
@@ -76,6 +75,7 @@ public:
         if (found == nullptr) return;
         Fields inner{*found, place_ + key + ".", refusals_};
         if (found->is_object()) reader(inner);
+        inner.refuse_what_is_left();
     }
     void tables(const char* key, const std::function<void(Fields&)>& reader) {
         const Json* found = find(key);
@@ -84,6 +84,7 @@ public:
         for (std::size_t i = 0; i < found->size(); ++i) {
             Fields inner{(*found)[i], place_ + key + "[" + std::to_string(i) + "].", refusals_};
             if ((*found)[i].is_object()) reader(inner);
+            inner.refuse_what_is_left();
         }
     }
     [[nodiscard]] bool has(const char* key) const {
@@ -263,10 +264,9 @@ Result<Scenario> parse_scenario(const std::string& text, bool toml) {
     }
     Scenario scenario;
     std::string refusals;
-    {
-        Fields root{document, "", refusals};
-        read_all(root, scenario);
-    }
+    Fields root{document, "", refusals};
+    read_all(root, scenario);
+    root.refuse_what_is_left();
     if (!refusals.empty()) return fail(Fault::bad_configuration, "scenario: " + refusals);
     return scenario;
 }

@@ -59,14 +59,15 @@ OneWay one_way(const Table& table) {
 
 void add_two_way(std::map<std::string, double>& p, const OneWay& up, const OneWay& down) {
     Range means, middle, band;
-    double B = 0, B_sum = 0, R = 0;
+    double largest_reversal = 0, sum_of_reversals = 0, repeatability = 0;
     for (std::size_t i = 0; i < up.mean_um.size(); ++i) {
         const double reversal = up.mean_um[i] - down.mean_um[i];
-        B = std::max(B, std::abs(reversal));
-        B_sum += reversal;
+        largest_reversal = std::max(largest_reversal, std::abs(reversal));
+        sum_of_reversals += reversal;
         middle.put(0.5 * (up.mean_um[i] + down.mean_um[i]));
         const double su = up.s_um[i], sd = down.s_um[i];
-        R = std::max({R, 2 * su + 2 * sd + std::abs(reversal), 4 * su, 4 * sd});
+        repeatability =
+            std::max({repeatability, 2 * su + 2 * sd + std::abs(reversal), 4 * su, 4 * sd});
     }
     for (const OneWay* way : {&up, &down}) {
         means.put(way->means.low), means.put(way->means.high);
@@ -74,9 +75,9 @@ void add_two_way(std::map<std::string, double>& p, const OneWay& up, const OneWa
     }
     p["E"] = means.width();
     p["M"] = middle.width();
-    p["B"] = B;
-    p["B_mean"] = B_sum / static_cast<double>(up.mean_um.size());
-    p["R"] = R;
+    p["B"] = largest_reversal;
+    p["B_mean"] = sum_of_reversals / static_cast<double>(up.mean_um.size());
+    p["R"] = repeatability;
     p["A"] = band.width();
 }
 

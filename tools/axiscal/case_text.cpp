@@ -75,7 +75,8 @@ Result<std::string> mark_not_finite(std::string_view text) {
 }
 
 /// Builds the document while the text is read once, and notes keys that stand twice in one object.
-class Builder {
+// The json library's noexcept constructor of a null throws for other types only.
+class Builder { // NOLINT(bugprone-exception-escape)
 public:
     using number_integer_t = json::number_integer_t;
     using number_unsigned_t = json::number_unsigned_t;

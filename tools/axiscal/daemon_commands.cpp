@@ -108,6 +108,14 @@ bool goes_on(const Json& status, bool until_published) {
            run.at("certificate") == "" && run.at("sentence") == "";
 }
 
+Result<std::uint64_t> seed_of(const std::string& path, const std::string& text) {
+    std::uint64_t number = 0;
+    const auto end = text.data() + text.size();
+    if (std::from_chars(text.data(), end, number).ptr != end)
+        return fail(Fault::bad_request, path + ": its seed '" + text + "' is no number");
+    return number;
+}
+
 /// What the header comment of a generated program says: "seed=123 pass=whole".
 Result<void> read_program_header(const std::string& path, Json& body) {
     std::ifstream file{path};
@@ -121,11 +129,7 @@ Result<void> read_program_header(const std::string& path, Json& body) {
             return line.substr(begin, line.find_first_of(" )\r\n", begin) - begin);
         };
         if (const std::string seed = value_of("seed"); !seed.empty() && seed != "none") {
-            std::uint64_t number = 0;
-            const auto end = seed.data() + seed.size();
-            if (std::from_chars(seed.data(), end, number).ptr != end)
-                return fail(Fault::bad_request, path + ": its seed '" + seed + "' is no number");
-            body["seed"] = number;
+            AXISCAL_TRY(body["seed"], seed_of(path, seed));
         }
         if (const std::string pass = value_of("pass"); !pass.empty())
             return body["pass"] = pass, Result<void>{};

@@ -43,6 +43,7 @@ struct Options {
 };
 
 StationClient client_of(Options& options) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): there is one thread
     if (const char* socket = std::getenv("AXISCAL_SOCKET");
         socket != nullptr &&
         options.door.socket_path == DoorAddress{"/run/axiscal/axiscald.sock", "", ""}.socket_path)

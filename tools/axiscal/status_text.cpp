@@ -28,7 +28,7 @@ std::string number_or_dashes(const Json& value, const char* pattern, const std::
 }
 
 std::string clock_text(double seconds) {
-    const int whole = static_cast<int>(seconds + 0.5);
+    const int whole = static_cast<int>(std::lround(seconds));
     return format("%d:%02d", whole / 60, whole % 60);
 }
 

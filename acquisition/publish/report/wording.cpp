@@ -126,8 +126,9 @@ std::vector<std::string> reasons_not_evaluated(const PositioningResult& result) 
             group->second += ", " + std::string{line.symbol};
     }
     std::vector<std::string> sentences;
-    for (const auto& [reason, symbols] : groups)
-        sentences.push_back("Not evaluated: " + symbols + ": " + reason);
+    std::ranges::transform(groups, std::back_inserter(sentences), [](const auto& group) {
+        return "Not evaluated: " + group.second + ": " + group.first;
+    });
     return sentences;
 }
 

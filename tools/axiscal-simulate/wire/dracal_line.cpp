@@ -1,10 +1,20 @@
 #include "wire/dracal_line.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 
 namespace axiscal::simulate {
+namespace {
+
+/// 0 where no number stands.
+int number_at(const std::string& text, std::size_t begin) {
+    int number = 0;
+    std::from_chars(text.data() + begin, text.data() + text.size(), number);
+    return number;
+}
+
+} // namespace
 
 std::uint16_t crc16_xmodem(std::string_view bytes) {
     unsigned crc = 0;
@@ -41,11 +51,11 @@ std::string DracalStick::answer(std::string_view command) {
     const std::string text{command};
     if (text == "INFO") return info_line();
     if (text.starts_with("POLL ")) {
-        poll_ms = std::clamp(std::atoi(text.c_str() + 5), 0, 60000);
+        poll_ms = std::clamp(number_at(text, 5), 0, 60000);
         return dracal_closed(head + "Poll interval set to " + std::to_string(poll_ms) + " ms,");
     }
     if (text.starts_with("FRAC ")) {
-        fraction_digits = std::clamp(std::atoi(text.c_str() + 5), 0, 6);
+        fraction_digits = std::clamp(number_at(text, 5), 0, 6);
         return dracal_closed(head + "Fractional digits set to " + std::to_string(fraction_digits) +
                              ",");
     }

@@ -11,7 +11,7 @@ Result<std::unique_ptr<SerialCable>> SerialCable::open(const std::string& a, con
 }
 
 void SerialCable::run(const std::stop_token& stop) {
-    std::jthread back{[this](std::stop_token end) {
+    std::jthread back{[this](const std::stop_token& end) {
         while (!end.stop_requested())
             if (const auto bytes = b_.read(std::chrono::milliseconds{20}); !bytes.empty())
                 a_.write(bytes);

@@ -19,12 +19,12 @@ Result<void>
 take_positions(const json& object, const std::string& field, SingleAxisFeature& feature) {
     if (!object.contains("positions_mm")) return {};
     const json& positions = object.at("positions_mm");
-    const std::string place = field + ".positions_mm";
+    const std::string place = field + ".positions_mm", place_in_it = place + ".";
     AXISCAL_CHECK(check_object(positions, place, {"x", "y", "z"}));
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (const std::string letter = axis_letter(axis); positions.contains(letter)) {
             AXISCAL_TRY(feature.positions_mm[axis],
-                        numbers_at(positions, letter, place + "." + letter));
+                        numbers_at(positions, letter, place_in_it + letter));
         }
     return {};
 }

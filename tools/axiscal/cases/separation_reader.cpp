@@ -131,9 +131,10 @@ Result<PerCurve<std::vector<double>>> terms_of(const json& object, const std::st
             names.push_back(curve_name(a, b));
     AXISCAL_CHECK(check_object(object, field, names));
     PerCurve<std::vector<double>> terms;
+    const std::string place_in_it = field + ".";
     for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = 0; b < 3; ++b) {
-            const std::string name = curve_name(a, b), place = field + "." + name;
+            const std::string name = curve_name(a, b), place = place_in_it + name;
             if (!object.contains(name)) continue;
             AXISCAL_TRY(terms[a][b], numbers_of(object.at(name), place));
             if (terms[a][b].size() > highest_separation_order)

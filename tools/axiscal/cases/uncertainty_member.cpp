@@ -78,10 +78,11 @@ Result<std::map<std::string, double>> targets_of(const json& member) {
     const json& object = member.at("target_uncertainty");
     AXISCAL_CHECK(check_object(object, field, uncertain_parameters()));
     std::map<std::string, double> targets;
+    const std::string place_in_it = field + ".";
     for (const std::string& key : uncertain_parameters()) {
         if (!object.contains(key)) continue;
-        AXISCAL_TRY(targets[key], number_at(object, key, field + "." + key));
-        if (targets[key] < 0) return refuse(Fault::bad_case, field + "." + key, "is negative");
+        AXISCAL_TRY(targets[key], number_at(object, key, place_in_it + key));
+        if (targets[key] < 0) return refuse(Fault::bad_case, place_in_it + key, "is negative");
     }
     return targets;
 }

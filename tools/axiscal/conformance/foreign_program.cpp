@@ -33,6 +33,8 @@ public:
         std::swap(number_, other.number_);
         return *this;
     }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
     ~Descriptor() {
         if (number_ >= 0) ::close(number_);
     }
@@ -166,10 +168,15 @@ std::string last_line(std::string text) {
     return printable(cut == std::string::npos ? text : text.substr(cut + 1));
 }
 
+/// "Killed", "signal 34" for one without a name.
+std::string signal_name(int number) {
+    const char* const name = ::sigdescr_np(number);
+    return name != nullptr ? name : "signal " + std::to_string(number);
+}
+
 std::string ending(int status, const std::string& complaints) {
-    std::string how = WIFSIGNALED(status)
-                          ? std::string{"was ended by "} + ::strsignal(WTERMSIG(status))
-                          : "ended with " + std::to_string(WEXITSTATUS(status));
+    std::string how = WIFSIGNALED(status) ? "was ended by " + signal_name(WTERMSIG(status))
+                                          : "ended with " + std::to_string(WEXITSTATUS(status));
     const std::string said = last_line(complaints);
     return said.empty() ? how : how + ": " + said;
 }

@@ -66,6 +66,7 @@ Result<void> check_words(const std::vector<std::string>& only, const std::vector
         if (std::ranges::any_of(files, [&](const File& file) { return fits(word, file.first); }))
             continue;
         std::vector<std::string> known;
+        known.reserve(files.size());
         for (const File& file : files)
             known.push_back(file.first);
         const std::string near = nearest_word(word, known);
