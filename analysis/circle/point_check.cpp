@@ -11,6 +11,8 @@ namespace {
 
 /// Far beyond any machine in any unit, far below where a fourth power overflows.
 constexpr double largest_magnitude = 1e12;
+/// Far below any instrument in any unit, far above where a fourth power vanishes.
+constexpr double smallest_extent = 1e-30;
 
 tl::unexpected<Error> refuse_coordinate(Values x, Values y) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -58,6 +60,9 @@ Result<CheckedPoints> check_points(Values x, Values y) {
         return refuse(Fault::bad_case, "points",
                       "hold " + std::to_string(distinct.size()) +
                           " distinct point(s); a circle needs three");
+    if (box.extent() < smallest_extent)
+        return refuse(Fault::bad_case, "points",
+                      "lie within 1e-30 of each other: no circle is to be told");
     const auto n = static_cast<double>(x.size());
     return CheckedPoints{box, seen.sum_x / n, seen.sum_y / n, std::move(distinct)};
 }

@@ -125,6 +125,14 @@ TEST(LeastSquaresCircleRefuses, FewerThanThreeDistinctPointsAndLines) {
         EXPECT_NE(refusal(line).find("line"), std::string::npos);
 }
 
+TEST(CircleFitsRefuse, PointsSoCloseThatTheirSquaresVanish) {
+    const std::vector<double> x{1e-200, 0, -1e-200, 0}, y{0, 1e-200, 0, -2e-200};
+    EXPECT_EQ(fit_least_squares_circle(x, y).error().field, "points");
+    EXPECT_EQ(fit_minimum_zone_circle(x, y).error().field, "points");
+    EXPECT_EQ(fit_minimum_circumscribed_circle(x, y).error().field, "points");
+    EXPECT_EQ(fit_maximum_inscribed_circle(x, y).error().field, "points");
+}
+
 TEST(LeastSquaresCircleRefuses, WhatIsNotFiniteByItsPlace) {
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
                              std::numeric_limits<double>::infinity(), -1e13}) {
