@@ -1,7 +1,8 @@
 // The smallest circle around all points stands on two or three of them. The point that lies
 // furthest outside joins the circle's own; the smallest circle of those (four at most) is the next:
 // radii only grow, so that no set comes twice (E. Welzl's problem, solved by pivots as B. Gaertner
-// does, Fast and robust smallest enclosing balls, 1999).
+// does, Fast and robust smallest enclosing balls, 1999). What is told reaches to the furthest
+// point.
 
 #include "analysis/circle/candidate_kernels.hpp"
 #include "analysis/circle/circle_fit.hpp"
@@ -10,6 +11,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace axiscal {
 namespace {
@@ -63,6 +66,10 @@ Around grown(const std::vector<Place>& support, const Place& added) {
     return best;
 }
 
+/// A point aside of a diameter moves the centre by d and the radius by d^2 / (2 R) only, which may
+/// be below the last digit of R: that many pivots may leave the radius as it is.
+constexpr int most_still = 30;
+
 } // namespace
 
 Result<PlainCircle> fit_minimum_circumscribed_circle(Values x, Values y) {
@@ -76,16 +83,19 @@ Result<PlainCircle> fit_minimum_circumscribed_circle(Values x, Values y) {
     const Place first = furthest_from({});
     const Place second = furthest_from({first.x, first.y, 0});
     Around now{through(first, second), {first, second}};
+    PlainCircle best{0, 0, std::numeric_limits<double>::infinity()};
     constexpr int most_pivots = 1000; // about ten are needed
-    for (int i = 0; i < most_pivots; ++i) {
+    for (int pivot = 0, still = 0; pivot < most_pivots && still < most_still; ++pivot) {
         const Place outside = furthest_from(now.circle);
-        if (distance(now.circle, outside) <= now.circle.radius) break;
-        const Around next = grown(now.support, outside);
-        if (!(next.circle.radius > now.circle.radius)) break;
+        const double reach = distance(now.circle, outside);
+        if (reach < best.radius) best = {now.circle.x, now.circle.y, reach};
+        if (reach <= now.circle.radius) break;
+        Around next = grown(now.support, outside);
         if (next.support.empty()) break;
-        now = next;
+        still = next.circle.radius > now.circle.radius ? 0 : still + 1;
+        now = std::move(next);
     }
-    return PlainCircle{origin_x + now.circle.x, origin_y + now.circle.y, now.circle.radius};
+    return PlainCircle{origin_x + best.x, origin_y + best.y, best.radius};
 }
 
 } // namespace axiscal

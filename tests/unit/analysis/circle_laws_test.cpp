@@ -258,6 +258,17 @@ TEST(CircleLaws, CircumscribedIsTheSmallestOfAllThatHoldThePoints) {
     }
 }
 
+TEST(CircleLaws, APointJustAsideOfADiameterStillLiesInTheCircumscribedCircle) {
+    for (const double aside :
+         {1e-6, 1e-9, 1e-12}) { // the radius grows by its square: not in a double
+        const Points points = test::listed({{-1, 0}, {1, 0}, {0, 1 + aside}});
+        const auto around = fit_minimum_circumscribed_circle(points.x, points.y);
+        ASSERT_TRUE(around);
+        EXPECT_NEAR(around->y, aside, aside * aside + 1e-15); // the three are as far from (0, y)
+        EXPECT_NEAR(around->radius, std::sqrt(1 + aside * aside), 2e-15);
+    }
+}
+
 TEST(MinimumZoneCircle, OfAZigzagIsAStripAndSaysSo) {
     const Points points = test::listed({{0, 0}, {1, 1}, {2, -1}, {3, 0}});
     const auto zone = fit_minimum_zone_circle(points.x, points.y);
