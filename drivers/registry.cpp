@@ -2,9 +2,12 @@
 
 #include "config/measure.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
+#include "drivers/environment/environment_ds18b20.hpp"
 #include "drivers/environment/environment_vaisala.hpp"
 #include "drivers/environment/modbus_instrument.hpp"
 #include "drivers/gauge/ascii_gauge.hpp"
+#include "drivers/laser/laser_counter.hpp"
+#include "drivers/laser/laser_ids.hpp"
 #include "drivers/laser/laser_umd.hpp"
 
 #include <algorithm>
@@ -19,6 +22,11 @@ constexpr std::array drivers{
     InstrumentDriver{"umd", "uMD0/uMD1/uMD2 laser or scale counter, serial ASCII", make_umd},
     InstrumentDriver{"dracal-vcp", "Dracal VCP air sensor (P, T, RH), serial ASCII",
                      make_dracal_vcp},
+    InstrumentDriver{"ids3010", "attocube IDS3010 interferometer, JSON-RPC over TCP", make_ids},
+    InstrumentDriver{"counter", "laser or scale with A-quad-B on a counter of the Linux kernel",
+                     make_counter},
+    InstrumentDriver{"ds18b20", "DS18B20 contact thermometers, 1-Wire by the Linux kernel",
+                     make_ds18b20},
     InstrumentDriver{"vaisala", "Vaisala PTU300 or PTB330 air sensor, serial ASCII", make_vaisala},
     InstrumentDriver{"ascii-gauge",
                      "HEIDENHAIN ND 28x, Mitutoyo, Sylvac length gauges, serial ASCII",

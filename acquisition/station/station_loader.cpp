@@ -8,6 +8,14 @@
 namespace axiscal {
 namespace {
 
+/// Readings are corrected for air and must count wavelengths.
+void check_laser(const Instrument& laser, const AxisConfig& axis, Settings root) {
+    if (laser.optics()) return;
+    root.table("axis").refuse("laser", "\"" + axis.laser.instrument +
+                                           "\" gives true lengths, which must not be corrected for "
+                                           "air: name an interferometer");
+}
+
 /// What is wrong with the whole although every key is right by itself.
 void check_together(LoadedStation& station, Settings root) {
     std::vector<StationChannel> channels;
@@ -17,9 +25,12 @@ void check_together(LoadedStation& station, Settings root) {
                                      static_cast<int>(i), static_cast<int>(channels.size()));
         std::ranges::move(more, std::back_inserter(channels));
     }
-    if (auto roles = resolve_roles(station.config.axis, channels))
+    if (auto roles = resolve_roles(station.config.axis, channels)) {
         station.roles = *std::move(roles);
-    else
+        const int seat = channels[static_cast<std::size_t>(station.roles.laser)].instrument;
+        check_laser(*station.instruments[static_cast<std::size_t>(seat)], station.config.axis,
+                    root);
+    } else
         root.refuse("axis", describe(roles.error()));
     if (auto passes = plan_passes(station.config.cycle, 0))
         station.passes = *std::move(passes);

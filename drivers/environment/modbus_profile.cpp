@@ -29,6 +29,8 @@ constexpr std::array unit_rows{
     UnitRow{"kPa", ChannelKind::pressure, 1000, 0},
     UnitRow{"%", ChannelKind::humidity, 1, 0},
     UnitRow{"ppm", ChannelKind::carbon_dioxide, 1, 0},
+    UnitRow{"mm", ChannelKind::displacement, 1e-3, 0},
+    UnitRow{"um", ChannelKind::displacement, 1e-6, 0},
 };
 
 std::vector<std::string> unit_names() {

@@ -159,7 +159,7 @@ void read_errors(Fields& f, ErrorScenario& errors) {
 }
 
 void read_laser(Fields& f, LaserScenario& laser) {
-    f.one_of("kind", laser.kind, {"umd0", "umd1", "umd2-homodyne", "umd2-heterodyne"});
+    f.one_of("kind", laser.kind, {"umd0", "umd1", "umd2-homodyne", "umd2-heterodyne", "ids3010"});
     const bool homodyne = laser.kind == "umd0" || laser.kind == "umd2-homodyne";
     laser.counts_per_cycle = homodyne ? 4 : 1;
     laser.phase_bits = laser.kind == "umd1" ? 8 : 16;
@@ -174,6 +174,8 @@ void read_laser(Fields& f, LaserScenario& laser) {
     f.read("zero_mm", laser.zero_mm);
     f.read("rate_hz", laser.rate_hz);
     f.read("partial_first_line", laser.partial_first_line);
+    f.read("port", laser.port);
+    f.read("device_corrects", laser.device_corrects);
     if (laser.sign != 1 && laser.sign != -1) f.refuse("sign", "is 1 or -1");
     if (laser.fields != 8 && laser.fields != 16) f.refuse("fields", "is 8 or 16");
     if (laser.phase_bits != 8 && laser.phase_bits != 16) f.refuse("phase_bits", "is 8 or 16");
@@ -182,16 +184,17 @@ void read_laser(Fields& f, LaserScenario& laser) {
 
 void read_sensor(Fields& f, SensorScenario& sensor) {
     f.read("name", sensor.name);
-    f.one_of(
-        "kind", sensor.kind,
-        {"dracal-vcp", "tm-th8", "xy-md02", "comet", "nd-28x", "mitutoyo", "sylvac", "vaisala"});
+    f.one_of("kind", sensor.kind,
+             {"dracal-vcp", "tm-th8", "xy-md02", "comet", "nd-28x", "mitutoyo", "sylvac", "vaisala",
+              "vaisala-hmp", "labjack-t7", "m-7015", "ds18b20"});
     f.read("path", sensor.path);
     f.read("port", sensor.port);
     f.read("unit", sensor.unit);
     f.read("fraction_digits", sensor.fraction_digits);
     f.read("first_register", sensor.first_register);
     if (sensor.name.empty()) f.refuse("name", "is missing");
-    const std::set<std::string> on_tcp{"tm-th8", "xy-md02", "comet"};
+    const std::set<std::string> on_tcp{"tm-th8",      "xy-md02",    "comet",
+                                       "vaisala-hmp", "labjack-t7", "m-7015"};
     if (!on_tcp.contains(sensor.kind) && sensor.path.empty()) f.refuse("path", "is missing");
 }
 

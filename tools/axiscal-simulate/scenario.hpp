@@ -54,7 +54,7 @@ struct AirScenario {
 };
 
 struct LaserScenario {
-    std::string kind = "umd2-homodyne"; ///< umd0, umd1, umd2-homodyne, umd2-heterodyne
+    std::string kind = "umd2-homodyne"; ///< umd0, umd1, umd2-homodyne, umd2-heterodyne, ids3010
     std::string path;
     double wavelength_nm = 632.991354;
     int fold = 2, counts_per_cycle = 4, phase_bits = 16, fields = 8;
@@ -62,6 +62,8 @@ struct LaserScenario {
     double dead_path_mm = 0, zero_mm = 0; ///< distance to the reflector when the axis is at zero_mm
     std::optional<double> rate_hz;
     bool partial_first_line = false;
+    int port = 0;                 ///< ids3010: where it listens; 0 chooses
+    bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
 };
 
 struct SensorScenario {

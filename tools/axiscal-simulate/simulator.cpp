@@ -1,6 +1,7 @@
 #include "simulator.hpp"
 
 #include "truth.hpp"
+#include "wire/ids_face.hpp"
 #include "wire/sensor_faces.hpp"
 
 #include <filesystem>
@@ -30,10 +31,13 @@ Result<std::unique_ptr<Simulator>> Simulator::open(const Scenario& scenario) {
 }
 
 Result<void> Simulator::open_faces() {
-    if (!scenario_.laser.path.empty()) {
+    const auto drive = [this](double seconds) { return axis_.position_mm(seconds); };
+    if (scenario_.laser.kind == "ids3010") {
+        AXISCAL_TRY(auto face, IdsFace::open(scenario_, clock_, drive));
+        sensors_.push_back(std::move(face));
+    } else if (!scenario_.laser.path.empty()) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
-        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_,
-                                             [this](double s) { return axis_.position_mm(s); });
+        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_, drive);
     }
     for (const SensorScenario& sensor : scenario_.sensors) {
         AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_));

@@ -49,7 +49,9 @@ TEST(ModbusWords, AreReadAsDecimalDigits) {
 }
 
 TEST(ModbusProfile, EveryShippedProfileIsAccepted) {
-    for (const char* name : {"xy-md02", "tm-th8", "comet-t7510", "comet-t7310"}) {
+    for (const char* name :
+         {"xy-md02", "tm-th8", "m-7015", "comet-t7510", "comet-t7310", "vaisala-indigo",
+          "vaisala-hmp", "labjack-t7-thermocouple", "labjack-t7-lvdt"}) {
         const auto profile = load_profile(find_profile(name, {shipped}).value());
         ASSERT_TRUE(profile) << describe(profile.error());
         EXPECT_FALSE(profile->model.empty());

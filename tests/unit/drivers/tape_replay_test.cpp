@@ -65,6 +65,9 @@ const std::string umd_keys = "link = \"serial:/dev/null\"\nwavelength = \"632.99
 const std::string corner_cube = umd_keys + "fold = \"corner cube\"\n";
 const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string dracal_keys = "link = \"serial:/dev/null\"\n";
+const std::string ids_keys = "link = \"tcp:192.168.1.1:9090\"\nair = \"corrected here\"\n"
+                             "wavelength = \"1530 nm\"\nfastest = \"0.5 m/s\"\n"
+                             "poll_period = \"100 ms\"\n";
 /// Its value follows.
 const std::string model_keys = "link = \"serial:/dev/null\"\nmodel = ";
 
@@ -81,6 +84,8 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"gauge-mitutoyo", "ascii-gauge",
                                model_keys + "\"mitutoyo\"\nunit = \"mm\"\n"},
                       TapeCase{"gauge-sylvac", "ascii-gauge", model_keys + "\"sylvac\"\n"},
+                      TapeCase{"ids3010", "ids3010", ids_keys},
+                      TapeCase{"ids3010-corrects-twice", "ids3010", ids_keys},
                       TapeCase{"vaisala-ptu300", "vaisala", model_keys + "\"ptu300\"\n"},
                       TapeCase{"vaisala-ptb330-poll", "vaisala",
                                model_keys + "\"ptb330\"\naddress = 1\n"

@@ -55,6 +55,26 @@ TEST(ModbusSlave, CometShowsPressureInTenthsOfHectopascal) {
     EXPECT_EQ(answer_pdu(asked, Bytes{4, 0, 0x31, 0, 1}), (Bytes{0x84, 1})); // FC 3 only
 }
 
+TEST(ModbusSlave, VaisalaAnswersTheReadingOfItsUserGuide) {
+    // M212287EN: 30.56 %RH is 41F47AE1, sent 7AE1 41F4.
+    Scenario scenario;
+    scenario.air.humidity_percent.start = 30.56;
+    scenario.air.temperature.start = 21.5;
+    RegisterBank bank = sensor_bank(scenario, {"air", "vaisala-hmp"}, 0);
+    EXPECT_EQ(answer_pdu(bank, Bytes{3, 0, 0, 0, 2}), (Bytes{3, 4, 0x7A, 0xE1, 0x41, 0xF4}));
+    EXPECT_EQ(answer_pdu(bank, Bytes{3, 0, 2, 0, 2}), (Bytes{3, 4, 0, 0, 0x41, 0xAC}));
+}
+
+TEST(ModbusSlave, LabJackHoldsFloatsHighWordFirst) {
+    Scenario scenario;
+    scenario.thermal.material.start = 20;
+    scenario.thermal.sensor_difference_k = {0.0};
+    RegisterBank bank = sensor_bank(scenario, {"material", "labjack-t7"}, 0);
+    // 20.0 = 41A0 0000, and -9999 = C61C 3C00 where there is no sensor.
+    EXPECT_EQ(answer_pdu(bank, Bytes{3, 0x1B, 0x58, 0, 4}),
+              (Bytes{3, 8, 0x41, 0xA0, 0, 0, 0xC6, 0x1C, 0x3C, 0}));
+}
+
 TEST(ModbusSlave, RefusesWhatIsNotThere) {
     RegisterBank bank;
     bank.holding = {{0, 7}};

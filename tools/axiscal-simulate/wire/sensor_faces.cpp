@@ -2,7 +2,9 @@
 
 #include "simulated_machine.hpp"
 #include "wire/text_face.hpp"
+#include "wire/w1_face.hpp"
 
+#include <bit>
 #include <cmath>
 #include <thread>
 
@@ -58,6 +60,42 @@ RegisterBank comet(const TrueAir& air, int first) {
         bank.holding[first + i] = values[i];
     bank.holding[first + 0x1004] = 0x0496; // serial number, BCD, high and low
     bank.holding[first + 0x1005] = 0x0123;
+    return bank;
+}
+
+void put_float(RegisterBank& bank, int address, double value, bool low_word_first) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+    const auto high = static_cast<std::uint16_t>(bits >> 16);
+    const auto low = static_cast<std::uint16_t>(bits);
+    bank.holding[address] = low_word_first ? low : high;
+    bank.holding[address + 1] = low_word_first ? high : low;
+}
+
+/// Vaisala HMP, alone or behind an Indigo: FC 3, floats with the low word first; humidity at 0,
+/// temperature at 2.
+RegisterBank vaisala_hmp(const TrueAir& air) {
+    RegisterBank bank;
+    bank.functions = {3};
+    put_float(bank, 0, air.humidity.in(percent), true);
+    put_float(bank, 2, air.temperature.in_celsius(), true);
+    return bank;
+}
+
+/// LabJack T7: FC 3, floats with the high word first; AIN0 (0 V), AIN#_EF_READ_A from 7000 for the
+/// contact sensors, -9999 where there is none; serial number at 60028.
+RegisterBank labjack_t7(const Scenario& s, double seconds) {
+    constexpr double no_reading = -9999;
+    RegisterBank bank;
+    bank.functions = {3};
+    put_float(bank, 0, 0, false);
+    const double material = s.thermal.material.at(seconds);
+    for (std::size_t i = 0; i < 14; ++i) {
+        const bool there = i < s.thermal.sensor_difference_k.size();
+        put_float(bank, 7000 + 2 * static_cast<int>(i),
+                  there ? material + s.thermal.sensor_difference_k[i] : no_reading, false);
+    }
+    bank.holding[60028] = 0x1C03; // 470 012 345
+    bank.holding[60029] = 0xD1B9;
     return bank;
 }
 
@@ -209,16 +247,23 @@ private:
 
 RegisterBank sensor_bank(const Scenario& scenario, const SensorScenario& sensor, double seconds) {
     if (sensor.kind == "tm-th8") return tm_th8(scenario, seconds);
+    if (sensor.kind == "m-7015") return tm_th8(scenario, seconds); // the same map
+    if (sensor.kind == "labjack-t7") return labjack_t7(scenario, seconds);
     const TrueAir air = air_at(scenario.air, seconds);
+    if (sensor.kind == "vaisala-hmp") return vaisala_hmp(air);
     return sensor.kind == "comet" ? comet(air, sensor.first_register) : xy_md02(air, sensor.unit);
 }
 
 double temperature_step_k(const SensorScenario& sensor) {
+    if (sensor.kind == "vaisala-hmp" || sensor.kind == "labjack-t7") return 1e-5; // a float
+    if (sensor.kind == "vaisala") return 0.01;
+    if (sensor.kind == "ds18b20") return 0.0625;
     return sensor.kind == "dracal-vcp" ? std::pow(10.0, -sensor.fraction_digits) : 0.1;
 }
 
 Result<std::unique_ptr<Face>>
 open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+    if (sensor.kind == "ds18b20") return open_w1_face(scenario, sensor, clock);
     if (is_text_kind(sensor.kind)) return open_text_face(scenario, sensor, clock);
     if (sensor.path.empty()) {
         auto face = std::make_unique<TcpFace>(scenario, sensor, clock);

@@ -1,0 +1,167 @@
+// DS18B20 contact thermometers on a 1-Wire adapter that the Linux kernel knows (DS9490R by ds2490).
+//
+// Documents: Linux, Documentation/w1/slaves/w1_therm.rst, kernel 6.1; Maxim DS18B20 data sheet
+// 19-7487 (scratchpad, power-on value); Maxim application note 27 (CRC). Nothing here was seen on a
+// real device yet.
+//
+// [w1_slave]     two lines: nine bytes of the scratchpad, ": crc=hh YES" or "NO"; the bytes again,
+//                "t=" and millidegrees. Reading it starts a conversion and takes up to 750 ms.
+// [temperature]  millidegrees alone; empty while a conversion of all sensors is going on.
+//
+// Every reading blocks in the kernel: a thread owns the files, the loop only awaits it.
+
+#include "drivers/environment/environment_ds18b20.hpp"
+
+#include "config/settings.hpp"
+#include "drivers/environment/w1_text.hpp"
+#include "drivers/link/blocking_files.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+/// The kernel's driver works in milliseconds; a reading is up to 750 ms long.
+constexpr Duration conversion_half = std::chrono::milliseconds{375};
+
+struct W1Setup {
+    std::vector<std::string> sensors; ///< "28-0000075b3c2a"
+    std::string folder;
+    bool with_scratchpad = true;
+    Duration poll_period{};
+};
+
+std::vector<Channel> channels_of(const W1Setup& setup) {
+    std::vector<Channel> channels;
+    channels.reserve(setup.sensors.size());
+    for (std::size_t i = 0; i < setup.sensors.size(); ++i)
+        channels.push_back({"contact " + std::to_string(i + 1), ChannelKind::temperature,
+                            Medium::none, conversion_half, conversion_half});
+    return channels;
+}
+
+class Ds18b20 final : public Instrument {
+public:
+    explicit Ds18b20(W1Setup setup)
+        : setup_{std::move(setup)}
+        , channels_{channels_of(setup_)} {}
+    [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
+    Task<Result<void>> run(InstrumentContext context) override;
+    [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
+
+private:
+    Task<Result<int>> round(InstrumentContext context);
+    [[nodiscard]] std::string file_of(const std::string& sensor) const;
+    void take(int channel, const FileText& file, SampleSink& sink);
+    void count(Fault fault);
+
+    W1Setup setup_;
+    std::vector<Channel> channels_;
+    InstrumentCounters counters_;
+    std::unique_ptr<BlockingFiles> files_; ///< made with the first run, kept: it outlives its tasks
+};
+
+std::string Ds18b20::file_of(const std::string& sensor) const {
+    return setup_.folder + "/" + sensor + (setup_.with_scratchpad ? "/w1_slave" : "/temperature");
+}
+
+void Ds18b20::count(Fault fault) {
+    if (fault == Fault::checksum) ++counters_.checksum_errors;
+    if (fault == Fault::bad_frame) ++counters_.bad_frames;
+}
+
+/// The value is that of a conversion between the beginning and the end of the reading.
+void Ds18b20::take(int channel, const FileText& file, SampleSink& sink) {
+    const MonotonicTime at = file.begun_at + (file.read_at - file.begun_at) / 2;
+    const auto value =
+        setup_.with_scratchpad ? parse_w1_slave(file.text) : parse_w1_temperature(file.text);
+    if (!value) {
+        count(value.error().fault);
+        // A damaged reading says nothing about the sensor: its last value only grows old.
+        if (value.error().fault != Fault::signal_error) return;
+        sink.note(Fault::signal_error,
+                  channels_[static_cast<std::size_t>(channel)].name + ": " + value.error().detail);
+        return sink.take(Sample::bad(channel, at, Quality::absent));
+    }
+    ++counters_.frames;
+    ++counters_.samples;
+    sink.take(Sample{channel, at, *value});
+}
+
+/// How many sensors there are. The files outlive every task of this instrument.
+Task<Result<int>> Ds18b20::round(InstrumentContext context) {
+    int present = 0;
+    for (std::size_t i = 0; i < setup_.sensors.size(); ++i) {
+        const int channel = static_cast<int>(i);
+        std::string path = file_of(setup_.sensors[i]);
+        const auto file = co_await files_->read(std::move(path));
+        if (file) {
+            ++present;
+            take(channel, *file, *context.sink);
+            continue;
+        }
+        context.sink->note(file.error().fault,
+                           "no sensor " + setup_.sensors[i] + ": " + describe(file.error()));
+        context.sink->take(Sample::bad(channel, context.scheduler->now(), Quality::absent));
+    }
+    co_return present;
+}
+
+Task<Result<void>> Ds18b20::run(InstrumentContext context) {
+    if (!files_) files_ = std::make_unique<BlockingFiles>(context.scheduler->executor());
+    std::string serials;
+    for (const std::string& sensor : setup_.sensors)
+        serials += (serials.empty() ? "" : " ") + sensor;
+    context.sink->identify(Identity{"Maxim", "DS18B20", serials, ""});
+    MonotonicTime next = context.scheduler->now();
+    for (;;) {
+        const auto present = co_await round(context);
+        if (!present) co_return tl::unexpected<Error>(present.error());
+        if (*present == 0)
+            co_return fail(Fault::link_closed, "none of the sensors is in " + setup_.folder +
+                                                   ": is the 1-Wire adapter plugged in, and are "
+                                                   "ds2490 and w1_therm loaded?");
+        next = std::max(next + setup_.poll_period, context.scheduler->now());
+        co_await context.scheduler->sleep_until(next);
+    }
+}
+
+/// Family in two hex digits, '-', serial number in twelve, as the kernel names its folders.
+bool is_sensor_name(const std::string& name) {
+    const auto hex = [](char letter) {
+        return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'f');
+    };
+    const bool family = name.starts_with("28-") || name.starts_with("22-") ||
+                        name.starts_with("3b-") || name.starts_with("42-");
+    return family && name.size() == 15 && std::all_of(name.begin() + 3, name.end(), hex);
+}
+
+void check_sensors(const std::vector<std::string>& sensors, Settings& options) {
+    if (options.refused("sensors")) return;
+    if (sensors.empty())
+        options.refuse("sensors", "names no sensor: ls /sys/bus/w1/devices shows them");
+    for (auto sensor = sensors.begin(); sensor != sensors.end(); ++sensor) {
+        if (!is_sensor_name(*sensor))
+            options.refuse("sensors", "\"" + *sensor +
+                                          "\" is no name of a thermometer: write it as the kernel "
+                                          "does, \"28-0000075b3c2a\"");
+        if (std::find(sensors.begin(), sensor, *sensor) != sensor)
+            options.refuse("sensors", "\"" + *sensor + "\" stands here twice");
+    }
+}
+
+} // namespace
+
+std::unique_ptr<Instrument> make_ds18b20(const InstrumentConfig& /*config*/, Settings& options) {
+    W1Setup setup;
+    setup.sensors = options.texts("sensors");
+    check_sensors(setup.sensors, options);
+    setup.with_scratchpad =
+        options.choice("file", {"w1_slave", "temperature"}, "w1_slave") == "w1_slave";
+    setup.folder = options.text("sysfs", "/sys/bus/w1/devices");
+    setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{100},
+                                         std::chrono::seconds{60}, std::chrono::seconds{2});
+    return std::make_unique<Ds18b20>(std::move(setup));
+}
+
+} // namespace axiscal

@@ -1,0 +1,56 @@
+// The whole station file against the instruments that it names.
+#include "acquisition/station/station_loader.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tests/support/source_dir.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace axiscal {
+namespace {
+
+const std::string config_folder = test::source_dir() + "/config";
+
+std::string example_with(const std::string& from, const std::string& to) {
+    std::ifstream file{config_folder + "/station.example.toml"};
+    std::stringstream stream;
+    stream << file.rdbuf();
+    std::string text = stream.str();
+    text.replace(text.find(from), from.size(), to);
+    return text;
+}
+
+std::string refusals_of(const std::string& text) {
+    setenv("AXISCAL_PROFILE_PATH", (config_folder + "/profiles").c_str(), 1);
+    const testing::ScratchFolder scratch;
+    const std::string path = scratch.path() + "/station.toml";
+    std::ofstream{path} << text;
+    const auto loaded = load_station(path);
+    std::string told;
+    if (!loaded)
+        for (const Refusal& refusal : loaded.error())
+            told += refusal.describe() + "\n";
+    return told;
+}
+
+TEST(StationLoader, AcceptsTheExample) {
+    EXPECT_EQ(refusals_of(example_with("[station]", "[station]")), "");
+}
+
+/// A scale's lengths would be divided by the index of air.
+TEST(StationLoader, RefusesAScaleInPlaceOfTheLaser) {
+    std::string text = example_with("[station]", "[station]");
+    const auto begin = text.find("driver = \"umd\"");
+    const auto end = text.find("[[instrument]]", begin);
+    text.replace(begin, end - begin,
+                 "driver = \"counter\"\ndevice = \"/dev/counter0\"\nevent = \"index\"\nbits = 32\n"
+                 "resolution = \"0.1 um\"\nfastest = \"30 m/min\"\n\n");
+    const std::string told = refusals_of(text);
+    EXPECT_NE(told.find("axis.laser"), std::string::npos) << told;
+    EXPECT_NE(told.find("gives true lengths"), std::string::npos) << told;
+}
+
+} // namespace
+} // namespace axiscal

@@ -1,0 +1,44 @@
+#pragma once
+// The simulated machine seen by an attocube IDS3010 on TCP.
+
+#include "sim_clock.hpp"
+#include "simulated_machine.hpp"
+#include "wire/face.hpp"
+#include "wire/ids_device.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace axiscal::simulate {
+
+class IdsFace final : public Face {
+public:
+    /// drive(seconds): where the drive is commanded; must be thread-safe. Listens on 127.0.0.1.
+    /// @errors io: the port is taken.
+    static Result<std::unique_ptr<IdsFace>>
+    open(const Scenario& scenario, SimClock clock, std::function<double(double)> drive);
+    ~IdsFace() override;
+    void run(std::stop_token stop) override;
+    [[nodiscard]] nlohmann::json place() const override { return {{"port", port_}}; }
+
+private:
+    IdsFace(const Scenario& scenario,
+            SimClock clock,
+            std::function<double(double)> drive,
+            int listener,
+            int port);
+    bool serve(int socket, std::string& pending);
+    IdsReading read_now();
+
+    Scenario scenario_;
+    SimClock clock_;
+    std::function<double(double)> drive_;
+    SimulatedMachine machine_;
+    IdsDevice device_;
+    int listener_, port_;
+    std::map<int, std::string> clients_; ///< socket -> bytes not yet a request
+    std::uint64_t answers_ = 0;
+};
+
+} // namespace axiscal::simulate
