@@ -1,3 +1,4 @@
+#include "config/share_address.hpp"
 #include "config/station_readers.hpp"
 
 #include <algorithm>
@@ -24,9 +25,22 @@ ConsoleConfig read_console(Settings console) {
 PublishConfig read_publish(Settings publish) {
     using namespace std::chrono_literals;
     PublishConfig config;
-    const std::string place = publish.text("destination", "");
-    if (!place.empty()) config.destination = read_absolute_path(publish, "destination");
+    config.destination = publish.text("destination", "");
+    const bool on_server = is_share_address(config.destination);
+    if (on_server) {
+        if (const auto address = parse_share_address(config.destination); !address)
+            publish.refuse("destination", address.error().detail);
+    } else if (!config.destination.empty()) {
+        config.destination = read_absolute_path(publish, "destination");
+    }
+    if (publish.has("credentials")) config.credentials = read_absolute_path(publish, "credentials");
+    config.require_encryption =
+        publish.choice("encryption", {"required", "asked"}, "required") == "required";
+    config.timeout = publish.duration("timeout", 1s, 60s, config.timeout);
     config.retry = publish.duration("retry", 100ms, 1h, config.retry);
+    config.alarm_age = publish.duration("alarm_age", 1s, 24h, config.alarm_age);
+    config.alarm_count =
+        static_cast<int>(publish.integer("alarm_count", 1, 100000, config.alarm_count));
     return config;
 }
 

@@ -108,8 +108,15 @@ struct ConsoleConfig {
 };
 
 struct PublishConfig {
-    std::string destination; ///< directory (mounted share); empty: results stay in the outbox
+    /// Folder, or smb:// address that parse_share_address() takes; empty: results stay in the
+    /// outbox.
+    std::string destination;
+    std::string credentials;        ///< file of the share's account; empty: see docs/share.md
+    bool require_encryption = true; ///< else it is asked for, and signing is required
+    Duration timeout = std::chrono::seconds{10}; ///< of one call to the server
     Duration retry = std::chrono::seconds{5};
+    Duration alarm_age = std::chrono::minutes{15}; ///< of the oldest waiting result
+    int alarm_count = 10;                          ///< of waiting results
 };
 
 struct StationConfig {

@@ -36,6 +36,18 @@ Json to_json(const AxisView& axis) {
             {"still", axis.still}};
 }
 
+Json to_json(const OutboxView& outbox) {
+    return {{"waiting", outbox.waiting},
+            {"oldest_s", or_null(outbox.oldest_s)},
+            {"alarm", outbox.alarm},
+            {"publisher",
+             {{"runs", outbox.publisher_runs},
+              {"destination", outbox.destination},
+              {"state", outbox.state},
+              {"reason", outbox.reason},
+              {"since_utc", outbox.since_utc}}}};
+}
+
 Json to_json(const RunStatus& run) {
     Json next = nullptr;
     if (run.next_target)
@@ -116,7 +128,8 @@ nlohmann::ordered_json to_json(const StationStatus& status) {
             {"trigger", trigger_json(status)},
             {"run", status.run ? to_json(*status.run) : Json(nullptr)},
             {"run_open", status.run_open},
-            {"outbox_entries", status.outbox_entries},
+            {"outbox_entries", status.outbox.waiting},
+            {"outbox", to_json(status.outbox)},
             {"notes", status.notes}};
 }
 

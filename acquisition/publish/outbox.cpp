@@ -88,17 +88,24 @@ Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run
     return entry;
 }
 
-std::vector<OutboxEntry> list_entries(const std::string& outbox) {
-    std::vector<OutboxEntry> entries;
+std::vector<std::string> entry_names(const std::string& outbox) {
+    std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator at{outbox, error}, end; !error && at != end; at.increment(error)) {
-        const auto name = at->path().filename().string();
-        if (name.front() == '.' || !at->is_directory(error)) continue;
+        auto name = at->path().filename().string();
+        if (name.front() != '.' && at->is_directory(error)) names.push_back(std::move(name));
+    }
+    std::ranges::sort(names);
+    return names;
+}
+
+std::vector<OutboxEntry> list_entries(const std::string& outbox) {
+    std::vector<OutboxEntry> entries;
+    for (const auto& name : entry_names(outbox)) {
         auto entry = read_entry(outbox, name);
         entries.push_back(entry ? *std::move(entry)
-                                : OutboxEntry{name, at->path().string(), {}, false});
+                                : OutboxEntry{name, outbox + "/" + name, {}, false});
     }
-    std::ranges::sort(entries, {}, &OutboxEntry::run_id);
     return entries;
 }
 
@@ -115,11 +122,14 @@ Result<std::string> archive_entry(const OutboxEntry& entry) {
         if (copy > 1) place += "-" + std::to_string(copy);
         if (fs::exists(place, error)) continue;
         AXISCAL_CHECK(move_to_free_name(entry.folder, place));
-        AXISCAL_CHECK(sync_folder(published));
-        AXISCAL_CHECK(sync_folder(outbox.string()));
         return place;
     }
     return fail(Fault::refused, published + " is full of " + entry.run_id);
+}
+
+Result<void> sync_outbox(const std::string& outbox) {
+    AXISCAL_CHECK(sync_folder((fs::path{outbox}.parent_path() / "published").string()));
+    return sync_folder(outbox);
 }
 
 } // namespace axiscal

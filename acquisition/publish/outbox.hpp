@@ -36,13 +36,18 @@ Result<std::string> stage_entry(const std::string& outbox,
                                 const std::string& run_id,
                                 const std::vector<OutboxFile>& files);
 
-/// Waiting entries by name. Empty when there is no outbox yet.
+/// Names of the waiting entries, sorted. Empty when there is no outbox yet.
+std::vector<std::string> entry_names(const std::string& outbox);
+/// Waiting entries by name, each read; what cannot be read has no files.
 std::vector<OutboxEntry> list_entries(const std::string& outbox);
 /// @errors Fault::not_found when that entry is gone; Fault::refused for what is no plain file.
 Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run_id);
 
 /// Moves an entry that has its receipt to <outbox>/../published/<run-id>; returns where it lies.
-/// Where the name is taken a number is added. @errors Fault::refused without a receipt.
+/// Where the name is taken a number is added. On disk after sync_outbox(): until then a power cut
+/// may undo the move, and it is made again. @errors Fault::refused without a receipt.
 Result<std::string> archive_entry(const OutboxEntry& entry);
+/// Makes moves between the outbox and its archive durable.
+Result<void> sync_outbox(const std::string& outbox);
 
 } // namespace axiscal

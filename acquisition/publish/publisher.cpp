@@ -1,24 +1,30 @@
 #include "acquisition/publish/publisher.hpp"
 
+#include "acquisition/journal/durable_file.hpp"
+
 #include <algorithm>
 
 namespace axiscal {
 
-std::size_t Publisher::pass(MonotonicTime now, std::int64_t utc_ns) {
-    const auto entries = list_entries(settings_.outbox);
-    if (entries.empty() || !destination_ready(now)) return entries.size();
-    std::size_t waiting = 0;
-    for (const auto& entry : entries) {
-        if (!is_due(entry.run_id, now)) {
-            ++waiting;
-        } else if (auto done = publish(entry, utc_ns); done) {
-            troubles_.erase(entry.run_id);
+std::size_t Publisher::pass() {
+    const auto run_ids = entry_names(settings_.outbox);
+    if (run_ids.empty() || !destination_ready()) return run_ids.size();
+    std::size_t gone = 0;
+    for (const auto& run_id : run_ids) {
+        if (!listener_.go_on()) break;
+        if (!is_due(run_id)) continue;
+        if (auto done = publish(run_id); done) {
+            troubles_.erase(run_id);
+            ++gone;
         } else {
-            remember(entry.run_id, done.error(), now);
-            ++waiting;
+            const bool lost = is_share_lost(done.error());
+            remember(lost ? "" : run_id, done.error());
+            if (lost) break;
         }
     }
-    return waiting;
+    // Moves that a power cut undoes are made again: the receipts are on disk.
+    if (gone > 0) static_cast<void>(sync_outbox(settings_.outbox));
+    return run_ids.size() - gone;
 }
 
 std::optional<MonotonicTime> Publisher::next_due() const {
@@ -27,44 +33,43 @@ std::optional<MonotonicTime> Publisher::next_due() const {
     return first == troubles_.end() ? std::nullopt : std::optional{first->second.due};
 }
 
-bool Publisher::destination_ready(MonotonicTime now) {
-    if (!is_due("", now)) return false;
-    if (auto ready = check_destination(settings_.destination); !ready) {
-        remember("", ready.error(), now);
+bool Publisher::destination_ready() {
+    if (!is_due("")) return false;
+    if (auto ready = destination_.check(); !ready) {
+        remember("", ready.error());
         return false;
     }
-    if (troubles_.erase("") > 0) listener_.destination_back();
     return true;
 }
 
-bool Publisher::is_due(const std::string& run_id, MonotonicTime now) const {
+bool Publisher::is_due(const std::string& run_id) const {
     const auto trouble = troubles_.find(run_id);
-    return trouble == troubles_.end() || now >= trouble->second.due;
+    return trouble == troubles_.end() || clock_.now() >= trouble->second.due;
 }
 
 // Nothing leaves the outbox before its receipt is on disk; an entry that has one (the process
 // ended in between) only needs to be moved.
-Result<void> Publisher::publish(OutboxEntry entry, std::int64_t utc_ns) {
-    AXISCAL_TRY(entry, read_entry(settings_.outbox, entry.run_id));
-    if (entry.has_receipt) {
-        AXISCAL_TRY([[maybe_unused]] const auto place, archive_entry(entry));
-        return {};
+Result<void> Publisher::publish(const std::string& run_id) {
+    AXISCAL_TRY(auto entry, read_entry(settings_.outbox, run_id));
+    if (!entry.has_receipt) {
+        const Progress progress = [this] { listener_.progress(); };
+        AXISCAL_TRY(const auto receipt, copy_entry(entry, destination_, clock_.utc_ns(), progress));
+        // Only what arrived proves that the destination is back: a full disk passes its check.
+        if (troubles_.erase("") > 0) listener_.destination_back();
+        AXISCAL_CHECK(write_receipt(entry, receipt));
+        entry.has_receipt = true;
+        listener_.published(receipt);
     }
-    const Progress progress = [this] { listener_.progress(); };
-    AXISCAL_TRY(const auto receipt, copy_entry(entry, settings_.destination, utc_ns, progress));
-    AXISCAL_CHECK(write_receipt(entry, receipt));
-    entry.has_receipt = true;
     AXISCAL_TRY([[maybe_unused]] const auto place, archive_entry(entry));
-    listener_.published(receipt);
     return {};
 }
 
-void Publisher::remember(const std::string& run_id, const Error& why, MonotonicTime now) {
+void Publisher::remember(const std::string& run_id, const Error& why) {
     auto& trouble = troubles_[run_id];
     const bool first = trouble.last_words.empty();
     trouble.pause = first ? settings_.retry : std::min(2 * trouble.pause, 16 * settings_.retry);
-    trouble.due = now + trouble.pause;
-    const auto words = axiscal::describe(why);
+    trouble.due = clock_.now() + trouble.pause;
+    const auto words = publishing_words(why);
     if (words != trouble.last_words) listener_.waiting(run_id, why);
     trouble.last_words = words;
 }

@@ -1,10 +1,11 @@
 #pragma once
-// Which entry is tried when, and what is said about it. Owns no clock and no wait: the process
-// around it calls pass() again. For one thread.
+// Which entry is tried when, and what is said about it. Owns no wait: the process around it calls
+// pass() again. For one thread.
 
 #include "acquisition/publish/share.hpp"
 #include "analysis/quantity/time.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,29 +13,46 @@
 namespace axiscal {
 
 struct PublisherSettings {
-    std::string outbox, destination;
+    std::string outbox;
     Duration retry = std::chrono::seconds{5}; ///< first pause; doubles up to sixteen times that
+};
+
+/// Time as the publisher needs it; a call to a share may have taken long.
+struct PublisherClock {
+    std::function<MonotonicTime()> now;
+    std::function<std::int64_t()> utc_ns;
 };
 
 /// Told once per change of state, never per attempt.
 class PublisherListener {
 public:
+    PublisherListener() = default;
     virtual ~PublisherListener() = default;
+    PublisherListener(const PublisherListener&) = delete;
+    PublisherListener& operator=(const PublisherListener&) = delete;
     virtual void published(const PublishReceipt& receipt) = 0;
     /// `run_id` is empty when it is about the destination as a whole.
     virtual void waiting(const std::string& run_id, const Error& why) = 0;
     virtual void destination_back() = 0;
     virtual void progress() = 0;
+    /// false ends the pass before the next entry.
+    virtual bool go_on() { return true; }
 };
 
 class Publisher {
 public:
-    Publisher(PublisherSettings settings, PublisherListener& listener)
+    Publisher(PublisherSettings settings,
+              PublisherClock clock,
+              Destination& destination,
+              PublisherListener& listener)
         : settings_{std::move(settings)}
+        , clock_{std::move(clock)}
+        , destination_{destination}
         , listener_{listener} {}
 
-    /// Tries every entry that is due. Returns how many entries still wait.
-    std::size_t pass(MonotonicTime now, std::int64_t utc_ns);
+    /// Tries every entry that is due; a destination that is lost ends the pass. Returns how many
+    /// entries still wait.
+    std::size_t pass();
     /// When the next waiting entry is due; empty when nothing waits.
     [[nodiscard]] std::optional<MonotonicTime> next_due() const;
 
@@ -44,12 +62,14 @@ private:
         Duration pause{};
         MonotonicTime due{};
     };
-    bool destination_ready(MonotonicTime now);
-    [[nodiscard]] bool is_due(const std::string& run_id, MonotonicTime now) const;
-    Result<void> publish(OutboxEntry entry, std::int64_t utc_ns);
-    void remember(const std::string& run_id, const Error& why, MonotonicTime now);
+    bool destination_ready();
+    [[nodiscard]] bool is_due(const std::string& run_id) const;
+    Result<void> publish(const std::string& run_id);
+    void remember(const std::string& run_id, const Error& why);
 
     PublisherSettings settings_;
+    PublisherClock clock_;
+    Destination& destination_;
     PublisherListener& listener_;
     std::map<std::string, Trouble> troubles_; ///< by run id; "" is the destination
 };

@@ -6,17 +6,27 @@
 
 #include <nlohmann/json.hpp>
 
-#include <fcntl.h>
+#include <algorithm>
 #include <filesystem>
-#include <unistd.h>
+#include <fstream>
+#include <strings.h>
 
 namespace axiscal {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_folders = 1000;                     // of one run id
-constexpr std::size_t block = std::size_t{256} * 1024; // small enough for progress on a slow share
+constexpr int most_folders = 1000; // of one run id
+constexpr std::size_t mark_digits = 8;
+
+/// One entry on its way.
+struct Journey {
+    const OutboxEntry& entry;
+    Destination& destination;
+    const Progress& progress;
+    std::vector<PublishedFile> files;
+    std::string mark;
+};
 
 Result<std::vector<PublishedFile>> describe_files(const OutboxEntry& entry,
                                                   const Progress& progress) {
@@ -33,115 +43,106 @@ Result<std::vector<PublishedFile>> describe_files(const OutboxEntry& entry,
     return files;
 }
 
-enum class Presence { absent, same, other };
-
-Result<Presence>
-presence_of(const PublishedFile& file, const std::string& folder, const Progress& progress) {
-    const auto path = folder + "/" + file.name;
-    std::error_code error;
-    const auto status = fs::symlink_status(path, error);
-    if (status.type() == fs::file_type::not_found) return Presence::absent;
-    if (error) return fail_io("cannot look at", path, error.value());
-    if (status.type() != fs::file_type::regular) return Presence::other;
-    AXISCAL_TRY(const auto hash, sha256_of_file(path, progress));
-    return hash == file.sha256 ? Presence::same : Presence::other;
+std::string part_name(const std::string& name, const std::string& mark) {
+    return "." + name + "." + mark + ".part";
 }
 
-/// The first folder of this run's names in which no file stands in the way; made if new.
-Result<std::string> choose_folder(const OutboxEntry& entry,
-                                  const std::vector<PublishedFile>& files,
-                                  const std::string& destination,
-                                  const Progress& progress) {
-    for (int copy = 1; copy <= most_folders; ++copy) {
-        auto folder = destination + "/" + entry.run_id;
-        if (copy > 1) folder += "-" + std::to_string(copy);
-        std::error_code error;
-        fs::create_directory(folder, error);
-        if (error && !fs::exists(folder)) return fail_io("cannot make", folder, error.value());
-        bool fits = fs::is_directory(folder);
-        for (const auto& file : files) {
-            if (!fits) break;
-            AXISCAL_TRY(const auto presence, presence_of(file, folder, progress));
-            fits = presence != Presence::other;
-        }
-        if (fits) return folder;
-    }
-    return fail(Fault::refused, destination + " is full of other runs named " + entry.run_id);
-}
-
-Result<void> copy_bytes(const FileHandle& from, const FileHandle& to, const Progress& progress) {
-    std::vector<char> buffer(block);
-    for (;;) {
-        const auto got = ::read(from.get(), buffer.data(), buffer.size());
-        if (got == 0) return {};
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return fail_io("cannot read", "the outbox");
-        for (ssize_t done = 0; done < got;) {
-            const auto put =
-                ::write(to.get(), buffer.data() + done, static_cast<std::size_t>(got - done));
-            if (put < 0 && errno == EINTR) continue;
-            if (put < 0) return fail_io("cannot write", "the share");
-            done += put;
-        }
-        if (progress) progress();
-    }
+// A share may keep names apart by case or not; a rename onto the other case could replace a file.
+bool same_name(const std::string& one, const std::string& other) {
+    return ::strcasecmp(one.c_str(), other.c_str()) == 0;
 }
 
 Result<void>
-write_part(const std::string& source, const std::string& part, const Progress& progress) {
-    const FileHandle from{::open(source.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
-    if (!from) return fail_io("cannot open", source);
-    FileHandle to{
-        ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0664)};
-    if (!to) return fail_io("cannot write to the share:", part);
-    if (auto copied = copy_bytes(from, to, progress); !copied)
-        return fail(Fault::io, copied.error().detail + ": " + part, copied.error().cause);
-    if (::fsync(to.get()) != 0) return fail_io("cannot sync", part);
-    // Best effort: what is read back should come from the share, not from this machine's memory.
-    ::posix_fadvise(to.get(), 0, 0, POSIX_FADV_DONTNEED);
-    if (!to.close()) return fail_io("the share did not take", part);
+sweep(const Journey& journey, const std::string& folder, const std::vector<std::string>& names) {
+    for (const auto& file : journey.files) {
+        const auto part = part_name(file.name, journey.mark);
+        if (std::ranges::find(names, part) != names.end())
+            AXISCAL_CHECK(journey.destination.remove_file(folder + "/" + part));
+    }
     return {};
 }
 
+/// Files that still have to go into this folder; none when something stands in the way.
+using Missing = std::optional<std::vector<PublishedFile>>;
+
+Result<Missing> missing_in(const Journey& journey, const std::string& folder) {
+    auto names = journey.destination.names_in(folder);
+    if (!names && names.error().fault == Fault::refused) return Missing{};
+    if (!names) return tl::unexpected<Error>(names.error());
+    AXISCAL_CHECK(sweep(journey, folder, *names));
+    std::vector<PublishedFile> missing;
+    for (const auto& file : journey.files) {
+        const auto there = std::ranges::find_if(
+            *names, [&](const std::string& name) { return same_name(name, file.name); });
+        if (there == names->end()) {
+            missing.push_back(file);
+            continue;
+        }
+        if (*there != file.name) return Missing{};
+        const auto hash = journey.destination.sha256_of(folder + "/" + file.name, journey.progress);
+        if (!hash && hash.error().fault != Fault::refused)
+            return tl::unexpected<Error>(hash.error());
+        if (!hash || *hash != file.sha256) return Missing{};
+    }
+    return Missing{std::move(missing)};
+}
+
+struct Place {
+    std::string folder;
+    std::vector<PublishedFile> missing;
+};
+
+/// The first folder of this run's names in which no file stands in the way; made if new.
+Result<Place> choose_folder(const Journey& journey) {
+    for (int copy = 1; copy <= most_folders; ++copy) {
+        auto folder = journey.entry.run_id;
+        if (copy > 1) folder += "-" + std::to_string(copy);
+        AXISCAL_TRY(const bool made, journey.destination.make_folder(folder));
+        if (made) return Place{std::move(folder), journey.files};
+        AXISCAL_TRY(auto missing, missing_in(journey, folder));
+        if (missing) return Place{std::move(folder), *std::move(missing)};
+    }
+    return fail(Fault::refused, journey.destination.place() + " is full of other runs named " +
+                                    journey.entry.run_id);
+}
+
 // Read back under the temporary name, so that no wrong byte ever bears the final one.
-Result<void> copy_file(const OutboxEntry& entry,
-                       const PublishedFile& file,
-                       const std::string& folder,
-                       const Progress& progress) {
-    const auto part = folder + "/." + file.name + ".part";
-    AXISCAL_CHECK(write_part(entry.folder + "/" + file.name, part, progress));
-    AXISCAL_TRY(const auto read_back, sha256_of_file(part, progress));
+Result<void>
+copy_file(const Journey& journey, const PublishedFile& file, const std::string& folder) {
+    const auto part = folder + "/" + part_name(file.name, journey.mark);
+    AXISCAL_TRY(const auto read_back,
+                journey.destination.write_and_read_back(journey.entry.folder + "/" + file.name,
+                                                        part, journey.progress));
     if (read_back != file.sha256)
-        return fail(Fault::checksum, part + " came back from the share with other content");
-    AXISCAL_CHECK(move_to_free_name(part, folder + "/" + file.name));
-    return sync_folder(folder);
+        return fail(Fault::checksum, journey.destination.place() + "/" + part +
+                                         " came back from the share with other content");
+    return journey.destination.move_to_free_name(part, folder + "/" + file.name);
 }
 
 } // namespace
 
-Result<void> check_destination(const std::string& destination) {
-    std::error_code error;
-    if (fs::is_directory(destination, error)) return {};
-    return fail(Fault::io, "the destination " + destination +
-                               " is not there: mount the share or make the folder; results wait "
-                               "in the outbox");
-}
-
 Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
-                                  const std::string& destination,
+                                  Destination& destination,
                                   std::int64_t utc_ns,
                                   const Progress& progress) {
-    AXISCAL_CHECK(check_destination(destination));
     AXISCAL_TRY(auto files, describe_files(entry, progress));
-    AXISCAL_TRY(auto folder, choose_folder(entry, files, destination, progress));
-    for (const auto& file : files) {
-        AXISCAL_TRY(const auto presence, presence_of(file, folder, progress));
-        if (presence == Presence::absent) AXISCAL_CHECK(copy_file(entry, file, folder, progress));
-        std::error_code ignored; // a stale part of ours; not worth failing a complete file
-        fs::remove(folder + "/." + file.name + ".part", ignored);
-    }
-    AXISCAL_CHECK(sync_folder(destination));
-    return PublishReceipt{entry.run_id, std::move(folder), iso8601_utc(utc_ns), std::move(files)};
+    Journey journey{entry, destination, progress, std::move(files),
+                    mark_of(folder_of(entry.folder))};
+    AXISCAL_TRY(const auto place, choose_folder(journey));
+    for (const auto& file : place.missing)
+        AXISCAL_CHECK(copy_file(journey, file, place.folder));
+    AXISCAL_CHECK(destination.sync_folder(place.folder));
+    AXISCAL_CHECK(destination.sync_folder(""));
+    return PublishReceipt{entry.run_id, destination.place() + "/" + place.folder,
+                          iso8601_utc(utc_ns), std::move(journey.files)};
+}
+
+std::string mark_of(const std::string& outbox) {
+    std::string machine;
+    std::getline(std::ifstream{"/etc/machine-id"}, machine);
+    std::error_code error;
+    const auto path = fs::weakly_canonical(outbox, error);
+    return sha256_hex(machine + "\n" + (error ? outbox : path.string())).substr(0, mark_digits);
 }
 
 std::string receipt_json(const PublishReceipt& receipt) {

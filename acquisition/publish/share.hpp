@@ -1,11 +1,11 @@
 #pragma once
-// Carries one outbox entry to the destination folder, which may be a slow or vanishing network
-// share: every call may block, so only the publisher's own process makes them. No state.
+// Carries one outbox entry to its destination, which may be slow or vanish: every call may block,
+// so only the publisher's own process makes them. No state.
 
+#include "acquisition/publish/destination.hpp"
 #include "acquisition/publish/outbox.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,17 +23,16 @@ struct PublishReceipt {
     std::vector<PublishedFile> files;
 };
 
-/// Called while bytes move, so that a watchdog sees a slow share apart from a dead one.
-using Progress = std::function<void()>;
-
-/// Every file of the entry is at the destination under its final name, written once, synced, read
-/// back and equal by SHA-256. A file appears only whole (before: .<name>.part). What lies there
-/// already with the same content counts as published; other content is never overwritten: a new
-/// folder <run-id>-2, -3 ... is taken. Calling again after any interruption goes on.
-/// @errors Fault::io with the path and what to do; Fault::checksum when the share gives back other
-/// bytes.
+/// Every file of the entry is at the destination under its final name, written once, flushed, read
+/// back and equal by SHA-256. A file appears only whole (before: .<name>.<mark>.part, the mark
+/// being this station's own: nobody else's is touched, and a stale one is swept). What lies there
+/// already with the same content counts as published; other content, also under a name that
+/// differs in case only, is never overwritten: a new folder <run-id>-2, -3 ... is taken. Calling
+/// again after any interruption goes on.
+/// @errors share_lost() when nothing can be published now; Fault::io with the path and what to
+/// do; Fault::checksum when the share gives back other bytes.
 Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
-                                  const std::string& destination,
+                                  Destination& destination,
                                   std::int64_t utc_ns,
                                   const Progress& progress = {});
 
@@ -43,7 +42,8 @@ Result<void> write_receipt(const OutboxEntry& entry, const PublishReceipt& recei
 /// The receipt as JSON text, "axiscal.receipt/1".
 std::string receipt_json(const PublishReceipt& receipt);
 
-/// A destination is a folder that exists: making it could fill an unmounted mount point.
-Result<void> check_destination(const std::string& destination);
+/// What tells unfinished files of this PC's outbox from everybody else's: 8 hexadecimal digits of
+/// machine and path.
+std::string mark_of(const std::string& outbox);
 
 } // namespace axiscal

@@ -16,6 +16,7 @@ constexpr Duration heartbeat = std::chrono::milliseconds{100};
 constexpr Duration judge_every = std::chrono::seconds{1};
 constexpr Duration log_every =
     std::chrono::milliseconds{500}; // bounds the environment table of a long run
+constexpr Duration judge_outbox_every = std::chrono::seconds{10};
 constexpr Duration port_pause = std::chrono::seconds{1};
 constexpr std::size_t kept_notes = 20;
 
@@ -65,7 +66,8 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments)),
               watched(roles_, supervisor_.channels()))}
     , latest_(supervisor_.channels().size())
-    , logged_(supervisor_.channels().size()) {}
+    , logged_(supervisor_.channels().size())
+    , outbox_watch_{config_.state_directory, config_.publish} {}
 
 Station::~Station() = default;
 
@@ -116,7 +118,7 @@ Task<void> Station::serve_port() {
 
 /// Ten times a second: what only time decides, and what the CNC reads.
 Task<void> Station::tick() {
-    MonotonicTime judged = scheduler_.now();
+    MonotonicTime judged = scheduler_.now(), judged_outbox = judged;
     while (!stopping_) {
         co_await scheduler_.sleep_for(heartbeat);
         const MonotonicTime now = scheduler_.now();
@@ -124,9 +126,22 @@ Task<void> Station::tick() {
             supervisor_.judge();
             judged = now;
         }
+        if (now - judged_outbox >= judge_outbox_every) {
+            judge_outbox();
+            judged_outbox = now;
+        }
         feed_with_air(Tick{now});
         publish_to_port();
     }
+}
+
+/// Told once when it begins and once when it is over, however the count goes meanwhile.
+void Station::judge_outbox() {
+    const OutboxView outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
+    if (outbox.alarm.empty() == outbox_alarm_.empty()) return;
+    outbox_alarm_ = outbox.alarm;
+    note(outbox_alarm_.empty() ? "The share takes results again."
+                               : "Alarm: " + outbox_alarm_ + ".");
 }
 
 void Station::on_sample(const Sample& sample) {

@@ -126,6 +126,7 @@ private:
 
     Task<void> serve_port();
     Task<void> tick();
+    void judge_outbox();
     void take_reading(const Sample& sample);
     void log_environment(int channel, const Sample& sample);
     void record_instrument(const std::string& sentence, Fault fault);
@@ -147,6 +148,8 @@ private:
     EnvironmentWatch watch_;
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
+    mutable OutboxWatch outbox_watch_; ///< remembers what it read; a look changes nothing else
+    std::string outbox_alarm_;         ///< as told in the notes
     std::optional<RunMachine> machine_;
     std::optional<CurrentRun> run_;
     std::deque<RunInput> inputs_;

@@ -1,6 +1,7 @@
 #pragma once
 // What the station shows and takes: the only thing the console knows of it.
 
+#include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "analysis/run_record.hpp"
 #include "drivers/sample.hpp"
@@ -63,7 +64,7 @@ struct StationStatus {
     bool cnc_silent = false;
     std::optional<RunStatus> run; ///< the open run, or the last one since start
     bool run_open = false;
-    int outbox_entries = 0;
+    OutboxView outbox;
     std::vector<std::string> notes; ///< latest last, at most 20
 };
 

@@ -6,21 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace axiscal {
 namespace {
 
 constexpr Duration laser_limit = std::chrono::seconds{2};
-
-int count_entries(const std::string& folder) {
-    std::error_code error;
-    int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator{folder, error})
-        if (entry.is_directory(error) && !entry.path().filename().string().starts_with("."))
-            ++count;
-    return count;
-}
 
 } // namespace
 
@@ -172,7 +162,7 @@ StationStatus Station::status() const {
     status.cnc_silent = cnc_silent_;
     if (run_ && machine_) status.run = run_status();
     status.run_open = run_open();
-    status.outbox_entries = count_entries(config_.state_directory + "/outbox");
+    status.outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
     status.notes.assign(notes_.begin(), notes_.end());
     return status;
 }

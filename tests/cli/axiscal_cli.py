@@ -335,7 +335,8 @@ class Screen(Scratch):
                    "kind": "temperature", "medium": "material", "value": 21.5, "unit": "degC", "age_s": 0.1,
                    "quality": "good", "used": True}
         return {"station": "bay 3", "utc": "2026-11-21T10:00:00Z", "run_open": not over, "channels": [channel],
-                "instruments": [], "notes": [], "outbox_entries": 0,
+                "instruments": [], "notes": [], "outbox_entries": 0, "outbox": {"waiting": 0, "oldest_s": None, "alarm": "", "publisher": {
+                    "runs": True, "destination": "", "state": "idle", "reason": "", "since_utc": ""}},
                 "axis": {"name": "X", "position_mm": self.asked, "deviation_um": None, "spread_um": None,
                          "strength_percent": None, "still": False},
                 "trigger": {"port": "fake", "cnc_silent": False, "note": ""},

@@ -19,6 +19,7 @@ MAY = {
     "acquisition/program": {"analysis/quantity", "analysis", "config", "drivers/framing/checksum.hpp"},
     "acquisition/journal": {"analysis/quantity", "analysis", "drivers"},
     "acquisition/publish": {"analysis/quantity", "analysis", "config", "acquisition/journal"},
+    "acquisition/publish/smb": {"analysis/quantity", "config", "acquisition/publish", "acquisition/journal"},
     "acquisition/station": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture",
                             "acquisition/run", "acquisition/journal"},
     "acquisition/console": {"analysis/quantity", "analysis", "config", "acquisition/station",
@@ -30,6 +31,7 @@ MAY = {
 # Libraries that may be named only in one room.
 ONLY = {
     "cairo": {"acquisition/publish"}, "pango": {"acquisition/publish"}, "sqlite3": {"acquisition/journal"},
+    "libsmbclient": {"acquisition/publish/smb"},  # GPL: docs/dependencies.md
     "toml++": {"config", "tools/axiscal-simulate"}, "modbus": {"drivers", "tools/axiscal-simulate"},
     "boost/asio": {"drivers", "acquisition/station", "acquisition/journal", "acquisition/console", "acquisition",
                    "acquisition/publish", "tools/axiscal-simulate", "tools/axiscal"},
@@ -58,7 +60,8 @@ def self_test():
     planted = {
         "analysis/x.cpp": '#include "drivers/sample.hpp"\n', "drivers/x.cpp": '#include "acquisition/run/run_machine.hpp"\n',
         "analysis/quantity/x.hpp": '#include "analysis/run_record.hpp"\n', "tools/axiscal-simulate/x.cpp": '#include "drivers/sample.hpp"\n',
-        "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "config/x.cpp": '#include "analysis/certificate.hpp"\n',
+        "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "acquisition/publish/x.cpp": "#include <libsmbclient.h>\n",
+        "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/certificate.hpp"\n',
     }
     missed = [path for path, text in planted.items() if not list(complaints(path, text))]
     fine = list(complaints("drivers/x.cpp", '#include "analysis/run_record.hpp"\n#include <modbus.h>\n'))

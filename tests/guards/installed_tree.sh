@@ -10,7 +10,8 @@ fail() { echo "FAILED: $*"; exit 1; }
 DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" \
     || { cat "$root/install.log"; fail "cmake --install"; }
 
-wanted=(/usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
+wanted=(/usr/share/doc/axiscal/LICENSE /usr/share/doc/axiscal/LICENSES/GPL-3.0-or-later.txt
+    /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
 while read -r file; do wanted+=("/usr/share/axiscal/conformance/${file#"$source"/tests/reference/conformance/}")

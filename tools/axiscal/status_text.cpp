@@ -89,6 +89,31 @@ std::string channel_text(const Json& channel) {
            (place.empty() ? "" : ", " + place) + ")\n";
 }
 
+std::string age_text(double seconds) {
+    constexpr double minute = 60, hour = 3600;
+    if (seconds < 2 * minute) return format("%.0f s", seconds);
+    if (seconds < 2 * hour) return format("%.0f min", seconds / minute);
+    return format("%.0f h", seconds / hour);
+}
+
+std::string outbox_text(const Json& outbox) {
+    std::string text = format("Outbox       %d waiting", outbox.at("waiting").get<int>());
+    if (outbox.at("oldest_s").is_number())
+        text += ", the oldest since " + age_text(outbox.at("oldest_s").get<double>());
+    const Json& publisher = outbox.at("publisher");
+    const auto destination = publisher.at("destination").get<std::string>();
+    if (!destination.empty()) text += ", to " + destination;
+    if (publisher.at("runs") == false) text += "   PUBLISHER NOT RUNNING";
+    text += "\n";
+    const auto alarm = outbox.at("alarm").get<std::string>();
+    const auto reason = publisher.at("reason").get<std::string>();
+    if (!alarm.empty())
+        text += "             ALARM: " + alarm + "\n";
+    else if (outbox.at("waiting") != 0 && !reason.empty())
+        text += "             " + reason + "\n";
+    return text;
+}
+
 } // namespace
 
 std::string instruments_text(const Json& instruments) {
@@ -137,7 +162,7 @@ std::string status_text(const Json& status) {
     for (const Json& channel : status.at("channels"))
         if (worth_showing(channel)) text += channel_text(channel);
     text += "Instruments\n" + instruments_text(status.at("instruments"));
-    text += format("Outbox       %d waiting\n", status.at("outbox_entries").get<int>());
+    text += outbox_text(status.at("outbox"));
     for (const Json& note : status.at("notes"))
         text += "  " + note.get<std::string>() + "\n";
     return text;

@@ -166,6 +166,34 @@ TEST(AxiscalPublish, RefusesWrongUseAndWrongStationFiles) {
     EXPECT_EQ((Program{{"--config", site.scratch.file("station.toml")}}.exit_code()), 3);
     EXPECT_EQ((Program{{"--config", site.scratch.file("none.toml")}}.exit_code()), 3);
     EXPECT_EQ((Program{{"--help"}}.exit_code()), 0);
+    EXPECT_EQ((Program{{"--outbox", site.outbox, "--to", "smb://server"}}.exit_code()), 2);
+}
+
+TEST(AxiscalPublish, IsOneAnOutbox) {
+    const Site site;
+    std::filesystem::create_directory(site.destination);
+    Program first{site.words()};
+    ASSERT_TRUE(stage_entry(site.outbox, "run-1", {{"a", "x"}}));
+    EXPECT_EQ(first.line()["event"], "published"); // it holds the outbox
+    EXPECT_EQ(Program{site.words({"--once"})}.exit_code(), 3);
+    first.stop();
+    EXPECT_EQ(first.exit_code(), 0);
+    EXPECT_EQ(Program{site.words({"--once"})}.exit_code(), 0);
+}
+
+TEST(AxiscalPublish, LeavesWordOfItsStateBesideTheOutbox) {
+    const Site site;
+    const auto report = [&] {
+        return nlohmann::json::parse(read_bytes(site.scratch.file("state/publisher.json")));
+    };
+    ASSERT_TRUE(stage_entry(site.outbox, "run-1", {{"a", "x"}}));
+    EXPECT_EQ(Program{site.words({"--once"})}.exit_code(), 1);
+    EXPECT_EQ(report()["state"], "waiting");
+    EXPECT_NE(report()["reason"].get<std::string>().find(site.destination), std::string::npos);
+    std::filesystem::create_directory(site.destination);
+    EXPECT_EQ(Program{site.words({"--once"})}.exit_code(), 0);
+    EXPECT_EQ(report()["state"], "idle");
+    EXPECT_EQ(report()["reason"], "");
 }
 
 } // namespace

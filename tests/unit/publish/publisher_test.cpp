@@ -1,3 +1,4 @@
+#include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 
 #include "tests/support/scratch_folder.hpp"
@@ -24,13 +25,56 @@ struct Heard final : PublisherListener {
     void progress() override {}
 };
 
+/// A folder whose server can be taken away; counts what is asked of it.
+class ShakyDestination final : public Destination {
+public:
+    explicit ShakyDestination(std::string root)
+        : folder_{std::move(root)} {}
+    std::optional<Error> answer; ///< to everything that writes
+    int writes = 0, checks = 0;
+
+    [[nodiscard]] std::string place() const override { return folder_.place(); }
+    Result<void> check() override { return ++checks, folder_.check(); }
+    Result<bool> make_folder(const std::string& path) override {
+        ++writes;
+        if (answer) return tl::unexpected<Error>(*answer);
+        return folder_.make_folder(path);
+    }
+    Result<std::vector<std::string>> names_in(const std::string& folder) override {
+        return folder_.names_in(folder);
+    }
+    Result<std::string> sha256_of(const std::string& path, const Progress& progress) override {
+        return folder_.sha256_of(path, progress);
+    }
+    Result<std::string> write_and_read_back(const std::string& source,
+                                            const std::string& path,
+                                            const Progress& progress) override {
+        return folder_.write_and_read_back(source, path, progress);
+    }
+    Result<void> move_to_free_name(const std::string& from, const std::string& to) override {
+        return folder_.move_to_free_name(from, to);
+    }
+    Result<void> remove_file(const std::string& path) override { return folder_.remove_file(path); }
+    Result<void> sync_folder(const std::string& path) override { return folder_.sync_folder(path); }
+
+private:
+    FolderDestination folder_;
+};
+
 struct Post {
     ScratchFolder scratch;
     std::string outbox = scratch.file("outbox"), destination = scratch.file("share");
     Heard heard;
-    Publisher publisher{{outbox, destination, std::chrono::seconds{1}}, heard};
-    std::size_t pass_at(int second) {
-        return publisher.pass(MonotonicTime{std::chrono::seconds{second}}, 0);
+    int second = 0;
+    ShakyDestination share{destination};
+    Publisher publisher{{outbox, std::chrono::seconds{1}},
+                        {[this] { return MonotonicTime{std::chrono::seconds{second}}; },
+                         [] { return std::int64_t{0}; }},
+                        share,
+                        heard};
+    std::size_t pass_at(int now) {
+        second = now;
+        return publisher.pass();
     }
 };
 
@@ -48,6 +92,44 @@ TEST(Publisher, SaysOnceThatTheDestinationIsGoneAndOnceThatItIsBack) {
     EXPECT_EQ(post.heard.lines, (Lines{"waiting ", "back", "published run-1"}));
     EXPECT_TRUE(std::filesystem::exists(post.scratch.file("published/run-1/receipt.json")));
     EXPECT_TRUE(list_entries(post.outbox).empty());
+}
+
+TEST(Publisher, AsksALostShareOnceAPassHoweverManyResultsWait) {
+    Post post;
+    std::filesystem::create_directory(post.destination);
+    for (int run = 100; run < 200; ++run)
+        ASSERT_TRUE(stage_entry(post.outbox, "run-" + std::to_string(run), {{"a", "x"}}));
+    post.share.answer = share_lost("frozen").value();
+    EXPECT_EQ(post.pass_at(0), 100U);
+    EXPECT_EQ(post.share.writes, 1);
+    for (int second = 1; second <= 100; ++second)
+        post.pass_at(second);
+    EXPECT_EQ(post.share.writes, 10); // at 0 1 3 7 15 31 47 63 79 95 s: doubling up to 16 s
+    EXPECT_EQ(post.heard.lines, Lines{"waiting "});
+    post.share.answer.reset();
+    EXPECT_EQ(post.pass_at(120), 0U);
+    EXPECT_EQ(post.heard.lines.size(), 102U); // waiting, back, 100 published
+    EXPECT_EQ(post.heard.lines.at(1), "back");
+}
+
+TEST(Publisher, ASlowRefusalDoesNotShortenThePause) {
+    Post post;
+    std::filesystem::create_directory(post.destination);
+    ASSERT_TRUE(stage_entry(post.outbox, "run-1", {{"a", "x"}}));
+    post.share.answer = share_lost("frozen").value();
+    post.pass_at(0);
+    EXPECT_EQ(post.publisher.next_due(), MonotonicTime{std::chrono::seconds{1}});
+    post.share.answer->detail = "still frozen";
+    post.pass_at(10); // its pause of 2 s counts from the end of the attempt
+    EXPECT_EQ(post.publisher.next_due(), MonotonicTime{std::chrono::seconds{12}});
+}
+
+TEST(Publisher, TouchesNoShareWhileNothingWaits) {
+    Post post;
+    std::filesystem::create_directory(post.destination);
+    for (int second = 0; second < 100; ++second)
+        EXPECT_EQ(post.pass_at(second), 0U);
+    EXPECT_EQ(post.share.checks, 0);
 }
 
 TEST(Publisher, LetsOneBadEntryNotHoldTheOthers) {

@@ -1,6 +1,7 @@
 #include "acquisition/publish/share.hpp"
 
 #include "acquisition/journal/digest.hpp"
+#include "acquisition/publish/folder_destination.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,8 @@ struct Share {
         return read_entry(outbox, "run-1").value();
     }
     [[nodiscard]] Result<PublishReceipt> copy(const OutboxEntry& entry) const {
-        return copy_entry(entry, destination, published_at);
+        FolderDestination folder{destination};
+        return copy_entry(entry, folder, published_at);
     }
     [[nodiscard]] std::string at(const std::string& name) const { return destination + "/" + name; }
 };
@@ -88,9 +90,70 @@ TEST(Share, IsNotMadeWhereItIsMissing) {
     const auto entry = share.entry({{"a", "x"}});
     std::filesystem::remove(share.destination);
     const auto copied = share.copy(entry);
-    EXPECT_EQ(copied.error().fault, Fault::io);
+    EXPECT_TRUE(is_share_lost(copied.error()));
     EXPECT_NE(copied.error().detail.find(share.destination), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(share.destination));
+}
+
+TEST(Share, SweepsItsOwnUnfinishedFilesAndNobodyElses) {
+    const Share share;
+    std::filesystem::create_directory(share.at("run-1"));
+    const auto own = share.at("run-1/.a." + mark_of(share.outbox) + ".part");
+    const auto foreign = share.at("run-1/.a.00000000.part");
+    write_bytes(own, "half a fi");
+    write_bytes(foreign, "another station is at work");
+    EXPECT_EQ(share.copy(share.entry({{"a", "ours"}}))->folder, share.at("run-1"));
+    EXPECT_FALSE(std::filesystem::exists(own));
+    EXPECT_EQ(read_bytes(foreign), "another station is at work");
+}
+
+TEST(Share, SweepsAlsoTheFolderThatItGoesAround) {
+    const Share share;
+    std::filesystem::create_directory(share.at("run-1"));
+    const auto own = share.at("run-1/.a." + mark_of(share.outbox) + ".part");
+    write_bytes(own, "half a fi");
+    write_bytes(share.at("run-1/a"), "somebody else's");
+    EXPECT_EQ(share.copy(share.entry({{"a", "ours"}}))->folder, share.at("run-1-2"));
+    EXPECT_FALSE(std::filesystem::exists(own));
+}
+
+TEST(Share, TakesANameOfOtherCaseForTaken) {
+    const Share share;
+    std::filesystem::create_directory(share.at("run-1"));
+    write_bytes(share.at("run-1/A.JSON"), "somebody else's");
+    EXPECT_EQ(share.copy(share.entry({{"a.json", "ours"}}))->folder, share.at("run-1-2"));
+    EXPECT_EQ(read_bytes(share.at("run-1/A.JSON")), "somebody else's");
+}
+
+/// A share that gives back other bytes than it took.
+class ForgetfulDestination final : public Destination {
+public:
+    std::vector<std::string> renamed;
+    [[nodiscard]] std::string place() const override { return "forgetful"; }
+    Result<void> check() override { return {}; }
+    Result<bool> make_folder(const std::string&) override { return true; }
+    Result<std::vector<std::string>> names_in(const std::string&) override {
+        return std::vector<std::string>{};
+    }
+    Result<std::string> sha256_of(const std::string&, const Progress&) override { return {}; }
+    Result<std::string>
+    write_and_read_back(const std::string&, const std::string&, const Progress&) override {
+        return sha256_hex("other bytes");
+    }
+    Result<void> move_to_free_name(const std::string&, const std::string& to) override {
+        renamed.push_back(to);
+        return {};
+    }
+    Result<void> remove_file(const std::string&) override { return {}; }
+    Result<void> sync_folder(const std::string&) override { return {}; }
+};
+
+TEST(Share, GivesNoFinalNameToBytesThatCameBackWrong) {
+    const Share share;
+    ForgetfulDestination forgetful;
+    const auto copied = copy_entry(share.entry({{"a", "ours"}}), forgetful, published_at);
+    EXPECT_EQ(copied.error().fault, Fault::checksum);
+    EXPECT_TRUE(forgetful.renamed.empty());
 }
 
 /// Copies in a child that kills itself at the given progress call; false when it came to the end.
@@ -98,7 +161,8 @@ bool killed_while_copying(const Share& share, const OutboxEntry& entry, int kill
     const pid_t pid = ::fork();
     if (pid == 0) {
         int calls = 0;
-        const auto copied = copy_entry(entry, share.destination, published_at, [&] {
+        FolderDestination folder{share.destination};
+        const auto copied = copy_entry(entry, folder, published_at, [&] {
             if (++calls == kill_at) ::kill(::getpid(), SIGKILL);
         });
         ::_exit(copied ? 0 : 1);
@@ -125,8 +189,9 @@ TEST(Share, NeverShowsAHalfFileWhereverTheCopyIsKilled) {
         EXPECT_EQ(share.copy(entry)->folder, share.at("run-1")); // and it goes on from there
         for (const auto& [name, content] : files) {
             EXPECT_TRUE(read_bytes(share.at("run-1/" + name)) == content);
-            EXPECT_FALSE(std::filesystem::exists(share.at("run-1/." + name + ".part")));
         }
+        const std::filesystem::directory_iterator all{share.at("run-1")};
+        EXPECT_EQ(std::distance(begin(all), end(all)), 3); // no .part left
     }
     EXPECT_GT(kills, 10); // the copy has that many places to die
 }

@@ -1,0 +1,132 @@
+#include "acquisition/station/outbox_watch.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+using testing::ScratchFolder;
+using testing::write_bytes;
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+struct Shelf {
+    ScratchFolder scratch;
+    PublishConfig config;
+    std::int64_t now_ns = std::int64_t{::time(nullptr)} * second_ns;
+    OutboxWatch watch;
+    explicit Shelf(int alarm_count = 10)
+        : config{make_config(alarm_count)}
+        , watch{scratch.path(), config} {
+        std::filesystem::create_directory(scratch.file("outbox"));
+    }
+    static PublishConfig make_config(int alarm_count) {
+        PublishConfig config;
+        config.destination = "smb://fs1/quality";
+        config.alarm_count = alarm_count;
+        return config;
+    }
+    /// As finished so many seconds ago.
+    void put(const std::string& run_id, std::int64_t age_s) const {
+        const auto folder = scratch.file("outbox/" + run_id);
+        std::filesystem::create_directory(folder);
+        const timespec then{static_cast<time_t>(now_ns / second_ns - age_s), 0};
+        const timespec both[2] = {then, then};
+        ASSERT_EQ(::utimensat(AT_FDCWD, folder.c_str(), both, 0), 0);
+    }
+    void say(const std::string& state, const std::string& reason) const {
+        write_bytes(
+            scratch.file("publisher.json"),
+            R"({"format":"axiscal.publisher/1","destination":"smb://fs1/quality","state":")" +
+                state + R"(","reason":")" + reason + R"(","since_utc":"2026-11-21T10:00:00Z"})");
+    }
+    [[nodiscard]] OutboxView look() { return watch.look(now_ns); }
+};
+
+TEST(OutboxWatch, CountsWhatWaitsAndHowLong) {
+    Shelf shelf;
+    EXPECT_EQ(shelf.look().waiting, 0);
+    EXPECT_FALSE(shelf.look().oldest_s);
+    shelf.put("run-1", 40);
+    shelf.put("run-2", 300);
+    shelf.put(".run-3.staging", 4000);
+    EXPECT_EQ(shelf.look().waiting, 2);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 300);
+    shelf.now_ns += 10 * second_ns;
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 310);
+    std::filesystem::remove(shelf.scratch.file("outbox/run-2"));
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 50);
+}
+
+TEST(OutboxWatch, IsNotAlarmedByAClockThatWasSetBack) {
+    Shelf shelf;
+    shelf.put("run-1", -4000);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 0);
+    EXPECT_EQ(shelf.look().alarm, "");
+}
+
+TEST(OutboxWatch, AlarmsWhenTheOldestIsOlderThanTheLimit) {
+    Shelf shelf;
+    shelf.put("run-1", 899);
+    shelf.say("waiting", "the share is full");
+    EXPECT_EQ(shelf.look().alarm, "");
+    shelf.now_ns += 100 * second_ns; // limit: 15 min
+    EXPECT_NE(shelf.look().alarm.find("1 result waits for the share since 16 min"),
+              std::string::npos)
+        << shelf.look().alarm;
+}
+
+TEST(OutboxWatch, AlarmsWhenTooManyWaitAndSaysWhetherAnybodyIsAtWork) {
+    Shelf shelf{3};
+    for (const char* run : {"run-1", "run-2", "run-3"}) {
+        EXPECT_EQ(shelf.look().alarm, "");
+        shelf.put(run, 0);
+    }
+    shelf.say("waiting", "the share is full");
+    EXPECT_NE(shelf.look().alarm.find("axiscal-publish does not run"), std::string::npos);
+    EXPECT_FALSE(shelf.look().publisher_runs);
+
+    const int lock = ::open(shelf.scratch.file("publisher.lock").c_str(), O_RDWR | O_CREAT, 0640);
+    struct flock whole {};
+    whole.l_type = F_WRLCK;
+    ASSERT_EQ(::fcntl(lock, F_OFD_SETLK, &whole), 0);
+    EXPECT_TRUE(shelf.look().publisher_runs);
+    EXPECT_NE(shelf.look().alarm.find("3 results wait"), std::string::npos);
+    EXPECT_NE(shelf.look().alarm.find("the share is full"), std::string::npos);
+    ::close(lock);
+    EXPECT_FALSE(shelf.look().publisher_runs);
+}
+
+TEST(OutboxWatch, TakesNoReportOnTrust) {
+    Shelf shelf;
+    for (const char* text : {"", "{", "[]", "null", R"({"format":"other","reason":"x"})",
+                             R"({"format":"axiscal.publisher/1","reason":7})"}) {
+        write_bytes(shelf.scratch.file("publisher.json"), text);
+        EXPECT_EQ(shelf.look().reason, "") << text;
+    }
+    write_bytes(shelf.scratch.file("publisher.json"), std::string(100'000, ' '));
+    EXPECT_EQ(shelf.look().state, "");
+    shelf.say("idle", "");
+    EXPECT_EQ(shelf.look().state, "idle");
+    EXPECT_EQ(shelf.look().destination, "smb://fs1/quality");
+}
+
+TEST(OutboxWatch, IsSilentWhereNoShareIsWanted) {
+    ScratchFolder scratch;
+    std::filesystem::create_directories(scratch.file("outbox/run-1"));
+    OutboxWatch watch{scratch.path(), PublishConfig{}};
+    const auto view = watch.look((std::int64_t{::time(nullptr)} + 1'000'000) * second_ns);
+    EXPECT_EQ(view.waiting, 1);
+    EXPECT_EQ(view.alarm, "");
+}
+
+} // namespace
+} // namespace axiscal
