@@ -271,6 +271,18 @@ Task<Result<JournalReceipt>> Journal::receipt_by(Lookup lookup, int key, int ste
     co_return JournalReceipt{*sequence, step};
 }
 
+Task<Result<JournalReceipt>> Journal::receipt_of_closed(std::string path) {
+    Worker* worker = worker_.get();
+    std::function<Result<LastRequest>()> work = [path]() -> Result<LastRequest> {
+        AXISCAL_TRY(const auto last, last_request_of_closed(path));
+        if (!last) return fail(Fault::not_found, path + " holds nothing that a CNC asked for");
+        return *last;
+    };
+    const auto last = co_await perform<Worker, LastRequest>(worker, std::move(work));
+    if (!last) co_return tl::unexpected<Error>(last.error());
+    co_return JournalReceipt{last->sequence, last->step};
+}
+
 void Journal::note(EventRecord event) {
     std::vector<EventRecord> one_event;
     one_event.push_back(std::move(event));

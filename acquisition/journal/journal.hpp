@@ -57,6 +57,10 @@ public:
     /// The same for a skipped step, which is an event: found by the request that skipped it.
     Task<Result<JournalReceipt>> receipt_for_skip(std::uint16_t sequence, int step);
 
+    /// For what the newest request of a closed run made durable.
+    /// @errors Fault::not_found when no request did; Fault::refused while it is open.
+    Task<Result<JournalReceipt>> receipt_of_closed(std::string path);
+
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);
     void note(std::vector<EnvironmentReading> readings);

@@ -80,11 +80,12 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRe
         AXISCAL_TRY(auto writer, attach(unfinished));
         AXISCAL_CHECK(
             writer.database_->execute("PRAGMA synchronous=EXTRA; PRAGMA page_size=4096;"));
-        AXISCAL_CHECK(writer.database_->execute(
+        const std::string mark =
             "PRAGMA application_id=" + std::to_string(run_file_application_id) +
-            "; PRAGMA user_version=" + std::to_string(run_file_version) + ";"));
-        AXISCAL_CHECK(writer.database_->execute(run_file_schema(run_file_version)));
-        AXISCAL_CHECK(writer.transact(header_rows(header)));
+            "; PRAGMA user_version=" + std::to_string(run_file_version) + ";";
+        // One transaction: a disk that takes 10 ms for a sync is not asked for it table by table.
+        AXISCAL_CHECK(
+            writer.transact(header_rows(header), mark + run_file_schema(run_file_version)));
         return writer.head_;
     }();
     if (!head) return tl::unexpected<Error>(head.error());
@@ -123,12 +124,14 @@ Result<void> RunFileWriter::append(const ChainedRow& row) {
     return {};
 }
 
-Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows) {
+Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
+                                     const std::string& before) {
     if (broken_) return tl::unexpected<Error>(*broken_);
     for (const auto& row : rows)
         AXISCAL_CHECK(check_before_writing(row));
     return keep([&]() -> Result<void> {
         AXISCAL_CHECK(database_->execute("BEGIN IMMEDIATE"));
+        if (!before.empty()) AXISCAL_CHECK(database_->execute(before));
         for (const auto& row : rows)
             AXISCAL_CHECK(append(row));
         return database_->execute("COMMIT");

@@ -69,7 +69,8 @@ private:
     RunFileWriter(std::string path, std::unique_ptr<Database> database);
     static Result<RunFileWriter> attach(const std::string& path);
     Result<void> append(const ChainedRow& row);
-    Result<void> transact(const std::vector<ChainedRow>& rows);
+    /// `before`: SQL of the same transaction that comes first.
+    Result<void> transact(const std::vector<ChainedRow>& rows, const std::string& before = {});
     Result<void> keep(Result<void> outcome);
 
     std::string path_;
@@ -105,12 +106,22 @@ Result<void> store_result(const std::string& path, const StoredResult& result);
 /// @errors Fault::not_found when none is stored; Fault::bad_run_file when it was changed.
 Result<StoredResult> read_stored_result(const std::string& path);
 
+/// What the CNC was last told as `done` under a closed run: the newest point, datum, skip or end
+/// that a request made durable.
+struct LastRequest {
+    std::uint16_t sequence = 0;
+    int step = -1; ///< -1: no point
+};
+/// Empty when a person did everything. @errors Fault::refused while the run is open.
+Result<std::optional<LastRequest>> last_request_of_closed(const std::string& path);
+
 /// One line of a list of runs, read quickly: the chain is not verified.
 struct RunSummary {
     std::string path, run_id, machine, axis, closing_reason;
     std::int64_t opened_utc_ns = 0;
     int points = 0, planned = 0;
     bool closed = false, complete = false;
+    bool evaluated = false; ///< a result is stored
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.

@@ -232,7 +232,27 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     summary.planned = static_cast<int>(planned);
     summary.closed = closed != 0;
     summary.complete = complete != 0;
+    AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));
+    summary.evaluated = results != 0;
     return summary;
+}
+
+Result<std::optional<LastRequest>> last_request_of_closed(const std::string& path) {
+    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
+    if (closed == 0) return fail(Fault::refused, path + " is still open");
+    AXISCAL_TRY(const auto rows,
+                rows_of(*database,
+                        "SELECT sequence, step, link FROM point UNION ALL "
+                        "SELECT sequence, -1, link FROM datum WHERE sequence<>0 UNION ALL "
+                        "SELECT sequence, -1, link FROM event WHERE sequence<>0 AND kind "
+                        "IN ('skipped','aborted') ORDER BY link DESC LIMIT 1"));
+    if (rows.empty()) return std::optional<LastRequest>{};
+    const auto* sequence = std::get_if<std::int64_t>(&rows[0][0]);
+    const auto* step = std::get_if<std::int64_t>(&rows[0][1]);
+    if (sequence == nullptr || step == nullptr) return bad(path, "a request has another type");
+    return std::optional{
+        LastRequest{static_cast<std::uint16_t>(*sequence), static_cast<int>(*step)}};
 }
 
 std::vector<RunSummary> list_run_files(const std::string& folder) {

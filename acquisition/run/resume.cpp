@@ -47,6 +47,11 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
     const auto closing = [](std::string why) {
         return ResumeVerdict{ResumeDecision::close_datum_lost, Fault::datum_lost, std::move(why)};
     };
+    const bool armed = std::ranges::any_of(
+        run.events, [](const EventRecord& event) { return event.kind == EventKind::armed; });
+    if (run.datums.empty() && !armed)
+        return {ResumeDecision::close_never_armed, Fault::no_run_armed,
+                "The station went down before the datum was tied; nothing was measured yet."};
     if (run.datums.empty()) return {};
     if (now.boot_id != run.boot_id)
         return closing("The datum is lost: the computer was restarted since.");

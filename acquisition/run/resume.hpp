@@ -19,6 +19,7 @@ enum class ResumeDecision : std::uint8_t {
     close_sequence_lost,  ///< any other request
     close_config_changed, ///< the station file is not the run's
     close_other_instrument,
+    close_never_armed, ///< the daemon ended between opening the run and tying its datum
     close_datum_lost
 };
 
@@ -95,8 +96,8 @@ std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event);
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);
 
-/// Everything: configuration, instrument, datum, then the request. A run without a datum has none
-/// to lose.
+/// Everything: configuration, instrument, datum, then the request. A run whose datum the CNC is to
+/// tie has none to lose; one whose datum a person was tying has to be armed again.
 ResumeVerdict
 decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now);
 

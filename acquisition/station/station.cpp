@@ -84,13 +84,16 @@ Task<Result<void>> Station::start() {
     }
     supervisor_.start();
     spawn(scheduler_, tick());
-    const auto left_open = open_runs();
-    if (!left_open) co_return tl::unexpected<Error>(left_open.error());
-    for (const std::string& path : *left_open) {
-        auto resumed = co_await resume_or_close(path);
+    AXISCAL_CO_TRY(std::vector<RunSummary> stored, stored_runs());
+    for (const RunSummary& run : stored) {
+        if (run.closed) continue;
+        auto resumed = co_await resume_or_close(run.path);
         if (!resumed)
-            note("The open run " + path + " could not be continued: " + describe(resumed.error()));
+            note("The open run " + run.path +
+                 " could not be continued: " + describe(resumed.error()));
     }
+    co_await publish_done_of_closed(stored);
+    spawn(scheduler_, certify_left_over(std::move(stored)));
     boost::asio::co_spawn(scheduler_.executor(), serve_port(),
                           boost::asio::bind_cancellation_slot(end_port_.slot(), RethrowOnLoop{}));
     co_return Result<void>{};

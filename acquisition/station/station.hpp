@@ -7,6 +7,7 @@
 #include "acquisition/capture/environment_watch.hpp"
 #include "acquisition/capture/sample_history.hpp"
 #include "acquisition/journal/journal.hpp"
+#include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "acquisition/station/roles.hpp"
 #include "acquisition/station/station_face.hpp"
@@ -103,7 +104,10 @@ private:
     // station_arm.cpp: opening and resuming
     Task<Result<std::string>> open_and_tie(ArmRequest request);
     void begin_run(RunRecord header, std::string path, RunMachine machine);
-    [[nodiscard]] Result<std::vector<std::string>> open_runs() const;
+    [[nodiscard]] Result<std::vector<RunSummary>> stored_runs() const;
+    /// Certificates of complete runs that the last daemon could not finish.
+    Task<void> certify_left_over(std::vector<RunSummary> runs);
+    [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> ready_to_measure() const;
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
@@ -113,6 +117,7 @@ private:
     Task<double> laser_rate_hz(MonotonicTime limit);
     Task<Result<void>> resume(std::string path, RunRecord run, std::string proof);
     Task<Result<void>> publish_last_done(RunRecord run);
+    Task<void> publish_done_of_closed(const std::vector<RunSummary>& stored);
     Task<void> close_left_over(std::string path, std::string reason, Fault fault);
     [[nodiscard]] std::string laser_serial() const;
     [[nodiscard]] const StationChannel& channel_of(int id) const;

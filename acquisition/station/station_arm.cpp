@@ -139,10 +139,10 @@ Result<void> Station::abort(std::string reason) {
     return {};
 }
 
-Result<std::vector<std::string>> Station::open_runs() const {
+Result<std::vector<RunSummary>> Station::stored_runs() const {
     const std::string folder = config_.state_directory + "/runs";
     AXISCAL_CHECK(tidy_run_files(folder));
-    return open_run_files(folder);
+    return list_run_files(folder);
 }
 
 bool Station::instruments_returned() const {
@@ -229,6 +229,17 @@ Task<Result<void>> Station::publish_last_done(RunRecord run) {
     last_receipt_ = *receipt;
     port_->acknowledge(*receipt);
     co_return Result<void>{};
+}
+
+/// The last daemon may have closed its run and died before the CNC could read `done` of the last
+/// point: it stands there and waits for it.
+Task<void> Station::publish_done_of_closed(const std::vector<RunSummary>& stored) {
+    if (run_open() || left_over_fault_ || stored.empty()) co_return;
+    const RunSummary& newest = *std::ranges::max_element(stored, {}, &RunSummary::opened_utc_ns);
+    const auto receipt = co_await journal_.receipt_of_closed(newest.path);
+    if (!receipt) co_return;
+    last_receipt_ = *receipt;
+    port_->acknowledge(*receipt);
 }
 
 Task<void> Station::close_left_over(std::string path, std::string reason, Fault fault) {

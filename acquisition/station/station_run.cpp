@@ -6,6 +6,8 @@
 #include "acquisition/station/certificate_writer.hpp"
 #include "drivers/spawn.hpp"
 
+#include <filesystem>
+
 namespace axiscal {
 namespace {
 
@@ -156,6 +158,21 @@ Task<void> Station::close_run(Close action) {
     if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
 }
 
+/// The report program makes its folder before it stores the result: a run that has a result and no
+/// such folder has its certificate, perhaps published and cleared away since.
+bool Station::lacks_certificate(const RunSummary& run) const {
+    std::error_code error;
+    return run.complete &&
+           (!run.evaluated ||
+            std::filesystem::exists(config_.state_directory + "/outbox/." + run.run_id + ".staging",
+                                    error));
+}
+
+Task<void> Station::certify_left_over(std::vector<RunSummary> runs) {
+    for (const RunSummary& run : runs)
+        if (lacks_certificate(run)) co_await certify(run.run_id, run.path);
+}
+
 /// Meanwhile a new run may have been armed: the answer belongs to the run named here.
 Task<void> Station::certify(std::string run_id, std::string path) {
     const auto entry = co_await write_certificate(scheduler_, report_program_, path,
@@ -163,7 +180,7 @@ Task<void> Station::certify(std::string run_id, std::string path) {
     note(entry ? "Certificate written: " + *entry
                : "No certificate for run " + run_id + ": " + describe(entry.error()) +
                      " 'axiscal export " + path + "' tries again.");
-    if (run_->header.run_id != run_id) co_return;
+    if (!run_ || run_->header.run_id != run_id) co_return;
     if (entry)
         run_->certificate = *entry;
     else

@@ -28,6 +28,7 @@ COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", 
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
+            "selftest": ["--state-directory", "--port", "--count"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
         "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
@@ -86,6 +87,25 @@ class Help(Scratch):
         self.expect(2, "analyze")
         self.expect(2, "status", "--no-such-option")
         self.expect(2, "arm", "--state-that", "no equals sign")
+
+
+class SelfTest(Scratch):
+    def test_it_measures_and_says_what_it_means(self):
+        told = json.loads(self.expect(0, "selftest", "--state-directory", self.folder, "--count", "20",
+                                      "--port", "/dev/null-and-void", "--json").stdout)
+        for what in ("commit", "timer", "serial"):
+            self.assertGreaterEqual(told[what]["worst_us"], told[what]["median_us"])
+            self.assertGreater(told[what]["median_us"], 0)
+            self.assertGreater(len(told[what]["means"]), 40)
+        self.assertIn("/dev/null-and-void cannot be used", told["ports"][0]["means"])
+        self.assertEqual(os.listdir(self.folder), [])
+        words = self.expect(0, "selftest", "--state-directory", self.folder, "--count", "20").stdout
+        for line in ("disk ", "timer ", "serial "):
+            self.assertIn(line, words)
+
+    def test_a_folder_that_cannot_be_written_is_named(self):
+        got = self.expect(1, "selftest", "--state-directory", os.path.join(self.folder, "nothing"))
+        self.assertIn("nothing", got.stderr)
 
 
 class Analyze(Scratch):

@@ -119,6 +119,7 @@ class Bench:
     def __init__(self):
         self.folder = Path(tempfile.mkdtemp(prefix="axiscal-"))
         self.processes = {}
+        self.environment = {}  # of the daemon, and of what it starts
         self.logs = []
         self.daemon_environment = {}
         self.share = self.folder / "share"
@@ -192,6 +193,7 @@ class Bench:
             process = subprocess.Popen(
                 [self.program(name), *map(str, words)],
                 cwd=self.folder,
+                env={**os.environ, **(self.environment if name == "axiscald" else {})},
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,

@@ -40,6 +40,7 @@ struct Options {
     std::vector<std::string> statements;
     ProgramRequest program;
     ConformanceOrder conformance;
+    SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
 };
 
 StationClient client_of(Options& options) {
@@ -145,6 +146,23 @@ the certificate says the same; 8 something is not, and each row is named with it
 3 the file is no run file, or its pages are damaged; 1 it cannot be read.
 A run that is still open can be verified as well. See docs/run-file.md for what the chain can show.)";
 
+void add_selftest_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* command = app.add_subcommand(
+        "selftest", "Measures this PC: durable commit, timer, serial lines, and what they mean");
+    command
+        ->add_option("--state-directory", options.selftest.folder,
+                     "folder on the disk that keeps the runs")
+        ->capture_default_str();
+    command->add_option(
+        "--port", options.selftest.ports,
+        "serial port to be looked at, as /dev/ttyUSB0; may be given more than once");
+    command->add_option("--count", options.selftest.count, "trials of each kind")
+        ->check(CLI::Range(10, 100000))
+        ->capture_default_str();
+    command->callback(
+        [&] { chosen = [&] { return command_selftest(options.selftest, options.json); }; });
+}
+
 void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* analyze = app.add_subcommand(
         "analyze",
@@ -247,6 +265,7 @@ int run(int argc, char** argv) {
     add_daemon_commands(app, options, chosen);
     add_offline_commands(app, options, chosen);
     add_conformance_command(app, options, chosen);
+    add_selftest_command(app, options, chosen);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag("--json", options.json, "print JSON for programs");
     try {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
@@ -26,6 +27,14 @@ int command_export(const std::string& run_file, const std::string& out_directory
 /// Holds a run file against its hash chain and its certificate; `certificate` empty: the one beside
 /// it. Exit 8 when a row or a figure is not what was written; each is named.
 int command_verify(const std::string& run_file, const std::string& certificate, bool json);
+
+struct SelfTestRequest {
+    std::string folder;             ///< of the state: there the disk is measured
+    std::vector<std::string> ports; ///< serial ports to be looked at
+    int count = 200;                ///< trials of each kind
+};
+/// Measures this computer and says what it means. Exit 1 when it cannot be measured.
+int command_selftest(const SelfTestRequest& request, bool json);
 
 /// Every refusal of the station file at once, with file:line.
 int command_check_config(const std::string& station_file, bool json);

@@ -3,6 +3,8 @@
 // certificate and stages it. stdout: one line of JSON with the paths; stderr: one sentence.
 // Exit 0 done, 1 file or program, 2 usage, 3 the run file is refused or the run is incomplete.
 
+#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
 #include "acquisition/publish/run_certificate.hpp"
@@ -23,17 +25,26 @@ struct Options {
     std::string to; ///< any folder; both get <run-id>/ in one rename
 };
 
-/// The entry appears in the outbox only with all its content.
-Result<std::string> stage(const Certificate& certificate, const Options& options) {
+/// The first evaluation is the station's own report; an export changes nothing.
+Result<void> draw(const Options& options, const std::string& folder) {
+    if (options.to.empty()) AXISCAL_CHECK(seal_result(options.run_file));
+    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(options.run_file));
+    return write_certificate_files(certificate, options.run_file, folder);
+}
+
+/// The entry appears in the outbox only with all its content. Its folder is there before the result
+/// is stored: a station that finds it after a power cut knows that this was not finished.
+Result<std::string> stage(const Options& options) {
+    AXISCAL_TRY(const RunSummary run, summarize_run_file(options.run_file));
     const std::string& folder = options.to.empty() ? options.outbox : options.to;
-    AXISCAL_TRY(const std::string temporary, begin_entry(folder, certificate.run.run_id));
-    if (auto written = write_certificate_files(certificate, options.run_file, temporary);
-        !written) {
+    AXISCAL_TRY(const std::string temporary, begin_entry(folder, run.run_id));
+    AXISCAL_CHECK(sync_folder(folder));
+    if (auto drawn = draw(options, temporary); !drawn) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
-        return tl::unexpected<Error>(std::move(written).error());
+        return tl::unexpected<Error>(std::move(drawn).error());
     }
-    return finish_entry(folder, certificate.run.run_id);
+    return finish_entry(folder, run.run_id);
 }
 
 std::string paths_line(const std::string& entry, const std::string& run_file) {
@@ -56,12 +67,7 @@ bool is_refusal(Fault fault) {
 }
 
 int report(const Options& options) {
-    // Only the station's own report is the first evaluation; an export changes nothing.
-    const Result<void> sealed = options.to.empty() ? seal_result(options.run_file) : Result<void>{};
-    auto certificate =
-        sealed ? certificate_of_run_file(options.run_file) : tl::unexpected<Error>(sealed.error());
-    const auto entry =
-        certificate.and_then([&](const Certificate& made) { return stage(made, options); });
+    const auto entry = stage(options);
     if (!entry) {
         std::cerr << options.run_file << ": " << describe(entry.error()) << "\n";
         return is_refusal(entry.error().fault) ? exit_refused : exit_failed;

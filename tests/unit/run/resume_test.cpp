@@ -101,9 +101,19 @@ TEST(Resume, TellsHowTheDatumWasProven) {
 TEST(Resume, ARunWithoutADatumHasNoneToLose) {
     auto run = run_with_points(0);
     run.datums.clear();
+    run.events.push_back({EventKind::armed, at_s(1), 0, "the CNC ties", Fault::none, 0});
     auto now = same_station(200);
     now.laser.reset();
     EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::capture_standing);
+}
+
+TEST(Resume, ARunWhoseDatumAPersonWasTyingIsClosedToBeArmedAnew) {
+    auto run = run_with_points(0);
+    run.datums.clear();
+    const auto verdict = decide_resume(run, std::nullopt, same_station(200));
+    EXPECT_EQ(verdict.decision, ResumeDecision::close_never_armed);
+    EXPECT_EQ(verdict.fault, Fault::no_run_armed);
+    EXPECT_NE(verdict.sentence.find("before the datum was tied"), std::string::npos);
 }
 
 TEST(Resume, FindsTheNewestDurableRequest) {

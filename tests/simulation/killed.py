@@ -1,0 +1,243 @@
+"""kill -9 before every single write step of a run: nothing acknowledged is lost, nothing is doubled,
+and the result has the same bits as that of a run which nobody disturbed.
+
+    AXISCAL_ALL=1      every step; else every tenth, each time another one of the ten (by the day)
+    AXISCAL_ABREAST=N  so many stations at a time (8)
+"""
+
+import collections
+import datetime
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import sqlite3
+import tempfile
+import time
+
+import bench
+from bench import expect, sentence
+from steps import Steps
+
+POINTS = 30
+PATIENCE_S = 100.0
+
+
+def quiet(b):
+    """A machine that shows the same number whenever one looks: bits can be compared. Short ways."""
+    errors, air, thermal = b.scenario["errors"], b.scenario["air"], b.scenario["thermal"]
+    for key in ("approach_noise_um", "noise_um", "vibration_um", "drift_um_per_hour"):
+        errors[key] = 0.0
+    air["temperature"] = {"start": 23.4}
+    air["pressure_pa"] = {"start": 100250.0}
+    air["humidity_percent"] = {"start": 46.0}
+    thermal["material"] = {"start": 23.0}
+    b.station["axis"]["travel_high"] = "65 mm"
+    b.station["cycle"].update(interval="12 mm", target_count=5, first_target="7 mm", approaches=3)
+    b.hurry(0.1)
+    b.station["capture"]["window"] = "0.05 s"
+    b.station["capture"]["timeout"] = "15 s"  # the CNC holds while the daemon is away
+
+
+class Station:
+    """One run from the datum to the certificate; a daemon that dies is started again."""
+
+    def __init__(self, b, kill_at=0, tear=0):
+        quiet(b)
+        self.b, self.steps = b, Steps(b)
+        self.steps["kill_at"], self.steps["tear"] = kill_at, tear
+        self.runs = b.folder / "state" / "runs"
+        self.seen = None  # what the CNC had seen done, and what was on disk, when the daemon died
+        self.armed_before = False
+
+    def died(self):
+        return self.b.processes["axiscald"].poll() is not None
+
+    def look_at_the_dead(self):
+        code = self.b.processes.pop("axiscald").wait()
+        expect(code == -signal.SIGKILL, f"axiscald ended with {code}")
+        expect(self.seen is None, "it died twice")
+        self.seen = {"done": self.b.sim("status")["done"], "rows": self.rows_on_disk()}
+        self.steps["kill_at"] = 0
+        self.steps["first_program"] = 0
+
+    def rows_on_disk(self):
+        """{file: {sequence: (step, link, hash)}}, read from a copy: looking must not mend anything."""
+        rows = {}
+        with tempfile.TemporaryDirectory() as copy:
+            for path in self.runs.glob("*.axiscal*") if self.runs.exists() else []:
+                shutil.copy(path, copy)
+            for name in sorted(os.listdir(copy)):
+                if not name.endswith(".axiscal"):
+                    continue
+                base = sqlite3.connect(os.path.join(copy, name))
+                rows[name] = {
+                    sequence: rest
+                    for sequence, *rest in base.execute("SELECT sequence, step, link, hash FROM point")
+                }
+                base.close()
+        return rows
+
+    def start_daemon(self):
+        while True:
+            try:
+                return self.b.start_daemon()
+            except AssertionError:
+                if not self.died():
+                    raise
+                self.look_at_the_dead()
+
+    def keep_until(self, what, probe):
+        """Waits for probe() and brings the daemon back when it dies meanwhile."""
+        end = time.monotonic() + PATIENCE_S
+        while True:
+            if self.died():
+                self.look_at_the_dead()
+                self.start_daemon()
+            try:
+                found = probe()
+                if found:
+                    return found
+            except OSError:
+                found = None  # it is dying
+            expect(time.monotonic() < end, f"after {PATIENCE_S:g} s still not: {what}")
+            time.sleep(bench.LOOK_S)
+
+    def good(self):
+        return self.b.channels_are_good()
+
+    def try_to_arm(self):
+        if not self.good():
+            return False
+        run = self.b.run()
+        if run and self.b.status()["run_open"]:
+            if run["state"] != "idle":
+                return True
+            self.b.axiscal("abort", "--reason", "never armed")  # died before the datum was on disk
+            return False
+        try:
+            self.b.arm()
+            return True
+        except AssertionError as refusal:
+            if "exists already" not in str(refusal):  # two runs within one second
+                bench.wait_until(f"the daemon is dead; it said: {refusal}", self.died, 5)
+            return False
+
+    def finished(self):
+        status = self.b.sim("status")
+        expect(status["program"] in ("running", "done"), f"the part program: {status}")
+        entries = list((self.b.folder / "state" / "outbox").glob("[!.]*/certificate.json"))
+        return status["program"] == "done" and entries and entries[0]
+
+    def go(self):
+        b = self.b
+        b.start_simulator()
+        b.write_station()
+        self.start_daemon()
+        b.write_program()
+        b.go_to_datum()
+        self.keep_until("every sensor gives a value", self.good)
+        self.keep_until("the run is armed", self.try_to_arm)
+        certificate = json.loads(self.keep_until("the certificate", self.finished).read_text())
+        b.end("axiscald")
+        return self.judge(certificate)
+
+    def judge(self, certificate):
+        name = certificate["run"]["id"] + ".axiscal"
+        told = json.loads(self.b.axiscal("verify", self.runs / name, "--json"))
+        rows = self.rows_on_disk()
+        expect(sum(len(points) for points in rows.values()) == POINTS, f"points: {rows}")
+        points = rows[name]
+        expect(sorted(points) == list(range(1, POINTS + 1)), f"sequences: {sorted(points)}")
+        expect(sorted(step for step, _, _ in points.values()) == list(range(POINTS)), f"steps: {points}")
+        remarks = " ".join(certificate["run"]["remarks"])
+        phase = "nothing was killed"
+        if self.seen:
+            phase = self.judge_the_dead(name, points, remarks)
+        return {"digest": told["result_digest"], "steps": self.steps["count"], "phase": phase,
+                "log": self.steps.log(), "remarks": remarks}
+
+    def judge_the_dead(self, name, points, remarks):
+        before = self.seen["rows"].get(name, {})
+        done = self.seen["done"] or 0
+        if done != 65535:  # "never armed"
+            for sequence in range(1, done + 1):
+                expect(sequence in before, f"{sequence} was acknowledged and is not on disk: {before}")
+        for sequence, row in before.items():
+            expect(points[sequence] == row, f"{sequence} was on disk as {row} and is {points[sequence]}")
+        if not before:
+            return "before the first point"
+        if len(before) == POINTS:
+            return "after the last point"
+        expect("The station recorded nothing for" in remarks, f"no word of the interruption: {remarks}")
+        return "between the points"
+
+
+def run_one(order):
+    """One run in a process of its own; gives back what happened, or why it failed."""
+    kill_at, tear = order
+    signal.alarm(int(2 * PATIENCE_S))
+    b = bench.Bench()
+    try:
+        began = time.monotonic()
+        outcome = Station(b, kill_at, tear).go()
+        outcome["seconds"] = time.monotonic() - began
+        return order, outcome
+    except BaseException as error:  # pylint: disable=broad-except
+        b.print_logs()
+        return order, {"error": f"{type(error).__name__}: {error}"}
+    finally:
+        signal.alarm(0)
+        for process in b.processes.values():
+            process.kill()
+            process.wait()
+        shutil.rmtree(b.folder, ignore_errors=True)
+
+
+def undisturbed():
+    order, outcome = run_one((0, 0))
+    expect("error" not in outcome, f"{order}: {outcome}")
+    return outcome
+
+
+def kinds_of(log):
+    counted = collections.Counter(kind for kind, _, _ in log)
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(counted.items()))
+
+
+def kill_all(orders, right):
+    """Runs every order, some at a time; the first failure is told with its logs."""
+    phases, seconds, failures = collections.Counter(), 0.0, []
+    with multiprocessing.Pool(int(os.environ.get("AXISCAL_ABREAST", "8")), maxtasksperchild=8) as pool:
+        for order, outcome in pool.imap_unordered(run_one, orders):
+            if "error" in outcome:
+                failures.append(f"killed before step {order[0]} ({right['log'][order[0] - 1]}): {outcome['error']}")
+                print(failures[-1], flush=True)
+                continue
+            seconds += outcome["seconds"]
+            phases[outcome["phase"]] += 1
+            if outcome["digest"] != right["digest"]:
+                failures.append(f"killed before step {order[0]}: other result bits {outcome['digest']}")
+                print(failures[-1], flush=True)
+    print("; ".join(f"{count} {phase}" for phase, count in sorted(phases.items())))
+    expect(not failures, f"{len(failures)} of {len(orders)} failed: {failures[:5]}")
+
+
+@sentence("RunKilledBeforeAnyWriteStepLosesNothing")
+def killed_everywhere(_):
+    right = undisturbed()
+    print(f"{right['steps']} write steps in one run: {kinds_of(right['log'])}")
+    expect(right["steps"] > 300, f"only {right['steps']} steps")
+    every = 1 if os.environ.get("AXISCAL_ALL") else 10
+    first = 1 if every == 1 else 1 + datetime.date.today().toordinal() % every
+    orders = [(step, 0) for step in range(first, right["steps"] + 1, every)]
+    if every == 1:
+        orders += [(step, 1) for step in range(5, right["steps"] + 1, 10)]  # and torn in two
+    print(f"{len(orders)} runs, each killed before another step, from step {first} on")
+    kill_all(orders, right)
+    print(f"0 points lost, 0 doubled, every result {right['digest']}")
+
+
+if __name__ == "__main__":
+    bench.main()
