@@ -12,7 +12,7 @@ namespace axiscal {
 class RealLinkOpener final : public LinkOpener {
 public:
     /// `scheduler` is borrowed and must outlive the opener; the opener must outlive its
-    /// instruments' coroutines, and be destroyed before the loop (its bus threads are joined here).
+    /// instruments' coroutines, and be destroyed before the loop (its bus threads are stopped here).
     explicit RealLinkOpener(Scheduler& scheduler);
     ~RealLinkOpener() override;
     RealLinkOpener(const RealLinkOpener&) = delete;

@@ -9,7 +9,11 @@
 #include <modbus/modbus.h>
 
 #include <cerrno>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 namespace axiscal {
 namespace {
@@ -43,12 +47,10 @@ modbus_t* make_context(const LinkSettings& settings) {
 
 } // namespace
 
-/// One request on its way. `reply` and `done` are touched on the loop only.
+/// One answer that is waited for. Lives and dies on the loop: the thread knows it weakly.
 struct ModbusBus::Pending {
-    Pending(ModbusRead of, const boost::asio::any_io_executor& loop)
-        : request{of}
-        , done{loop, steady_timer::time_point::max()} {}
-    ModbusRead request;
+    explicit Pending(const boost::asio::any_io_executor& loop)
+        : done{loop, steady_timer::time_point::max()} {}
     std::optional<Result<ModbusWords>> reply;
     steady_timer done;
 };
@@ -119,59 +121,101 @@ private:
     bool connected_ = false;
 };
 
+/// What the loop and the thread of one line share.
+class ModbusBus::Line {
+public:
+    Line(LinkSettings settings, boost::asio::any_io_executor loop)
+        : settings_{std::move(settings)}
+        , loop_{std::move(loop)} {}
+    [[nodiscard]] const LinkSettings& settings() const { return settings_; }
+    [[nodiscard]] const boost::asio::any_io_executor& loop() const { return loop_; }
+
+    void ask(const ModbusRead& request, const std::shared_ptr<Pending>& asker) {
+        {
+            const std::lock_guard lock{mutex_};
+            orders_.push_back({request, asker});
+        }
+        changed_.notify_all();
+    }
+    /// The thread: until stopped.
+    void serve() {
+        {
+            Context context{settings_};
+            while (const auto order = next_order()) {
+                if (!keep_silent(order->request.gap)) break;
+                deliver(order->asker, context.read(order->request));
+            }
+        }
+        const std::lock_guard lock{mutex_};
+        ended_ = true;
+        changed_.notify_all();
+    }
+    /// The loop: nothing is posted any more; waits for the thread at most this long.
+    void stop(Duration patience) {
+        std::unique_lock lock{mutex_};
+        stopping_ = true;
+        changed_.notify_all();
+        changed_.wait_for(lock, patience, [this] { return ended_; });
+    }
+
+private:
+    struct Order {
+        ModbusRead request;
+        std::weak_ptr<Pending> asker;
+    };
+    std::optional<Order> next_order() {
+        std::unique_lock lock{mutex_};
+        changed_.wait(lock, [this] { return stopping_ || !orders_.empty(); });
+        if (stopping_) return std::nullopt;
+        Order order = std::move(orders_.front());
+        orders_.pop_front();
+        return order;
+    }
+    /// False when the bus stops meanwhile.
+    bool keep_silent(Duration gap) {
+        std::unique_lock lock{mutex_};
+        return !changed_.wait_for(lock, gap, [this] { return stopping_; });
+    }
+    void deliver(const std::weak_ptr<Pending>& asker, Result<ModbusWords> reply) {
+        const std::lock_guard lock{mutex_};
+        if (stopping_) return; // the loop may be gone
+        auto arrive = [asker, reply = std::move(reply)]() mutable {
+            const auto pending = asker.lock();
+            if (!pending) return;
+            pending->reply = std::move(reply);
+            pending->done.cancel();
+        };
+        boost::asio::post(loop_, std::move(arrive));
+    }
+
+    const LinkSettings settings_;
+    const boost::asio::any_io_executor loop_;
+    std::mutex mutex_; ///< guards all below
+    std::condition_variable changed_;
+    std::deque<Order> orders_;
+    bool stopping_ = false, ended_ = false;
+};
+
 ModbusBus::ModbusBus(LinkSettings settings, boost::asio::any_io_executor loop)
-    : settings_{std::move(settings)}
-    , loop_{std::move(loop)}
-    , thread_{&ModbusBus::serve, this} {}
+    : line_{std::make_shared<Line>(std::move(settings), std::move(loop))} {
+    std::thread{[line = line_] { line->serve(); }}.detach();
+}
 
 ModbusBus::~ModbusBus() {
-    {
-        const std::lock_guard lock{mutex_};
-        stopping_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
+    line_->stop(std::chrono::seconds{1});
+}
+
+const LinkSettings& ModbusBus::settings() const {
+    return line_->settings();
 }
 
 Task<Result<ModbusWords>> ModbusBus::read(ModbusRead request) {
-    const auto pending = std::make_shared<Pending>(request, loop_);
-    {
-        const std::lock_guard lock{mutex_};
-        requests_.push_back(pending);
-    }
-    wake_.notify_all();
+    const auto pending = std::make_shared<Pending>(line_->loop());
+    line_->ask(request, pending);
     co_await pending->done.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
-    if (!pending->reply) co_return fail(Fault::link_closed, "given up: " + settings_.describe());
+    if (!pending->reply)
+        co_return fail(Fault::link_closed, "given up: " + line_->settings().describe());
     co_return *std::move(pending->reply);
-}
-
-std::shared_ptr<ModbusBus::Pending> ModbusBus::next_request() {
-    std::unique_lock lock{mutex_};
-    wake_.wait(lock, [this] { return stopping_ || !requests_.empty(); });
-    if (stopping_) return nullptr;
-    auto pending = std::move(requests_.front());
-    requests_.pop_front();
-    return pending;
-}
-
-/// False when the bus stops meanwhile.
-bool ModbusBus::keep_silent(Duration gap) {
-    std::unique_lock lock{mutex_};
-    return !wake_.wait_for(lock, gap, [this] { return stopping_; });
-}
-
-void ModbusBus::serve() {
-    Context context{settings_};
-    while (auto pending = next_request()) {
-        if (!keep_silent(pending->request.gap)) return;
-        auto reply = context.read(pending->request);
-        // The last reference goes with the handler: timers die on the loop.
-        boost::asio::post(loop_,
-                          [pending = std::move(pending), reply = std::move(reply)]() mutable {
-                              pending->reply = std::move(reply);
-                              pending->done.cancel();
-                          });
-    }
 }
 
 Result<ModbusBus*> ModbusBuses::bus(const LinkSettings& settings) {

@@ -6,14 +6,10 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace axiscal {
@@ -32,8 +28,8 @@ struct ModbusWords {
 };
 
 /// Thread-safe in `read` (called on the loop, served on the bus thread); construction and
-/// destruction belong to the loop. Destruction waits for the request in flight, at most its
-/// timeout.
+/// destruction belong to the loop. Destruction waits a second for the request in flight; a line
+/// that hangs in the kernel (close(2) of a dead USB adapter: 30 s) is left to its thread.
 class ModbusBus {
 public:
     ModbusBus(LinkSettings settings, boost::asio::any_io_executor loop);
@@ -46,22 +42,13 @@ public:
     /// checksum (bad CRC), bad_frame (a reply that is none), refused (the instrument answered with
     /// a Modbus exception).
     Task<Result<ModbusWords>> read(ModbusRead request);
-    [[nodiscard]] const LinkSettings& settings() const { return settings_; }
+    [[nodiscard]] const LinkSettings& settings() const;
 
 private:
     struct Pending;
     class Context;
-    void serve();
-    std::shared_ptr<Pending> next_request();
-    bool keep_silent(Duration gap);
-
-    LinkSettings settings_;
-    boost::asio::any_io_executor loop_;
-    std::mutex mutex_; ///< guards requests_ and stopping_
-    std::condition_variable wake_;
-    std::deque<std::shared_ptr<Pending>> requests_; ///< shared with the waiting coroutine
-    bool stopping_ = false;
-    std::thread thread_;
+    class Line;
+    std::shared_ptr<Line> line_; ///< shared with the thread
 };
 
 /// All lines of the station: instruments on one line share its bus. Loop-bound.

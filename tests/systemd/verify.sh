@@ -20,7 +20,7 @@ DESTDIR=$root cmake --install "$build" --prefix /usr --component services >"$roo
 
 units=$(pkg-config --variable=systemdsystemunitdir systemd)
 for file in "$units/axiscald.service" "$units/axiscal-publish.service" /usr/lib/sysusers.d/axiscal.conf \
-    /usr/lib/tmpfiles.d/axiscal.conf /usr/share/axiscal/station.example.toml; do
+    /usr/lib/tmpfiles.d/axiscal.conf /usr/lib/modules-load.d/axiscal.conf /usr/share/axiscal/station.example.toml; do
     [ -s "$root/$file" ] || fail "not installed: $file"
 done
 rules=$(find "$root" -name 70-axiscal.rules)
