@@ -52,6 +52,9 @@ class UsbStation(bench.Bench):
     def usb(self, command):
         Commands(self.folder / "usb.sock").do(command)
 
+    def ask_usb(self, command):
+        return Commands(self.folder / "usb.sock").ask(command)
+
     def state(self, name):
         return self.instrument(name)["state"]
 

@@ -1,0 +1,203 @@
+"""The whole station as its systemd unit, with systemd as PID 1 and instruments on USB."""
+
+import os
+import re
+import signal
+import sys
+from pathlib import Path
+
+from guest import check, expect, load_modules, run, run_checks, wait_until
+from usb_station import LINKS, RECOVERY_S, UsbStation, bench
+
+PUBLISHED = Path("/mnt/quality")
+MOST_EXPOSED = 2.0  # systemd-analyze's own scale, 0 best to 10 worst
+WATCHDOG_S = 60.0  # 10 s of the unit, its restart, and a slow guest
+
+
+def shown(unit, *names):
+    lines = run("systemctl", "show", unit, *(f"--property={name}" for name in names)).splitlines()
+    return dict(line.split("=", 1) for line in lines)
+
+
+def journal(unit="axiscald"):
+    return run("journalctl", "-u", unit, "--no-pager", "-o", "cat")
+
+
+class ServiceStation(UsbStation):
+    """As UsbStation, but everything lies where an installed station has it and systemd starts it."""
+
+    socket = "/run/axiscal/axiscald.sock"
+
+    def __init__(self):
+        super().__init__()
+        self.station["station"]["state_directory"] = "/var/lib/axiscal"
+        self.station["console"].pop("socket")
+        self.station["publish"]["destination"] = str(PUBLISHED)
+        for instrument in self.station["instrument"]:
+            if "profile" in instrument:
+                instrument["profile"] = Path(instrument["profile"]).stem
+
+    def program(self, name):
+        """The installed one, where there is one."""
+        installed = Path("/usr/bin") / name
+        return str(installed) if installed.exists() else super().program(name)
+
+    def install(self):
+        """What docs/install.md says after laying out the files."""
+        run("systemd-sysusers")
+        run("systemd-tmpfiles", "--create")
+        PUBLISHED.mkdir(parents=True, exist_ok=True)
+        run("chown", "axiscal:axiscal", PUBLISHED)
+        run("udevadm", "control", "--reload")
+        run("systemctl", "daemon-reload")
+
+    def write_station(self):
+        path = Path("/etc/axiscal/station.toml")
+        path.write_text(bench.to_toml(self.station))
+        run("chown", "root:axiscal", path)
+        path.chmod(0o640)
+        (self.folder / "station.toml").write_text(path.read_text())
+        self.axiscal("check-config", path)
+
+    def start_daemon(self):
+        run("systemctl", "start", "axiscald", limit_s=90)
+        run("systemctl", "start", "axiscal-publish", limit_s=90)
+
+    def pid(self):
+        return int(shown("axiscald", "MainPID")["MainPID"])
+
+
+@check("ServiceIsReadyBeforeAnyInstrumentIsPluggedIn")
+def ready(station):
+    station.install()
+    station.trigger("sequence-block", "tcp")
+    station.write_station()
+    station.start_daemon()
+    state = shown("axiscald", "Type", "ActiveState", "SubState", "NRestarts", "User")
+    expect(state == {"Type": "notify", "ActiveState": "active", "SubState": "running", "NRestarts": "0", "User": "axiscal"},
+           f"{state}\n{journal()}")
+    publisher = shown("axiscal-publish", "ActiveState", "NRestarts")
+    expect(publisher == {"ActiveState": "active", "NRestarts": "0"}, f"{publisher}\n{journal('axiscal-publish')}")
+
+
+@check("InstrumentsPluggedInLaterAreNamedGroupedAndOpened")
+def plugged_in(station):
+    load_modules("vhci_hcd")  # the drivers of the instruments are udev's to load
+    station.start_simulator()
+    for name, link in LINKS.items():
+        node = Path(os.path.realpath(link))
+        print(name, link, node)
+        expect(node.group() == "axiscal", f"{node} belongs to {node.group()}")
+        expect(node.stat().st_mode & 0o777 == 0o660, f"{node} has mode {node.stat().st_mode:o}")
+    try:
+        station.wait_until_good(*LINKS, limit_s=30)
+    finally:
+        print(journal())
+
+
+@check("LatencyTimerOfAnFtdiAdapterIsSetByTheRules")
+def latency(station):
+    node = Path(os.path.realpath(LINKS["material"])).name
+    timer = Path(f"/sys/bus/usb-serial/devices/{node}/latency_timer").read_text().strip()
+    expect(timer == "1", f"{node} holds bytes back for {timer} ms")
+    device = station.ask_usb("status")["devices"]["material"]["state"]
+    expect(device == "latency timer 1 ms", f"the adapter itself says: {device}")
+
+
+@check("UnitIsHardenedAsMuchAsItClaims")
+def hardened(station):
+    for unit in ("axiscald", "axiscal-publish"):
+        told = run("systemd-analyze", "security", "--no-pager", unit, may_fail=True)
+        score = float(re.search(r"exposure level for \S+: ([0-9.]+)", told).group(1))
+        print(unit, score)
+        expect(score <= MOST_EXPOSED, f"{unit} is exposed by {score}")
+
+
+@check("ServiceSeesSerialLinesAndNothingElse")
+def confined(station):
+    """From inside: a script in a unit that differs from the daemon's by its program only."""
+    places = [*LINKS.values(), "/dev/ttyS0", "/dev/kmsg", "/dev/mem", "/dev/uhid", "/dev/hwrng"]
+    for path in ("/etc/axiscal", "/usr", "/root", "/mnt", "/var/log", "/run", "/var/lib/axiscal", "/run/axiscal"):
+        places.append(f"{path}/planted")
+    said = inside(f"""
+import errno, os
+for place in {places!r}:
+    try:
+        create = os.O_CREAT if place.endswith("planted") else 0
+        os.close(os.open(place, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY | create))
+        told = "open"
+    except OSError as error:
+        told = "open" if error.errno == errno.EBUSY else "shut"  # busy: allowed, but the daemon has it
+    print(told, place)
+""")
+    print(said)
+    opened = {line.split()[1] for line in said.splitlines() if line.startswith("open")}
+    wanted = {*LINKS.values(), "/dev/ttyS0", "/var/lib/axiscal/planted", "/run/axiscal/planted"}
+    expect(len(said.splitlines()) == len(places), f"not every place was tried: {said}")
+    expect(opened == wanted, f"open by mistake: {opened - wanted}; shut by mistake: {wanted - opened}")
+
+
+def inside(script):
+    Path("/run/inside.py").write_text(script)
+    unit = run("systemctl", "cat", "axiscald")
+    unit = re.sub(r"^ExecStart=.*", "ExecStart=/usr/bin/python3 -I /run/inside.py", unit, flags=re.M)
+    unit = re.sub(r"^Type=.*", "Type=oneshot", unit, flags=re.M)
+    unit = re.sub(r"^(WatchdogSec|Restart|RestartSec|NotifyAccess)=.*\n", "", unit, flags=re.M)
+    # The daemon's folder in /run must outlive this shell.
+    unit = unit.replace("[Service]", "[Service]\nRuntimeDirectoryPreserve=yes\nStandardOutput=file:/run/inside.out")
+    Path("/run/systemd/system").mkdir(parents=True, exist_ok=True)
+    Path("/run/systemd/system/axiscal-inside.service").write_text(unit)
+    run("systemctl", "daemon-reload")
+    run("systemctl", "start", "axiscal-inside")
+    return Path("/run/inside.out").read_text()
+
+
+@check("RunGoesOnAfterTheWatchdogKilledTheDaemon")
+def watchdog(station):
+    station.write_program()
+    station.go_to_datum()
+    station.arm()
+    station.wait_for_points(4)
+    run_id, pid = station.run()["id"], station.pid()
+    os.kill(pid, signal.SIGSTOP)
+    wait_until("systemd restarts the daemon", lambda: shown("axiscald", "NRestarts")["NRestarts"] == "1", WATCHDOG_S)
+    wait_until("the daemon is ready again", lambda: shown("axiscald", "SubState")["SubState"] == "running")
+    print(journal()[-3000:])
+    expect(station.pid() != pid, "it is the same process")
+    expect("Watchdog timeout" in run("journalctl", "--no-pager", "-o", "cat"), "the journal does not name the watchdog")
+    wait_until("the open run goes on", station.run)
+    expect(station.run()["id"] == run_id, "another run goes on")
+    certificate = station.finish()
+    rows = certificate["run"]["deviations"]
+    expect([len(row) for row in rows["forward"] + rows["backward"]] == [2] * 10, f"{rows}")
+    published = wait_until("the certificate is on the share", lambda: list(PUBLISHED.rglob("certificate.pdf")))
+    print(published, (published[0].stat().st_size))
+
+
+@check("KilledDaemonIsBackAtOnce")
+def killed(station):
+    before = int(shown("axiscald", "NRestarts")["NRestarts"])
+    run("systemctl", "kill", "-s", "KILL", "axiscald")
+    wait_until("systemd restarts the daemon", lambda: int(shown("axiscald", "NRestarts")["NRestarts"]) == before + 1)
+    wait_until("the daemon is ready again", lambda: shown("axiscald", "SubState")["SubState"] == "running")
+    station.wait_until_good(*LINKS, limit_s=RECOVERY_S)
+
+
+@check("ServiceStopsInOrderWhileAnInstrumentHangs")
+def stops(station):
+    """TimeoutStopSec is 20 s: what hangs in the kernel must not end in a kill."""
+    station.usb("fault material mute")
+    station.usb("fault air mute")
+    wait_until("the sensor is given up", lambda: station.state("material") == "unavailable", 30)
+    run("systemctl", "stop", "axiscald", limit_s=60)
+    result = shown("axiscald", "Result", "ExecMainStatus")
+    print(journal()[-1500:])
+    expect(result == {"Result": "success", "ExecMainStatus": "0"}, f"{result}")
+
+
+def main():
+    with ServiceStation() as station:
+        return run_checks(station)
+
+
+sys.exit(main())
