@@ -1,6 +1,7 @@
 #pragma once
 // Bytes in and out with their arrival time; a deadline on every call. Loop-bound.
 
+#include "drivers/link/usb_place.hpp"
 #include "drivers/scheduler.hpp"
 
 #include <cstddef>
@@ -13,6 +14,7 @@
 namespace axiscal {
 
 class ModbusBuses;
+class UsbLink;
 
 struct TimedBytes {
     std::vector<std::byte> bytes;
@@ -34,7 +36,7 @@ public:
 
 /// Where a link leads, as the station file says it.
 struct LinkSettings {
-    enum class Kind : std::uint8_t { serial, tcp } kind = Kind::serial;
+    enum class Kind : std::uint8_t { serial, tcp, usb, hid } kind = Kind::serial;
     std::string path; ///< serial: /dev/serial/by-id/...
     int baud = 115200;
     char parity = 'N';
@@ -43,8 +45,9 @@ struct LinkSettings {
         rts; ///< modem lines that power an interface; empty: as the kernel does
     std::string host;
     int port = 0;
-    [[nodiscard]] std::string
-    describe() const; ///< "serial /dev/ttyACM0 115200 8N1" | "tcp host:port"
+    UsbPlace usb; ///< usb, hid
+    /// "serial /dev/ttyACM0 115200 8N1" | "tcp host:port" | "USB 0cd5:0006 port 1-2"
+    [[nodiscard]] std::string describe() const;
 };
 
 /// Opens links; a tape player or recorder stands in without the driver noticing.
@@ -53,6 +56,10 @@ public:
     virtual ~LinkOpener() = default;
     virtual Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                          MonotonicTime deadline) = 0;
+    /// A USB device that speaks in transfers of its own. `open` gives HID reports as bytes.
+    /// @errors as `choose_usb`; Fault::link_closed where there is no USB; busy while it is in use.
+    virtual Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                            MonotonicTime deadline);
     /// The Modbus lines behind this opener; null where there are none (tapes).
     [[nodiscard]] virtual ModbusBuses* modbus_buses() { return nullptr; }
 };

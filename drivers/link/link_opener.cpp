@@ -1,7 +1,9 @@
 #include "drivers/link/link_opener.hpp"
 
+#include "drivers/link/hid_link.hpp"
 #include "drivers/link/serial_link.hpp"
 #include "drivers/link/tcp_link.hpp"
+#include "drivers/link/usb_link.hpp"
 
 namespace axiscal {
 
@@ -20,9 +22,21 @@ Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings&
         auto connected = co_await open_tcp(scheduler_, settings, deadline);
         co_return connected;
     }
+    if (settings.kind == LinkSettings::Kind::hid) {
+        auto hid = co_await open_hid(scheduler_, threads_, settings.usb, deadline);
+        co_return hid;
+    }
+    if (settings.kind == LinkSettings::Kind::usb)
+        co_return fail(Fault::internal, settings.describe() + " is no stream of bytes");
     auto& porter = porters_[settings.path];
     if (!porter) porter = std::make_shared<TtyPorter>(settings.describe(), scheduler_.executor());
     auto opened = co_await open_serial(scheduler_, porter, settings, deadline);
+    co_return opened;
+}
+
+Task<Result<std::unique_ptr<UsbLink>>> RealLinkOpener::open_usb(const LinkSettings& settings,
+                                                                MonotonicTime deadline) {
+    auto opened = co_await open_usb_device(scheduler_, threads_, settings.usb, deadline);
     co_return opened;
 }
 

@@ -5,7 +5,8 @@
 namespace axiscal {
 namespace {
 
-constexpr std::string_view serial_prefix = "serial:", tcp_prefix = "tcp:";
+constexpr std::string_view serial_prefix = "serial:", tcp_prefix = "tcp:", usb_prefix = "usb:",
+                           usb_port_prefix = "usb-port:";
 
 constexpr std::string_view name_of_parity(char parity) {
     return parity == 'E' ? "even" : parity == 'O' ? "odd" : "none";
@@ -36,6 +37,7 @@ Result<LinkSettings> parse_tcp(std::string_view place, LinkSettings settings) {
 
 std::string LinkSettings::describe() const {
     if (kind == Kind::tcp) return "tcp " + host + ":" + std::to_string(port);
+    if (kind == Kind::usb || kind == Kind::hid) return usb.describe();
     return "serial " + path + " " + std::to_string(baud) + " " + std::to_string(data_bits) +
            parity + std::to_string(stop_bits);
 }
@@ -67,6 +69,23 @@ LinkSettings read_link(Settings& options, const LinkSettings& defaults) {
     settings.parity = parity == "even" ? 'E' : parity == "odd" ? 'O' : 'N';
     settings.data_bits = static_cast<int>(options.integer("data_bits", 5, 8, defaults.data_bits));
     settings.stop_bits = static_cast<int>(options.integer("stop_bits", 1, 2, defaults.stop_bits));
+    return settings;
+}
+
+LinkSettings read_usb_link(Settings& options, const LinkSettings& defaults) {
+    LinkSettings settings = defaults;
+    const bool stated = options.has("link");
+    const std::string text = options.text("link");
+    const auto after = [&](std::string_view prefix) {
+        return text.starts_with(prefix) ? text.substr(prefix.size()) : std::string{};
+    };
+    const std::string serial = after(usb_prefix);
+    settings.usb.port = after(usb_port_prefix);
+    if (serial.empty() && settings.usb.port.empty() && stated)
+        options.refuse("link", "write \"usb:any\" for the only one that is plugged in, "
+                               "\"usb:SERIAL\" with its serial number, or \"usb-port:1-2.4\" with "
+                               "its socket as the kernel names it");
+    settings.usb.serial = serial == "any" ? std::string{} : serial;
     return settings;
 }
 

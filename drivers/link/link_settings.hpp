@@ -17,4 +17,8 @@ Result<LinkSettings> parse_link(std::string_view text, LinkSettings defaults = {
 /// missing keeps the driver's default. Refusals go to `options`.
 LinkSettings read_link(Settings& options, const LinkSettings& defaults = {});
 
+/// Reads `link` of an instrument on USB: "usb:any", "usb:SERIAL" or "usb-port:1-2.4". What the
+/// device shows itself as stands in `defaults`. Refusals go to `options`.
+LinkSettings read_usb_link(Settings& options, const LinkSettings& defaults);
+
 } // namespace axiscal

@@ -53,7 +53,8 @@ Result<TapeEntry> parse_entry(std::string_view line, Duration not_before) {
 Result<void> parse_line(std::string_view line, Tape& tape) {
     line = trimmed(line);
     if (line.empty() || line.front() == '#') return {};
-    if (std::string_view{"<>!"}.find(line.front()) != std::string_view::npos) {
+    const bool transfer = line.size() > 1 && line[1] == ' ';
+    if (transfer && std::string_view{"<>!x"}.find(line.front()) != std::string_view::npos) {
         const Duration last = tape.entries.empty() ? Duration{} : tape.entries.back().offset;
         AXISCAL_TRY(auto entry, parse_entry(line, last));
         tape.entries.push_back(std::move(entry));
@@ -107,30 +108,39 @@ Task<Result<std::unique_ptr<ByteLink>>> TapePlayer::open(const LinkSettings& /*s
 }
 
 Task<Result<TimedBytes>> TapePlayerLink::read_some(MonotonicTime deadline) {
-    if (player_.at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
-    const TapeEntry& entry = player_.tape_.entries[player_.next_];
-    const MonotonicTime when = *player_.begin_ + entry.offset;
-    if (entry.direction == TapeEntry::Direction::out || when > deadline) {
-        co_await player_.scheduler_.sleep_until(deadline);
-        co_return fail(Fault::link_timeout, "the tape is silent");
-    }
-    co_await player_.scheduler_.sleep_until(when);
-    ++player_.next_;
-    if (entry.direction == TapeEntry::Direction::closed)
-        co_return fail(Fault::link_closed, "the link closed on the tape");
-    TimedBytes played{entry.bytes, player_.scheduler_.now()};
-    co_return played;
+    return player_.play_in(deadline);
 }
 
 Task<Result<void>> TapePlayerLink::write_all(std::vector<std::byte> bytes,
                                              MonotonicTime /*deadline*/) {
-    const bool expected =
-        !player_.at_end() &&
-        player_.tape_.entries[player_.next_].direction == TapeEntry::Direction::out &&
-        player_.tape_.entries[player_.next_].bytes == bytes;
-    if (!expected) co_return fail(Fault::internal, "the driver writes what the tape does not know");
-    ++player_.next_;
-    co_return Result<void>{};
+    co_return player_.play_out(bytes);
+}
+
+Task<Result<TimedBytes>> TapePlayer::play_in(MonotonicTime deadline) {
+    if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
+    const TapeEntry& entry = tape_.entries[next_];
+    const MonotonicTime when = *begin_ + entry.offset;
+    if (entry.direction == TapeEntry::Direction::out || when > deadline) {
+        co_await scheduler_.sleep_until(deadline);
+        co_return fail(Fault::link_timeout, "the tape is silent");
+    }
+    co_await scheduler_.sleep_until(when);
+    ++next_;
+    if (entry.direction == TapeEntry::Direction::closed)
+        co_return fail(Fault::link_closed, "the link closed on the tape");
+    if (entry.direction == TapeEntry::Direction::refused)
+        co_return fail(Fault::refused, "the device refused on the tape");
+    TimedBytes played{entry.bytes, scheduler_.now()};
+    co_return played;
+}
+
+Result<void> TapePlayer::play_out(std::span<const std::byte> bytes) {
+    const bool expected = !at_end() &&
+                          tape_.entries[next_].direction == TapeEntry::Direction::out &&
+                          std::ranges::equal(tape_.entries[next_].bytes, bytes);
+    if (!expected) return fail(Fault::internal, "the driver writes what the tape does not know");
+    ++next_;
+    return {};
 }
 
 TapeRecorderLink::TapeRecorderLink(std::unique_ptr<ByteLink> inner,

@@ -4,8 +4,12 @@
 // A tape is text: header lines "key = value" (maker, model, firmware, who, when, what,
 // origin = device | vendor-document | simulator), then one line per transfer:
 //     <direction> <offset_ns> <hex>
-// with direction '<' from the instrument, '>' to it, '!' the link closed (no hex). Offsets are
-// monotonic and count from the first opening. '#' begins a comment line.
+// with direction '<' from the instrument, '>' to it, '!' the link closed, 'x' the device refused
+// (STALL; both without hex). Offsets are monotonic and count from the first opening. '#' begins a
+// comment line.
+//
+// USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
+// endpoints '>' and '<' begin with the endpoint's address.
 
 #include "drivers/link/byte_link.hpp"
 
@@ -18,7 +22,12 @@
 namespace axiscal {
 
 struct TapeEntry {
-    enum class Direction : char { in = '<', out = '>', closed = '!' } direction = Direction::in;
+    enum class Direction : char {
+        in = '<',
+        out = '>',
+        closed = '!',
+        refused = 'x'
+    } direction = Direction::in;
     Duration offset{};
     std::vector<std::byte> bytes;
 };
@@ -39,10 +48,19 @@ public:
     TapePlayer(Scheduler& scheduler, const Tape& tape);
     Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                  MonotonicTime deadline) override;
+    /// Transfers of USB are played as they are.
+    Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override;
     [[nodiscard]] bool at_end() const { return next_ == tape_.entries.size(); }
 
+    /// What links of this player are made of: the next entry must be to, or from, the instrument.
+    /// @errors Fault::link_timeout when nothing comes before the deadline, link_closed at '!' and
+    /// at the end, refused at 'x'.
+    Task<Result<TimedBytes>> play_in(MonotonicTime deadline);
+    /// @errors Fault::internal for a write that is not the one on the tape.
+    Result<void> play_out(std::span<const std::byte> bytes);
+
 private:
-    friend class TapePlayerLink;
     Scheduler& scheduler_;
     const Tape& tape_;
     std::size_t next_ = 0;

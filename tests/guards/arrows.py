@@ -33,6 +33,7 @@ ONLY = {
     "cairo": {"acquisition/publish"}, "pango": {"acquisition/publish"}, "sqlite3": {"acquisition/journal"},
     "libsmbclient": {"acquisition/publish/smb"},  # GPL: docs/dependencies.md
     "toml++": {"config", "tools/axiscal-simulate"}, "modbus": {"drivers", "tools/axiscal-simulate"},
+    "libusb": {"drivers"}, "hidapi": {"drivers"},
     "boost/asio": {"drivers", "acquisition/station", "acquisition/journal", "acquisition/console", "acquisition",
                    "acquisition/publish", "tools/axiscal-simulate", "tools/axiscal"},
 }

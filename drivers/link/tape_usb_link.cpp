@@ -1,0 +1,75 @@
+// USB transfers from a tape; its lines are told in tape_link.hpp.
+#include "drivers/framing/byte_order.hpp"
+#include "drivers/link/tape_link.hpp"
+#include "drivers/link/usb_link.hpp"
+
+namespace axiscal {
+namespace {
+
+std::vector<std::byte> setup_packet(const UsbRequest& r) {
+    return bytes_of({r.request_type, r.request, r.value & 0xFF, r.value >> 8, r.index & 0xFF,
+                     r.index >> 8, r.length & 0xFF, r.length >> 8});
+}
+
+/// One opening of the tape. Loop-bound; the player outlives its links.
+class TapeUsbLink final : public UsbLink {
+public:
+    TapeUsbLink(TapePlayer& player, UsbEntry entry)
+        : player_{player}
+        , entry_{std::move(entry)} {}
+    Task<Result<TimedBytes>> control_in(UsbRequest request, MonotonicTime deadline) override;
+    Task<Result<void>>
+    bulk_out(int endpoint, std::vector<std::byte> bytes, MonotonicTime deadline) override;
+    Task<Result<TimedBytes>>
+    bulk_in(int endpoint, std::size_t longest, MonotonicTime deadline) override;
+    Task<Result<TimedBytes>>
+    next_packet(int endpoint, std::size_t longest, MonotonicTime deadline) override {
+        return bulk_in(endpoint, longest, deadline);
+    }
+    [[nodiscard]] const UsbEntry& entry() const override { return entry_; }
+
+private:
+    TapePlayer& player_;
+    UsbEntry entry_; ///< name and serial number as the tape's header has them
+};
+
+Task<Result<TimedBytes>> TapeUsbLink::control_in(UsbRequest request, MonotonicTime deadline) {
+    const auto asked = player_.play_out(setup_packet(request));
+    if (!asked) co_return tl::unexpected<Error>(asked.error());
+    auto answer = co_await player_.play_in(deadline);
+    co_return answer;
+}
+
+Task<Result<void>>
+TapeUsbLink::bulk_out(int endpoint, std::vector<std::byte> bytes, MonotonicTime /*deadline*/) {
+    bytes.insert(bytes.begin(), static_cast<std::byte>(endpoint));
+    co_return player_.play_out(bytes);
+}
+
+Task<Result<TimedBytes>>
+TapeUsbLink::bulk_in(int endpoint, std::size_t /*longest*/, MonotonicTime deadline) {
+    auto packet = co_await player_.play_in(deadline);
+    if (!packet) co_return packet;
+    if (packet->bytes.empty() || packet->bytes.front() != static_cast<std::byte>(endpoint))
+        co_return fail(Fault::internal, "the driver reads another endpoint than the tape has");
+    packet->bytes.erase(packet->bytes.begin());
+    co_return packet;
+}
+
+} // namespace
+
+Task<Result<std::unique_ptr<UsbLink>>> TapePlayer::open_usb(const LinkSettings& /*settings*/,
+                                                            MonotonicTime /*deadline*/) {
+    if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
+    if (!begin_) begin_ = scheduler_.now();
+    const auto header = [&](const char* key) {
+        const auto found = tape_.header.find(key);
+        return found == tape_.header.end() ? std::string{} : found->second;
+    };
+    UsbEntry entry;
+    entry.name = header("model");
+    entry.serial = header("serial");
+    co_return std::make_unique<TapeUsbLink>(*this, std::move(entry));
+}
+
+} // namespace axiscal
