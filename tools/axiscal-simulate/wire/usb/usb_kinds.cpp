@@ -2,6 +2,7 @@
 
 #include "wire/usb/cdc_acm.hpp"
 #include "wire/usb/ftdi_uart.hpp"
+#include "wire/usb/usb_instruments.hpp"
 
 #include <array>
 #include <cstdlib>
@@ -13,8 +14,9 @@ namespace {
 
 /// One row a kind, by name.
 constexpr std::array kinds{
-    UsbKind{"cdc-acm", make_cdc_acm},
-    UsbKind{"ftdi", make_ftdi_uart},
+    UsbKind{"cdc-acm", make_cdc_acm},   UsbKind{"ftdi", make_ftdi_uart},
+    UsbKind{"usbtenki", make_usbtenki}, UsbKind{"labjack-u6", make_labjack_u6},
+    UsbKind{"temper", make_temper},
 };
 
 } // namespace

@@ -1,0 +1,61 @@
+#include "wire/usb/usb_instruments.hpp"
+
+#include "simulated_machine.hpp"
+#include "wire/usb/temper_device.hpp"
+#include "wire/usb/u6_device.hpp"
+#include "wire/usb/usbtenki_device.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+namespace axiscal::simulate {
+namespace {
+
+Result<double> number(const UsbWish& wish, const std::string& name, const std::string& otherwise) {
+    const std::string text = wish.text(name, otherwise);
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0')
+        return fail(Fault::bad_request, name + "=" + text + " is no number");
+    return value;
+}
+
+} // namespace
+
+Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbWorld& world) {
+    auto air = [air = world.scenario.air, clock = world.clock] {
+        return air_at(air, clock.now_s());
+    };
+    return std::make_unique<UsbTenkiDevice>(wish.text("serial", "A10234"), std::move(air));
+}
+
+Result<std::unique_ptr<UsbDevice>> make_labjack_u6(const UsbWish& wish, const UsbWorld& world) {
+    AXISCAL_TRY(const double serial, number(wish, "serial", "470012345"));
+    AXISCAL_TRY(const double volts, number(wish, "volts", "0"));
+    AXISCAL_TRY(const double swing, number(wish, "swing", "0"));
+    AXISCAL_TRY(const double period_s, number(wish, "period_s", "10"));
+    if (!(serial >= 0 && serial < 4294967296.0) || !(period_s > 0))
+        return fail(Fault::bad_request, "serial is a number of 32 bits, period_s above 0");
+    U6Device::World seen;
+    seen.now_s = [clock = world.clock] { return clock.now_s(); };
+    seen.volts = [volts, swing, period_s](double seconds) {
+        return volts + swing * std::sin(2 * std::numbers::pi * seconds / period_s);
+    };
+    return std::make_unique<U6Device>(static_cast<std::uint32_t>(serial), std::move(seen));
+}
+
+Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWorld& world) {
+    auto shown = [scenario = world.scenario, clock = world.clock] {
+        const double seconds = clock.now_s();
+        const TrueAir air = air_at(scenario.air, seconds);
+        TemperShown show;
+        show.stick_degC = air.temperature.in_celsius();
+        show.probe_degC = material_at(scenario.thermal, seconds).in_celsius();
+        show.humidity_percent = air.humidity.in(percent);
+        return show;
+    };
+    return std::make_unique<TemperDevice>(wish.text("firmware", "TEMPerX_V3.3"), std::move(shown));
+}
+
+} // namespace axiscal::simulate

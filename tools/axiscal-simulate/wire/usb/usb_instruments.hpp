@@ -1,0 +1,15 @@
+#pragma once
+// Instruments that are USB devices of their own, as the command line wishes them.
+
+#include "wire/usb/usb_kinds.hpp"
+
+namespace axiscal::simulate {
+
+/// Dracal USBTenki with the scenario's air. Setting: serial.
+Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbWorld& world);
+/// LabJack U6. Settings: serial (a number); at its input volts + swing sin(2 pi t / period_s).
+Result<std::unique_ptr<UsbDevice>> make_labjack_u6(const UsbWish& wish, const UsbWorld& world);
+/// TEMPer whose probe touches the scenario's material, stick in its air. Setting: firmware.
+Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWorld& world);
+
+} // namespace axiscal::simulate
