@@ -1,6 +1,7 @@
 #include "drivers/registry.hpp"
 
 #include "config/measure.hpp"
+#include "drivers/environment/environment_dracal_usbtenki.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/environment_ds18b20.hpp"
 #include "drivers/environment/environment_vaisala.hpp"
@@ -31,6 +32,8 @@ constexpr std::array drivers{
     InstrumentDriver{"ascii-gauge",
                      "HEIDENHAIN ND 28x, Mitutoyo, Sylvac length gauges, serial ASCII",
                      make_ascii_gauge},
+    InstrumentDriver{"dracal-usbtenki", "Dracal USBTenki air sensor (P, T, RH, probe), USB",
+                     make_dracal_usbtenki},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
 
