@@ -4,6 +4,7 @@
 #include "drivers/environment/environment_dracal_usbtenki.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/environment_ds18b20.hpp"
+#include "drivers/environment/environment_temper.hpp"
 #include "drivers/environment/environment_vaisala.hpp"
 #include "drivers/environment/modbus_instrument.hpp"
 #include "drivers/gauge/ascii_gauge.hpp"
@@ -34,6 +35,7 @@ constexpr std::array drivers{
                      make_ascii_gauge},
     InstrumentDriver{"dracal-usbtenki", "Dracal USBTenki air sensor (P, T, RH, probe), USB",
                      make_dracal_usbtenki},
+    InstrumentDriver{"temper", "PCsensor TEMPer temperature stick, USB HID", make_temper},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
 

@@ -91,7 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"vaisala-ptb330-poll", "vaisala",
                                model_keys + "\"ptb330\"\naddress = 1\n"
                                             "checksum = \"CS4\"\n"},
-                      TapeCase{"dracal-usbtenki-pth", "dracal-usbtenki", usb_keys}),
+                      TapeCase{"dracal-usbtenki-pth", "dracal-usbtenki", usb_keys},
+                      TapeCase{"temper-x", "temper", usb_keys}),
     [](const auto& which) {
         std::string name = which.param.tape;
         std::erase(name, '-');

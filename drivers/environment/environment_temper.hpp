@@ -1,0 +1,9 @@
+#pragma once
+#include "drivers/instrument.hpp"
+
+namespace axiscal {
+
+/// Registry row "temper". Keys: link, poll_period.
+std::unique_ptr<Instrument> make_temper(const InstrumentConfig& config, Settings& options);
+
+} // namespace axiscal
