@@ -168,4 +168,9 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
     read_air(axis.table("air"), config);
 }
 
+void read_ballbar(Settings root, StationConfig& config) {
+    if (!root.has("ballbar")) return;
+    config.ballbar = RoleReader{root.table("ballbar"), config}.one("sensor", Medium::none);
+}
+
 } // namespace axiscal

@@ -124,6 +124,7 @@ StationConfig read_station(SettingsDocument& document) {
     config.cycle.axis_kind = rotary ? AxisKind::rotary : AxisKind::linear;
     const AxisUnits units{config.cycle.axis_kind};
     read_axis(axis, units, config);
+    read_ballbar(root, config);
     read_cycle(root.table("cycle"), units, config.cycle);
     read_capture(root.table("capture"), units, config.cycle, config.capture);
     read_trigger(root.table("trigger"), units, config.cycle, config.trigger);

@@ -124,6 +124,7 @@ struct StationConfig {
     std::string station = "station";
     std::string state_directory = "/var/lib/axiscal"; ///< runs/, outbox/, token
     AxisConfig axis;
+    std::optional<RoleConfig> ballbar; ///< which channel measures the ballbar's length, if any
     CycleConfig cycle;
     CaptureConfig capture;
     TriggerConfig trigger;

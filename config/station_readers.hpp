@@ -42,6 +42,8 @@ inline constexpr Length farthest = metre(100);
 void read_instruments(Settings root, StationConfig& config);
 /// After the instruments, which its roles name. Travel and kind go to config.cycle.
 void read_axis(Settings axis, AxisUnits units, StationConfig& config);
+/// Nothing without the table.
+void read_ballbar(Settings root, StationConfig& config);
 void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config);
 void read_capture(Settings capture,
                   AxisUnits units,

@@ -1,6 +1,7 @@
 #include "drivers/registry.hpp"
 
 #include "config/measure.hpp"
+#include "drivers/ballbar/ballbar_labjack_u6.hpp"
 #include "drivers/environment/environment_dracal_usbtenki.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/environment_ds18b20.hpp"
@@ -36,6 +37,8 @@ constexpr std::array drivers{
     InstrumentDriver{"dracal-usbtenki", "Dracal USBTenki air sensor (P, T, RH, probe), USB",
                      make_dracal_usbtenki},
     InstrumentDriver{"temper", "PCsensor TEMPer temperature stick, USB HID", make_temper},
+    InstrumentDriver{"labjack-u6", "ballbar: LVDT on a LabJack U6, streamed over USB",
+                     make_labjack_u6},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
 

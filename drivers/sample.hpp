@@ -53,7 +53,8 @@ public:
         sample.quality_ = why;
         return sample;
     }
-    /// In stored_unit_of(kind): m, degC, Pa, %, ppm. Displacement: vacuum wavelengths (n = 1).
+    /// In stored_unit_of(kind): m, degC, Pa, %, ppm. Displacement: of an interferometer vacuum
+    /// wavelengths (n = 1), of a gauge or ballbar the length itself.
     [[nodiscard]] std::optional<double> value() const {
         return quality_ == Quality::good ? std::optional{value_} : std::nullopt;
     }

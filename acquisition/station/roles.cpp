@@ -74,4 +74,9 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
     return roles;
 }
 
+Result<int> resolve_ballbar(const RoleConfig& ballbar,
+                            const std::vector<StationChannel>& channels) {
+    return find(ballbar, {"ballbar.sensor", ChannelKind::displacement, Medium::none}, channels);
+}
+
 } // namespace axiscal

@@ -4,6 +4,7 @@
 #include "acquisition/station/supervisor.hpp"
 #include "config/station_config.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace axiscal {
@@ -12,7 +13,8 @@ namespace axiscal {
 struct StationRoles {
     int laser = 0;
     int air_temperature = 0, air_pressure = 0, air_humidity = 0;
-    std::vector<int> material; ///< contact temperatures, at least one
+    std::vector<int> material;  ///< contact temperatures, at least one
+    std::optional<int> ballbar; ///< the length of a circular test's ballbar
     /// All environment channels in the order air temperature, pressure, humidity, material...
     [[nodiscard]] std::vector<int> environment() const;
 };
@@ -21,5 +23,8 @@ struct StationRoles {
 /// Fault::wrong_medium for an air channel in a material role, or the other way round.
 Result<StationRoles> resolve_roles(const AxisConfig& axis,
                                    const std::vector<StationChannel>& channels);
+
+/// The channel of `[ballbar] sensor`, a length. @errors as resolve_roles.
+Result<int> resolve_ballbar(const RoleConfig& ballbar, const std::vector<StationChannel>& channels);
 
 } // namespace axiscal

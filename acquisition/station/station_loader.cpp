@@ -32,6 +32,12 @@ void check_together(LoadedStation& station, Settings root) {
                     root);
     } else
         root.refuse("axis", describe(roles.error()));
+    if (station.config.ballbar) {
+        if (const auto ballbar = resolve_ballbar(*station.config.ballbar, channels))
+            station.roles.ballbar = *ballbar;
+        else
+            root.refuse("ballbar", describe(ballbar.error()));
+    }
     if (auto passes = plan_passes(station.config.cycle, 0))
         station.passes = *std::move(passes);
     else

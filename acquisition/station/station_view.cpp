@@ -131,7 +131,7 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     view.kind = channel.kind;
     view.medium = channel.medium;
     const std::vector<int> environment = roles_.environment();
-    view.used = channel.id == roles_.laser ||
+    view.used = channel.id == roles_.laser || channel.id == roles_.ballbar ||
                 std::ranges::find(environment, channel.id) != environment.end();
     const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
     if (!sample) return view;

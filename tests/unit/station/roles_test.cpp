@@ -47,6 +47,15 @@ TEST_F(Roles, AreFoundByName) {
     EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
 }
 
+TEST_F(Roles, TheBallbarIsAnyChannelOfALength) {
+    add("bar", "ballbar", ChannelKind::displacement, Medium::none);
+    EXPECT_EQ(resolve_ballbar({"bar", "ballbar"}, channels).value(), 6);
+    const auto absent = resolve_ballbar({"bar", "length"}, channels);
+    ASSERT_FALSE(absent);
+    EXPECT_NE(absent.error().detail.find("ballbar.sensor"), std::string::npos);
+    EXPECT_FALSE(resolve_ballbar({"air", "pressure"}, channels));
+}
+
 TEST_F(Roles, AnAirChannelIsRefusedAsMaterial) {
     axis.material_temperature = {{"air", "temperature"}};
     expect_refused(Fault::wrong_medium, "medium 'air' but must have 'material'");
