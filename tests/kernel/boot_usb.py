@@ -1,0 +1,180 @@
+"""USB instruments on the kernel's own usbfs and hidraw: a Dracal USBTenki by control requests, a
+LabJack U6 by its bulk stream, a TEMPer by HID reports. A plain guest with udev, no systemd.
+
+The checks run in their order on one station that never ends: what one of them breaks, it mends.
+"""
+
+import os
+import sys
+import time
+
+from guest import check, expect, load_modules, run_checks, start_udev, wait_until
+from usb_station import LASER, LINKS, Undisturbed, UsbStation
+
+NAMES = ("air", "material", "ballbar")
+WITH_CHECKSUM = ("air", "ballbar")  # a TEMPer has none
+GONE = ("unavailable", "faulty")
+BACK_S = 10.0  # 5 s at full speed: the longest pause of the supervisor is 4 s
+VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
+HIDAPI_LIBUSB = "/usr/lib/x86_64-linux-gnu/libhidapi-libusb.so.0"
+
+
+class DirectStation(UsbStation):
+    """Instruments without a terminal: they are devices of their own."""
+
+    def __init__(self, only=NAMES):
+        super().__init__()
+        wires = {"air": ("usbtenki", {"called": "air", "serial": "A10234"}),
+                 "material": ("temper", {"called": "material"}),
+                 "ballbar": ("labjack-u6", {"called": "ballbar", "serial": "470012345", "volts": str(VOLTS)})}
+        drivers = {"air": {"driver": "dracal-usbtenki", "link": "usb:A10234"},
+                   "material": {"driver": "temper", "link": "usb:any",
+                                "channel": [{"channel": "probe temperature", "medium": "material"}]},
+                   "ballbar": {"driver": "labjack-u6", "link": "usb:470012345", "scale_length": "1 mm"}}
+        self.names = only
+        instruments = {one["name"]: one for one in self.station["instrument"]}
+        for name in only:
+            instruments[name] = {"name": name, **drivers[name]}
+            self.wires[name] = wires[name]
+            self.links.pop(name, None)
+        if "ballbar" in only:
+            # Another U6, plugged in first: only the serial number tells which one is meant.
+            decoy = {"decoy": ("labjack-u6", {"called": "decoy", "serial": "470099999", "volts": "5"})}
+            self.wires = {**decoy, **self.wires}
+            self.station["ballbar"] = {"sensor": "ballbar/ballbar"}
+        if "material" in only:
+            self.station["axis"]["material"]["temperature"] = ["material/probe temperature"]
+        self.station["instrument"] = list(instruments.values())
+
+    def value(self, instrument, channel):
+        return next(c["value"] for c in self.status()["channels"]
+                    if c["instrument"] == instrument and c["channel"] == channel)
+
+    def lines_of(self, name, since):
+        """What the log says of one instrument since that line, without its changes of state."""
+        lines = [line for line in self.logged()[since:] if f"{name}:" in line or f"{name} is " in line]
+        print("\n".join(lines))
+        return [line for line in lines if f"{name}:" in line]
+
+
+def suffers(station, names, begin, end):
+    """`begin` spoils the named instruments, all are given up, `end` mends them, all come back; the
+    laser loses nothing meanwhile. One line each in the log, however often it was met."""
+    since = len(station.logged())
+    with Undisturbed(station, "laser"):
+        for name in names:
+            begin(name)
+        for name in names:
+            station.wait_for_state(name, GONE)
+        mended = time.monotonic()
+        for name in names:
+            end(name)
+        station.wait_until_good(*names, limit_s=BACK_S)
+        print(f"back after {time.monotonic() - mended:.1f} s")
+    for name in names:
+        lines = station.lines_of(name, since)
+        expect(len(lines) == 1, f"{name} is told {len(lines)} times: {lines}")
+
+
+def spoilt(station, names, fault):
+    suffers(station, names, lambda name: station.usb(f"fault {name} {fault}"),
+            lambda name: station.usb(f"fault {name} none"))
+
+
+def near(what, value, expected, within):
+    expect(value is not None and abs(value - expected) <= within, f"{what} is {value}, not {expected} +- {within}")
+
+
+@check("StationReadsUsbInstrumentsByControlBulkAndHid")
+def reads(station):
+    station.start()
+    station.wait_until_good("laser", *NAMES, limit_s=30)
+    # The truth moves by less than these within the test; scenarios/demo.toml, with each chip's step.
+    air = station.scenario["air"]
+    near("air temperature", station.value("air", "air temperature"), air["temperature"]["start"], 0.5)
+    near("air pressure", station.value("air", "air pressure"), air["pressure_pa"]["start"], 100)
+    near("air humidity", station.value("air", "air humidity"), air["humidity_percent"]["start"], 3)
+    near("probe", station.value("material", "probe temperature"), station.scenario["thermal"]["material"]["start"], 0.5)
+    # Half a count of 0.316 mV is 16 nm.
+    near("ballbar", station.value("ballbar", "ballbar"), VOLTS * 1e-4, 2e-8)
+    expect(station.instrument("ballbar")["serial"] == "470012345", "another U6 was taken")
+    print([(one["name"], one["model"], one["serial"], one["firmware"]) for one in station.status()["instruments"]])
+
+
+@check("BallbarStreamsAThousandSamplesASecondWithoutAGap")
+def streams(station):
+    before, began = station.instrument("ballbar"), time.monotonic()
+    wait_until("ten thousand samples came",
+               lambda: station.instrument("ballbar")["samples"] >= before["samples"] + 10000, 30)
+    took = time.monotonic() - began
+    after = station.instrument("ballbar")
+    for key in ("gaps", "lost_records", "checksum_errors", "bad_frames", "restarts"):
+        expect(after[key] == before[key], f"{key} rose from {before[key]} to {after[key]}")
+    print(f"{after['samples'] - before['samples']} samples in {took:.1f} s")
+
+
+@check("UnpluggedUsbInstrumentsAreUnavailableAndComeBackBySerialNumber")
+def unplugged(station):
+    for name in NAMES:
+        suffers(station, [name], lambda name: station.usb(f"unplug {name}"), lambda name: station.usb(f"plug {name}"))
+    expect(station.instrument("ballbar")["serial"] == "470012345", "another U6 was taken")
+    near("ballbar", station.value("ballbar", "ballbar"), VOLTS * 1e-4, 2e-8)
+
+
+@check("UsbInstrumentsUnpluggedAtOnceComeBack")
+def all_unplugged(station):
+    suffers(station, NAMES, lambda name: station.usb(f"unplug {name}"), lambda name: station.usb(f"plug {name}"))
+
+
+@check("UsbInstrumentsThatSayNakForEverAreGivenUpAndComeBack")
+def mute(station):
+    spoilt(station, NAMES, "mute")
+
+
+@check("UsbInstrumentsThatStallAreGivenUpAndComeBack")
+def stall(station):
+    spoilt(station, NAMES, "stall")
+
+
+@check("ShortTransfersAreNoReadings")
+def cut(station):
+    spoilt(station, NAMES, "cut 5")
+
+
+@check("WrongChecksumsOnUsbAreNoReadings")
+def corrupt(station):
+    before = {name: station.instrument(name)["checksum_errors"] for name in WITH_CHECKSUM}
+    spoilt(station, WITH_CHECKSUM, "corrupt 4")
+    for name in WITH_CHECKSUM:
+        expect(station.instrument(name)["checksum_errors"] > before[name], f"{name} counts no wrong checksum")
+
+
+@check("TemperIsReadByHidapiOverLibusbToo")
+def libusb_back_end(station):
+    """The same library calls, served by libusb instead of hidraw. A station of its own: the other
+    libusb instruments tell libusb to discover nothing, which that back end needs."""
+    for name in list(station.processes):
+        station.end(name)
+    os.environ["LD_PRELOAD"] = HIDAPI_LIBUSB
+    try:
+        with DirectStation(only=("material",)) as other:
+            other.start()
+            other.wait_until_good("laser", "material", limit_s=30)
+            maps = open(f"/proc/{other.processes['axiscald'].pid}/maps", encoding="utf-8").read()
+            expect("libhidapi-libusb" in maps, "the other back end is not there")
+            near("probe", other.value("material", "probe temperature"),
+                 other.scenario["thermal"]["material"]["start"], 0.5)
+            suffers(other, ["material"], lambda name: other.usb(f"unplug {name}"),
+                    lambda name: other.usb(f"plug {name}"))
+    finally:
+        del os.environ["LD_PRELOAD"]
+
+
+def main():
+    load_modules("vhci_hcd", "cdc_acm", "ftdi_sio", "usbhid", "hid_generic")
+    start_udev()
+    with DirectStation() as station:
+        return run_checks(station)
+
+
+sys.exit(main())
