@@ -33,8 +33,8 @@ TEST(UsbTenkiDevice, AnswersUnknownChannelsWithNothingAndUnknownCommandsWithZero
 
 TEST(UsbTenkiDevice, CountsAsTheDataSheetsExample) {
     // MS5611-01BA03 data sheet: D1 = 9085466, D2 = 8569150 are 20.07 degC and 1000.09 mbar; there
-    // TEMP is 2007.98 hundredths and P 100009.07 Pa before they are cut.
-    const auto counts = ms5611_counts(100009.07, 20.0798, ms5611_example);
+    // TEMP is 2007.9853 hundredths and P 100009.07 Pa before they are cut.
+    const auto counts = ms5611_counts(100009.07, 20.079853, ms5611_example);
     EXPECT_NEAR(counts.d2, 8569150, 1);
     EXPECT_NEAR(counts.d1, 9085466, 1);
 }
