@@ -104,7 +104,7 @@ std::vector<OutboxEntry> list_entries(const std::string& outbox) {
     for (const auto& name : entry_names(outbox)) {
         auto entry = read_entry(outbox, name);
         entries.push_back(entry ? *std::move(entry)
-                                : OutboxEntry{name, outbox + "/" + name, {}, false});
+                                : OutboxEntry{name, (fs::path{outbox} / name).string(), {}, false});
     }
     return entries;
 }

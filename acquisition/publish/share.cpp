@@ -57,7 +57,7 @@ sweep(const Journey& journey, const std::string& folder, const std::vector<std::
     for (const auto& file : journey.files) {
         const auto part = part_name(file.name, journey.mark);
         if (std::ranges::find(names, part) != names.end())
-            AXISCAL_CHECK(journey.destination.remove_file(folder + "/" + part));
+            AXISCAL_CHECK(journey.destination.remove_file((fs::path{folder} / part).string()));
     }
     return {};
 }

@@ -28,6 +28,8 @@ class SmbDestination final : public Destination {
 public:
     explicit SmbDestination(SmbSettings settings);
     ~SmbDestination() override;
+    SmbDestination(const SmbDestination&) = delete;
+    SmbDestination& operator=(const SmbDestination&) = delete;
     [[nodiscard]] std::string place() const override;
     Result<void> check() override;
     Result<bool> make_folder(const std::string& path) override;
