@@ -20,6 +20,10 @@ namespace {
 
 using boost::asio::steady_timer;
 
+/// After so many requests without a reply a line is opened anew: ftdi_sio stops reading for good at
+/// a STALL, until its next opening.
+constexpr int silent_requests = 3;
+
 Fault fault_of(int modbus_error) {
     switch (modbus_error) {
     case ETIMEDOUT: return Fault::link_timeout;
@@ -82,7 +86,10 @@ public:
         const int got = function(context_, request.address, request.count, reply.words.data());
         const int error_number = errno;
         reply.read_at = monotonic_now();
-        if (got == request.count) return reply;
+        if (got == request.count) {
+            silent_ = 0;
+            return reply;
+        }
         auto error = failed("unit " + std::to_string(request.unit_id) + " on", error_number);
         recover(error.value().fault);
         return error;
@@ -106,7 +113,8 @@ private:
     void recover(Fault fault) {
         if (fault == Fault::refused) return;
         const bool serial = settings_.kind == LinkSettings::Kind::serial;
-        if (serial && fault != Fault::link_closed)
+        silent_ = fault == Fault::link_timeout ? silent_ + 1 : 0;
+        if (serial && fault != Fault::link_closed && silent_ < silent_requests)
             ::modbus_flush(context_);
         else
             close();
@@ -114,11 +122,13 @@ private:
     void close() {
         if (connected_) ::modbus_close(context_);
         connected_ = false;
+        silent_ = 0;
     }
 
     const LinkSettings& settings_;
     modbus_t* context_;
     bool connected_ = false;
+    int silent_ = 0; ///< time-outs since the last reply
 };
 
 /// What the loop and the thread of one line share.

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from guest import check, expect, load_modules, run_checks, start_udev, wait_until
-from usb_station import LINKS, RECOVERY_S, Undisturbed, UsbStation
+from usb_station import LINKS, Undisturbed, UsbStation
 
 SENSORS = ("air", "material")
 GONE = ("unavailable", "faulty")
@@ -115,6 +115,66 @@ def sensors_corrupt(station):
     spoilt(station, SENSORS, "corrupt 1", ["laser"])
     for name in SENSORS:
         expect(station.instrument(name)["checksum_errors"] > before[name], f"{name} counts no wrong checksum")
+
+
+@check("StalledSensorsAreGivenUpAndComeBack")
+def sensors_stalled(station):
+    spoilt(station, SENSORS, "stall", ["laser"])
+
+
+@check("NodeThatComesBackUnderAnotherNumberIsFoundByItsName")
+def renamed(station):
+    """Another program holds the dead node, so that the kernel gives the next number."""
+    node = os.path.realpath(LINKS["air"])
+    holder = os.open(node, os.O_RDONLY | os.O_NOCTTY | os.O_NONBLOCK)
+    try:
+        with Undisturbed(station, "laser", "material"):
+            station.usb("unplug air")
+            station.wait_for_state("air", GONE)
+            station.usb("plug air")
+            wait_until(f"udev made {LINKS['air']} again", Path(LINKS["air"]).exists)
+            expect(os.path.realpath(LINKS["air"]) != node, f"{node} was free after all")
+            station.wait_until_good("air")
+    finally:
+        os.close(holder)
+
+
+@check("DeviceWithBrokenDescriptorsStaysUnavailable")
+def broken_descriptors(station):
+    with Undisturbed(station, "laser", "material"):
+        station.usb("fault air descriptors")
+        station.usb("unplug air")
+        station.wait_for_state("air", GONE)
+        station.usb("plug air")
+        wait_until("the kernel has seen the device", lambda: "descriptor" in os.popen("dmesg | tail -n 20").read())
+        expect(not Path(LINKS["air"]).exists(), "the kernel made a terminal of half a configuration")
+        expect(station.state("air") in GONE, station.state("air"))
+        station.usb("unplug air")
+        station.usb("fault air none")
+        station.usb("plug air")
+        wait_until(f"udev made {LINKS['air']} again", Path(LINKS["air"]).exists)
+        station.wait_until_good("air")
+
+
+@check("LongLatencyTimerOfAnFtdiAdapterIsToldOnce")
+def latency(station):
+    """The rules set 1 ms; here somebody undid that before the start."""
+    station.end("axiscald")
+    station.end("usb")
+    station.rewire("laser", "ftdi", {"called": "laser", "serial": "A700AXIS"}, "/dev/axiscal/ftdi-A700AXIS-00")
+    station.start_usb()
+    node = Path(os.path.realpath(station.links["laser"])).name
+    timer = Path(f"/sys/bus/usb-serial/devices/{node}/latency_timer")
+    wait_until("the rules have set 1 ms", lambda: timer.read_text().strip() == "1")
+    timer.write_text("16")
+    expect(station.ask_usb("status")["devices"]["laser"]["state"] == "latency timer 16 ms", "the adapter was not told")
+    station.write_station()
+    station.start_daemon()
+    station.wait_until_good("laser", limit_s=30)
+    lines = [line for line in station.logged() if "holds bytes back" in line]
+    print(lines)
+    expect(len(lines) == 1 and "16 ms instead of 1 ms" in lines[0], f"{station.logged()}")
+    expect(station.instrument("laser")["lost_records"] == 0, "records were lost on the way")
 
 
 def main():

@@ -49,6 +49,12 @@ class UsbStation(bench.Bench):
         for link in self.links.values():
             wait_until(f"udev made {link}", Path(link).exists)
 
+    def rewire(self, name, kind, settings, link):
+        """Another adapter for an instrument, before start_usb() and write_station()."""
+        self.wires[name] = (kind, settings)
+        self.links[name] = link
+        next(one for one in self.station["instrument"] if one["name"] == name)["link"] = "serial:" + link
+
     def usb(self, command):
         Commands(self.folder / "usb.sock").do(command)
 
@@ -71,7 +77,9 @@ class UsbStation(bench.Bench):
             wait_until(f"{name} gives good values again", lambda: self.state(name) == "available" and self.good(name), limit_s)
 
     def logged(self):
-        return next(log for log in self.logs if log.name.startswith("axiscald")).read_text(errors="replace").splitlines()
+        """Of the daemon that was started last."""
+        log = [log for log in self.logs if log.name.startswith("axiscald")][-1]
+        return log.read_text(errors="replace").splitlines()
 
     def __exit__(self, *failure):
         """The logs go to the host; failures are the checks' own to tell."""

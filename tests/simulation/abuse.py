@@ -183,7 +183,7 @@ def door(b):
     b.station["cycle"].update(approaches=5)
     b.station["trigger"]["client_limit"] = CLIENTS + 1
     meter = Meter(b.folder / "meter")
-    b.daemon_environment = {
+    b.environment = {
         "AXISCAL_LOOP_METER": str(meter.path),
         "LD_PRELOAD": os.environ["AXISCAL_METER"],
         "ASAN_OPTIONS": "verify_asan_link_order=0",

@@ -121,7 +121,6 @@ class Bench:
         self.processes = {}
         self.environment = {}  # of the daemon, and of what it starts
         self.logs = []
-        self.daemon_environment = {}
         self.share = self.folder / "share"
         self.share.mkdir()
         self.scenario = tomllib.loads(
@@ -197,7 +196,6 @@ class Bench:
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
-                env={**os.environ, **(self.daemon_environment if name == "axiscald" else {})},
                 preexec_fn=lambda: lib.prctl(DIE_WITH_PARENT, signal.SIGKILL),
             )
         self.processes[name] = process

@@ -104,10 +104,8 @@ TEST(ModbusProfile, JoinsNeighboursAndNeverReadsAcrossAGap) {
 TEST(ModbusProfile, NamesTheKnownOnesWhenOneIsMissing) {
     const auto missing = find_profile("comet", {"/nowhere", shipped});
     ASSERT_FALSE(missing);
-    EXPECT_NE(missing.error().detail.find("comet-t7310, comet-t7510, tm-th8, xy-md02"),
-              std::string::npos)
-        << missing.error().detail;
-    EXPECT_EQ(find_profile("./mine.toml", {}), "./mine.toml");
+    for (const char* known : {"comet-t7310, comet-t7510", "tm-th8", "xy-md02"})
+        EXPECT_NE(missing.error().detail.find(known), std::string::npos) << missing.error().detail;
 }
 
 TEST(ModbusProfile, IsRefusedWithFileAndLine) {
