@@ -169,8 +169,9 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
 }
 
 void read_ballbar(Settings root, StationConfig& config) {
-    if (!root.has("ballbar")) return;
-    config.ballbar = RoleReader{root.table("ballbar"), config}.one("sensor", Medium::none);
+    Settings ballbar = root.table("ballbar");
+    const std::string sensor = ballbar.text("sensor", "");
+    if (!sensor.empty()) config.ballbar = RoleReader{ballbar, config}.one("sensor", Medium::none);
 }
 
 } // namespace axiscal

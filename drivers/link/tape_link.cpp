@@ -135,6 +135,11 @@ Task<Result<TimedBytes>> TapePlayer::play_in(MonotonicTime deadline) {
 }
 
 Result<void> TapePlayer::play_out(std::span<const std::byte> bytes) {
+    if (!at_end() && tape_.entries[next_].direction == TapeEntry::Direction::closed &&
+        scheduler_.now() >= *begin_ + tape_.entries[next_].offset) {
+        ++next_;
+        return fail(Fault::link_closed, "the link closed on the tape");
+    }
     const bool expected = !at_end() &&
                           tape_.entries[next_].direction == TapeEntry::Direction::out &&
                           std::ranges::equal(tape_.entries[next_].bytes, bytes);

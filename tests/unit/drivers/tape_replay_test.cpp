@@ -38,6 +38,7 @@ Task<void> run_to_the_end(Instrument& instrument,
     while (!player.at_end()) {
         const auto ended = co_await instrument.run(context);
         sink.lines.push_back("ended " + std::string{fault_name(ended.error().fault)});
+        if (ended.error().fault == Fault::internal) co_return; // it would write the same again
     }
 }
 
