@@ -3,12 +3,12 @@
 
 #include "analysis/uncertainty/monte_carlo.hpp"
 #include "analysis/uncertainty/random_lanes.hpp"
+#include "tests/bench/row.hpp"
 
-#include <benchmark/benchmark.h>
 #include <cmath>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::bench {
 namespace {
 
 constexpr int trials = 1'000'000;
@@ -37,40 +37,31 @@ SessionErrors errors(Distribution distribution) {
     return out;
 }
 
-/// "items_per_second" counts trials.
-void count_trials(benchmark::State& state) {
-    state.SetItemsProcessed(state.iterations() * trials);
-}
-
-void normal_generation_alone(benchmark::State& state) {
+void normal_generation_alone() {
+    static const LaneCode code = fastest_lane_code();
     RandomLanes random{1};
     std::vector<double> numbers(draws * lanes);
-    const LaneCode code = fastest_lane_code();
-    for (auto _ : state)
-        for (int trial = 0; trial < trials; trial += lanes) {
-            fill_uniform(random, numbers.data(), draws, code);
-            to_normal(numbers.data(), numbers.size(), code);
-            benchmark::DoNotOptimize(numbers.data());
-            benchmark::ClobberMemory();
-        }
-    count_trials(state);
-}
-
-void whole(benchmark::State& state, Distribution distribution) {
-    const RunAt20C run = session();
-    const PositioningResult result = evaluate_positioning(run);
-    for (auto _ : state) {
-        auto simulated = simulate_sessions(run, result, errors(distribution), {trials, 1});
-        benchmark::DoNotOptimize(simulated);
+    for (int trial = 0; trial < trials; trial += lanes) {
+        fill_uniform(random, numbers.data(), draws, code);
+        to_normal(numbers.data(), numbers.size(), code);
+        benchmark::DoNotOptimize(numbers.data());
+        benchmark::ClobberMemory();
     }
-    count_trials(state);
 }
 
-BENCHMARK(normal_generation_alone)->Name("monte_carlo/limit/117_normals");
-BENCHMARK_CAPTURE(whole, all_normal, Distribution::normal)
-    ->Name("monte_carlo/session_11x5x2/normal");
-BENCHMARK_CAPTURE(whole, as_stated, Distribution::rectangular)
-    ->Name("monte_carlo/session_11x5x2/rectangular");
+Work whole(Distribution distribution) {
+    return [distribution] {
+        static const RunAt20C run = session();
+        static const PositioningResult result = evaluate_positioning(run);
+        benchmark::DoNotOptimize(simulate_sessions(run, result, errors(distribution), {trials, 1}));
+    };
+}
+
+[[maybe_unused]] const bool added =
+    add({"Monte Carlo, 1e6 sessions 11x5x2, normal", whole(Distribution::normal),
+         normal_generation_alone, 1.4, 1000, "117 normals each", 5}) &&
+    add({"Monte Carlo, 1e6 sessions 11x5x2, as stated", whole(Distribution::rectangular),
+         normal_generation_alone, 1.4, 1000, "117 normals each"});
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::bench

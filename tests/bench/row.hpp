@@ -1,7 +1,7 @@
 #pragma once
 // A row of the table of tools/bench: what is measured, the physical limit it is held against in the
-// same run, and the goal. Every *_bench.cpp adds its own rows; a peer joins one by its name
-// (tests/bench/peers).
+// same run, and the goals. Every *_bench.cpp adds its own rows; a peer joins one by its name
+// (tests/bench/peers), or stands in the row when it is a library that the product has anyway.
 
 #include <benchmark/benchmark.h>
 #include <functional>
@@ -14,10 +14,13 @@ using Work = std::function<void()>;
 struct Row {
     std::string name;
     Work ours;
-    Work limit;            ///< empty: none
+    Work limit = {};       ///< empty: none
     double goal_ratio = 0; ///< ours / limit, at most; 0: none
     double goal_ms = 0;    ///< ours, at most; 0: none
     std::string limit_name = "read pass";
+    double goal_numpy = 0;      ///< numpy / ours, at least; 0: none. Needs --peers
+    std::string peer_name = {}; ///< of `peer`
+    Work peer = {};             ///< empty: none beside those of tests/bench/peers
 };
 
 inline void repeat(benchmark::State& state, const Work& work) {
@@ -25,20 +28,25 @@ inline void repeat(benchmark::State& state, const Work& work) {
         work();
 }
 
-/// Registers "<name>/this" and "<name>/limit". True, so that a file can do it in a constant.
+/// Registers NAME/kind.
+inline void measure(const Row& row, const char* kind, const Work& work, const std::string& label) {
+    if (!work) return;
+    benchmark::RegisterBenchmark((row.name + "/" + kind).c_str(), [row, work,
+                                                                   label](benchmark::State& state) {
+        repeat(state, work);
+        state.counters["goal_ratio"] = row.goal_ratio;
+        state.counters["goal_ms"] = row.goal_ms;
+        state.counters["goal_numpy"] = row.goal_numpy;
+        state.SetLabel(label);
+    })->Unit(benchmark::kNanosecond);
+}
+
+/// Registers "<name>/this", "<name>/limit" and "<name>/peer". True, so that a file can do it in a
+/// constant.
 inline bool add(const Row& row) {
-    auto* ours =
-        benchmark::RegisterBenchmark((row.name + "/this").c_str(), [row](benchmark::State& state) {
-            repeat(state, row.ours);
-            state.counters["goal_ratio"] = row.goal_ratio;
-            state.counters["goal_ms"] = row.goal_ms;
-            state.SetLabel(row.limit_name);
-        });
-    ours->Unit(benchmark::kNanosecond);
-    if (row.limit)
-        benchmark::RegisterBenchmark((row.name + "/limit").c_str(), [row](benchmark::State& state) {
-            repeat(state, row.limit);
-        })->Unit(benchmark::kNanosecond);
+    measure(row, "this", row.ours, row.limit_name);
+    measure(row, "limit", row.limit, row.limit_name);
+    measure(row, "peer", row.peer, row.peer_name);
     return true;
 }
 

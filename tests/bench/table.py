@@ -4,36 +4,58 @@
 table.py BENCH_PROGRAM CPU SECONDS PEERS_FOLDER|- [FILTER]
 
 Everything is pinned to one processor. Of interleaved repetitions the fastest counts: on a computer that others use, too, it
-is the one least disturbed. A peer is a program in PEERS_FOLDER that prints a JSON line a figure:
-{"row": name, "peer": what, "ns": number} or {"peer": what, "not_run": reason}.
+is the one least disturbed. A peer is a program in PEERS_FOLDER that is given FILTER and prints a JSON line a figure:
+{"row": name, "peer": what, "ns": number}, with "part": true where it does but part of the job, or
+{"peer": what, "not_run": reason}.
 """
 import json
+import os
 import pathlib
+import platform
 import re
 import subprocess
 import sys
 
+REPETITIONS = 9
+
+
+def machine():
+    """What the numbers are of: no name, no date."""
+    fields = {}
+    for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+        key, _, value = line.partition(":")
+        fields.setdefault(key.strip(), value.strip())
+    compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True, check=False).stdout.strip()
+    return (f"{fields.get('model name', platform.machine())}, {fields.get('cache size', '?')} cache, {os.cpu_count()} processors, "
+            f"kernel {platform.release().split('-')[0]}, g++ {compiler}")
+
 
 def run_ours(program, cpu, seconds, wanted):
     command = ["taskset", "-c", cpu, program, "--benchmark_format=json", f"--benchmark_min_time={seconds}",
-               "--benchmark_repetitions=9", "--benchmark_enable_random_interleaving=true", f"--benchmark_filter={wanted}"]
-    ran = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True)
+               f"--benchmark_repetitions={REPETITIONS}", "--benchmark_enable_random_interleaving=true",
+               f"--benchmark_filter={wanted}"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    if ran.returncode != 0:
+        sys.exit(f"{program} ended with {ran.returncode}: {ran.stderr.strip()}")
     rows = {}
-    for one in json.loads(ran.stdout)["benchmarks"]:
+    for one in sorted(json.loads(ran.stdout)["benchmarks"], key=lambda one: one["family_index"]):
         if one["run_type"] != "iteration":
             continue
         name, kind = one["run_name"].rsplit("/", 1)
-        row = rows.setdefault(name, {})
+        row = rows.setdefault(name, {"peers": [], "parts": []})
         row[kind] = min(row.get(kind, float("inf")), one["real_time"])
-        if kind == "this":
-            row.update(goal_ratio=one["goal_ratio"], goal_ms=one["goal_ms"], limit_name=one["label"])
+        row[kind + " label"] = one["label"]
+        row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy")})
+    for row in rows.values():
+        if "peer" in row:
+            row["peers"].append((row["peer"], row["peer label"]))
     return rows
 
 
 def run_peers(folder, cpu, wanted, rows):
-    """The fastest peer joins each row; what did not run is told."""
+    """Every peer joins its row; what did not run is told."""
     told = []
-    for script in sorted(folder.glob("*.py")):
+    for script in sorted(set(folder.glob("*.py")) - set(folder.glob("bench_*.py"))):
         ran = subprocess.run(["taskset", "-c", cpu, "/usr/bin/python3", "-B", script, wanted], capture_output=True, text=True, check=False)
         if ran.returncode != 0:
             told.append(f"{script.name} did not run: {ran.stderr.strip().splitlines()[-1:]}")
@@ -42,8 +64,7 @@ def run_peers(folder, cpu, wanted, rows):
             if "not_run" in found:
                 told.append(f"{found['peer']} did not run: {found['not_run']}")
             elif found["row"] in rows:
-                row = rows[found["row"]]
-                row["peers"] = [*row.get("peers", []), (found["ns"], found["peer"])]
+                rows[found["row"]]["parts" if found.get("part") else "peers"].append((found["ns"], found["peer"]))
     return told
 
 
@@ -54,32 +75,47 @@ def time_text(ns):
     return f"{ns:.3g} ns"
 
 
-def cells(name, row):
-    ours, limit = row["this"], row.get("limit")
-    peer = min(row.get("peers", []), default=None)
+def goals_of(row):
+    """(what, whether it is met; None: not measured)"""
+    ours = row["this"]
     if row["goal_ratio"]:
-        goal, met = f"<= {row['goal_ratio']:g} x", ours <= row["goal_ratio"] * limit
-    elif row["goal_ms"]:
-        goal, met = f"<= {row['goal_ms']:g} ms", ours <= row["goal_ms"] * 1e6
-    else:
-        goal, met = "-", True
-    return [name, time_text(ours), f"{time_text(limit)} ({row['limit_name']})" if limit else "-",
+        yield f"<= {row['goal_ratio']:g} x limit", ours <= row["goal_ratio"] * row["limit"]
+    if row["goal_ms"]:
+        yield f"<= {row['goal_ms']:g} ms", ours <= row["goal_ms"] * 1e6
+    if row["goal_numpy"]:
+        numpy = min((ns for ns, peer in row["peers"] if peer.startswith("numpy")), default=None)
+        yield f">= {row['goal_numpy']:g} x numpy", None if numpy is None else numpy >= row["goal_numpy"] * ours
+
+
+def cells(name, row):
+    ours, limit, peer = row["this"], row.get("limit"), min(row["peers"], default=None)
+    words = {True: "", False: " MISSED", None: " (not measured)"}
+    return [name, time_text(ours), f"{time_text(limit)} ({row['limit label']})" if limit else "-",
             f"{time_text(peer[0])} ({peer[1]}), {peer[0] / ours:.3g} x" if peer else "-",
-            f"{ours / limit:.2f}" if limit else "-", goal + ("" if met else "  MISSED")]
+            f"{ours / limit:.2f}" if limit else "-", ", ".join(goal + words[met] for goal, met in goals_of(row)) or "-"]
+
+
+def other_peers(rows):
+    """Those behind the best one, and those that do but a part of the job."""
+    return [f"{name}: {peer} {time_text(ns)}, {ns / row['this']:.3g} x"
+            for name, row in rows.items() for ns, peer in sorted(row["peers"])[1:] + sorted(row["parts"])]
 
 
 def main():
     program, cpu, seconds, peers = sys.argv[1:5]
     wanted = sys.argv[5] if len(sys.argv) > 5 else "."
+    print(f"{machine()}; pinned to processor {cpu}, fastest of {REPETITIONS} interleaved repetitions")
+    begin = os.getloadavg()[0]
     rows = run_ours(program, cpu, seconds, wanted)
     told = run_peers(pathlib.Path(peers), cpu, wanted, rows) if peers != "-" else ["peers did not run: tools/bench --peers"]
-    table = [["name", "this", "limit", "best peer", "ratio", "goal"], *(cells(name, row) for name, row in rows.items())]
+    print(f"load of the computer (1 min): {begin:.1f} before, {os.getloadavg()[0]:.1f} after")
+    head = ["name", "this", "limit", "best peer", "ratio", "goal"]
+    table = [head, ["---"] * len(head), *(cells(name, row) for name, row in rows.items())]
     widths = [max(map(len, column)) for column in zip(*table)]
     for line in table:
-        print(" | ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
-    for line in told:
-        print(line)
-    return 1 if any(re.search("MISSED", line[-1]) for line in table) else 0
+        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths)) + " |")
+    print("\n".join([*other_peers(rows), *told]))
+    return 1 if any("MISSED" in line[-1] for line in table) else 0
 
 
 sys.exit(main())

@@ -6,18 +6,13 @@ import re
 import sys
 import time
 
+import bench_circles
+
 try:
     import numpy
 except ImportError:
     print(json.dumps({"peer": "numpy", "not_run": "python3-numpy is not installed"}))
     sys.exit(0)
-
-
-def circle(count, arc_deg):
-    random = numpy.random.default_rng(17)
-    t = 0.3 + numpy.arange(count) / count * numpy.radians(arc_deg)
-    r = 100 + 0.004 * numpy.cos(2 * t) + 0.002 * numpy.cos(3 * t + 1) + random.normal(0, 0.0005, count)
-    return 3 + r * numpy.cos(t), -2 + r * numpy.sin(t)
 
 
 def fastest(work, *points):
@@ -27,6 +22,10 @@ def fastest(work, *points):
         work(*points)
         best = min(best, time.perf_counter() - begin)
     return best * 1e9
+
+
+def sort(x, _):
+    return numpy.sort(x)
 
 
 def algebraic(x, y):
@@ -45,14 +44,13 @@ def orthogonal(x, y):
 
 def main():
     wanted = re.compile(sys.argv[1])
-    peer = "numpy " + numpy.__version__
-    for row, what, work, count, arc in (
-            ("least squares circle, algebraic, 1e6", "lstsq", algebraic, 10 ** 6, 360),
-            ("least squares circle, orthogonal, 1e6", "three lstsq", orthogonal, 10 ** 6, 360),
-            *((f"minimum zone, {arc} deg, 1e{power}", "sort of x alone", lambda x, _: numpy.sort(x), 10 ** power, arc)
-              for power in (6, 5, 3) for arc in (360, 220))):
+    jobs = [(row, count, arc, "sort of x alone", sort) for row, count, arc in bench_circles.ZONES]
+    jobs.append(("least squares circle, algebraic, 1e6", 10 ** 6, 360, "lstsq", algebraic))
+    jobs.append(("least squares circle, orthogonal, 1e6", 10 ** 6, 360, "three lstsq", orthogonal))
+    for row, count, arc, what, work in jobs:
         if wanted.search(row):
-            print(json.dumps({"row": row, "peer": f"{peer} {what}", "ns": fastest(work, *circle(count, arc))}))
+            x, y = numpy.array(bench_circles.circle(count, arc)).T.copy()
+            print(json.dumps({"row": row, "peer": f"numpy {numpy.__version__} {what}", "part": work is sort, "ns": fastest(work, x, y)}))
 
 
 main()
