@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace axiscal::circle {
 namespace {
@@ -100,7 +101,49 @@ bool is_empty(const PlainCircle& circle, Values x, Values y) {
     return true;
 }
 
+/// Takes the point in unless one of the same place is there.
+bool join(std::vector<std::size_t>& few, Values x, Values y, std::size_t added) {
+    const auto same = [&](std::size_t i) { return x[i] == x[added] && y[i] == y[added]; };
+    if (std::ranges::any_of(few, same)) return false;
+    few.push_back(added);
+    return true;
+}
+
+/// Indices of the nearest and the furthest point.
+std::pair<std::size_t, std::size_t> ends_from(Values x, Values y, const SeenCircle& circle) {
+    const double center_x = circle.origin_x + circle.a, center_y = circle.origin_y + circle.b;
+    std::pair<std::size_t, std::size_t> ends{0, 0};
+    double low = std::numeric_limits<double>::infinity(), high = -1;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double dx = x[i] - center_x, dy = y[i] - center_y, squared = dx * dx + dy * dy;
+        if (squared < low) ends.first = i, low = squared;
+        if (squared > high) ends.second = i, high = squared;
+    }
+    return ends;
+}
+
 } // namespace
+
+std::optional<SeenCircle>
+center_by_growing_set(Values x, Values y, const SeenCircle& near, std::vector<std::size_t> few) {
+    constexpr std::size_t most = 24;
+    std::optional<SeenCircle> answer;
+    for (bool grown = true; grown && few.size() <= most;) {
+        std::vector<double> few_x, few_y;
+        for (const std::size_t i : few) {
+            few_x.push_back(x[i]);
+            few_y.push_back(y[i]);
+        }
+        const auto centers = narrowest_centers(few_x, few_y, near.origin_x, near.origin_y,
+                                               std::numeric_limits<double>::infinity());
+        if (centers.empty()) break;
+        answer = centers.front();
+        const auto [nearest, furthest] = ends_from(x, y, *answer);
+        const bool in = join(few, x, y, nearest), out = join(few, x, y, furthest);
+        grown = in || out;
+    }
+    return answer;
+}
 
 std::optional<PlainCircle> largest_empty_circle(Values x, Values y, double radius) {
     std::optional<PlainCircle> best;

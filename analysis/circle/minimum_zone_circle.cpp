@@ -202,6 +202,20 @@ std::optional<SeenCircle> narrower_near_by(const Optimum& at, const Problem& pro
 
 constexpr std::size_t few = 24; ///< up to here every centre is tried
 
+/// Points in clumps far apart can make the steps so short that they end before the gap is closed.
+void close_gap(Optimum& best, const Problem& problem) {
+    const double promised = 1e-12 * std::max(best.circle.radius, problem.checked.box.magnitude());
+    if (best.gap() <= promised / 2) return;
+    std::vector<std::size_t> set_of_few = problem.checked.distinct;
+    for (const std::size_t place : best.balance.places)
+        if (std::ranges::find(set_of_few, place) == set_of_few.end()) set_of_few.push_back(place);
+    const auto start =
+        center_by_growing_set(problem.x, problem.y, best.circle, std::move(set_of_few));
+    if (!start || start->radius > problem.longest_radius) return;
+    const Optimum other = optimum_from(*start, problem);
+    if (other.width() <= best.width() + problem.rounding) best = other;
+}
+
 void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
     std::vector<SeenCircle> starts;
     if (problem.x.size() <= few) {
@@ -217,6 +231,7 @@ void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
         const Optimum other = optimum_from(start, problem);
         if (other.width() < best.width() - problem.rounding) best = other;
     }
+    if (search != ZoneSearch::exhaustive) close_gap(best, problem);
     constexpr int most_moves = 50;
     for (int i = 0; i < most_moves && search == ZoneSearch::multi_start; ++i) {
         const auto next = narrower_near_by(best, problem);

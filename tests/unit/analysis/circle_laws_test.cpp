@@ -269,6 +269,21 @@ TEST(CircleLaws, APointJustAsideOfADiameterStillLiesInTheCircumscribedCircle) {
     }
 }
 
+TEST(MinimumZoneLaws, ClumpsFarApartAreCertified) {
+    std::mt19937_64 random{46};
+    for (int trial = 0; trial < 100; ++trial) {
+        Points points;
+        for (int i = 0; i < 40; ++i) {
+            const double far = i % 14 == 0 ? 400 : 0;
+            points.x.push_back(far + std::round(uniform(random, 0, 9)) / 16);
+            points.y.push_back(std::round(uniform(random, 0, 9)) / 16);
+        }
+        const auto zone = fit_minimum_zone_circle(points.x, points.y);
+        ASSERT_TRUE(zone) << trial;
+        EXPECT_LE(zone->gap, 1e-12 * std::max(zone->outer_radius, 401.0)) << trial;
+    }
+}
+
 TEST(MinimumZoneCircle, OfAZigzagIsAStripAndSaysSo) {
     const Points points = test::listed({{0, 0}, {1, 1}, {2, -1}, {3, 0}});
     const auto zone = fit_minimum_zone_circle(points.x, points.y);
