@@ -116,7 +116,7 @@ def hardened(station):
         expect(score <= MOST_EXPOSED, f"{unit} is exposed by {score}")
 
 
-@check("ServiceSeesSerialLinesAndNothingElse")
+@check("ServiceSeesItsDevicesAndFoldersAndNothingElse")
 def confined(station):
     """From inside: a script in a unit that differs from the daemon's by its program only."""
     places = [*LINKS.values(), "/dev/ttyS0", "/dev/kmsg", "/dev/mem", "/dev/uhid", "/dev/hwrng"]
