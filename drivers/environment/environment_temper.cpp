@@ -9,7 +9,7 @@
 // [requests] reports of 8 bytes without number, on the last HID interface of the stick (the first
 //            is a keyboard). 01 86 ff 01 ...: firmware, 2 or 3 reports of ASCII. 01 80 33 01 ...:
 //            values, one report, a second one with a probe; bytes 0-1 are a head that varies.
-//            An answer has ended after 100 ms of silence.
+//            An answer has ended after 100 ms of silence, or when the second report did not come.
 
 #include "drivers/environment/environment_temper.hpp"
 
@@ -28,6 +28,7 @@ constexpr std::size_t report_length = 8;
 constexpr std::size_t longest_answer = 4 * report_length; ///< three reports are the most known
 constexpr int tries = 3;         ///< of the firmware's name: old sticks swallow the first request
 constexpr int silent_rounds = 3; ///< then the stick is given up and opened anew
+constexpr int most_late = 64;    ///< reports that the kernel keeps
 constexpr Duration reply_patience = std::chrono::seconds{1};
 constexpr Duration between_reports = std::chrono::milliseconds{100};
 constexpr Duration open_patience = std::chrono::seconds{2};
@@ -49,7 +50,9 @@ public:
 
 private:
     /// The link is owned by the awaiting frame.
-    Task<Result<TimedBytes>> ask(ByteLink& link, Scheduler& scheduler, std::vector<std::byte> what);
+    Task<Result<TimedBytes>>
+    ask(ByteLink& link, Scheduler& scheduler, std::vector<std::byte> what, std::size_t expected);
+    Task<Result<void>> forget_late_reports(ByteLink& link, Scheduler& scheduler);
     Task<Result<TemperFamily>> identify(ByteLink& link, InstrumentContext context);
     void hand_up(const TimedBytes& reply, const TemperFamily& family, SampleSink& sink);
 
@@ -59,17 +62,35 @@ private:
     InstrumentCounters counters_;
 };
 
-/// All reports of one answer, with the time of the first.
+/// A report that came too late for its own answer must not begin the next one.
+Task<Result<void>> Temper::forget_late_reports(ByteLink& link, Scheduler& scheduler) {
+    for (int late = 0; late < most_late; ++late) {
+        const auto report = co_await link.read_some(scheduler.now());
+        if (report) continue;
+        if (report.error().fault == Fault::link_timeout) break;
+        co_return tl::unexpected<Error>(report.error());
+    }
+    co_return Result<void>{};
+}
+
+/// All reports of one answer, with the time of the first. `expected` bytes are waited for in
+/// patience, more only until the stick is silent.
 /// @errors Fault::link_timeout without any, bad_frame for a report of another length or too many.
-Task<Result<TimedBytes>>
-Temper::ask(ByteLink& link, Scheduler& scheduler, std::vector<std::byte> what) {
+Task<Result<TimedBytes>> Temper::ask(ByteLink& link,
+                                     Scheduler& scheduler,
+                                     std::vector<std::byte> what,
+                                     std::size_t expected) {
     const MonotonicTime deadline = scheduler.now() + reply_patience;
+    const auto emptied = co_await forget_late_reports(link, scheduler);
+    if (!emptied) co_return tl::unexpected<Error>(emptied.error());
     const auto written = co_await link.write_all(std::move(what), deadline);
     if (!written) co_return tl::unexpected<Error>(written.error());
     auto answer = co_await link.read_some(deadline);
     bool whole = answer && answer->bytes.size() == report_length;
     while (answer) {
-        const auto more = co_await link.read_some(scheduler.now() + between_reports);
+        const bool waits = answer->bytes.size() < expected;
+        const MonotonicTime end = waits ? deadline : scheduler.now() + between_reports;
+        const auto more = co_await link.read_some(end);
         if (!more && more.error().fault == Fault::link_timeout) break;
         if (!more) co_return tl::unexpected<Error>(more.error());
         whole = whole && more->bytes.size() == report_length;
@@ -94,7 +115,8 @@ Task<Result<TemperFamily>> Temper::identify(ByteLink& link, InstrumentContext co
     std::string firmware;
     for (int tried = 0; tried < tries && firmware.size() <= report_length; ++tried) {
         auto request = bytes_of({0x01, 0x86, 0xFF, 0x01, 0, 0, 0, 0});
-        const auto answer = co_await ask(link, *context.scheduler, std::move(request));
+        const auto answer =
+            co_await ask(link, *context.scheduler, std::move(request), 2 * report_length);
         if (answer)
             firmware = temper_firmware(answer->bytes);
         else if (answer.error().fault == Fault::link_closed || tried + 1 == tries)
@@ -130,11 +152,15 @@ Task<Result<void>> Temper::run(InstrumentContext context) {
     const std::unique_ptr<ByteLink> link = *std::move(opened);
     const auto family = co_await identify(*link, context);
     if (!family) co_return tl::unexpected<Error>(family.error());
+    // Values beyond the first report are in a second one.
+    const bool second = std::max(family->probe_temperature, family->probe_humidity) >=
+                        static_cast<int>(report_length);
+    const std::size_t expected = second ? 2 * report_length : report_length;
     int silent = 0;
     MonotonicTime next = scheduler.now();
     for (;;) {
         auto request = bytes_of({0x01, 0x80, 0x33, 0x01, 0, 0, 0, 0});
-        const auto answer = co_await ask(*link, scheduler, std::move(request));
+        const auto answer = co_await ask(*link, scheduler, std::move(request), expected);
         if (answer) hand_up(*answer, *family, *context.sink);
         silent = answer ? 0 : silent + 1;
         if (!answer && (silent == silent_rounds || answer.error().fault == Fault::link_closed))

@@ -115,7 +115,7 @@ def boot(share, command, limit_s, append="", memory_mb=1536):
     words = ["qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", "qemu64", "-M", "q35", "-smp", "2",
              "-m", str(memory_mb), "-nodefaults", "-no-reboot", "-display", "none",
              "-serial", f"file:{share}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
-             "-append", f"console=ttyS0 quiet panic=-1 mitigations=off {append}".strip(),
+             "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),
              *folder_words("hostroot", "/", True), *folder_words("share", share, False),
              *folder_words("modules", RIG / "unpacked/lib/modules", True),
              "-device", f"isa-debug-exit,iobase={SAYS_GOODBYE:#x},iosize=4"]
