@@ -14,7 +14,7 @@ from usb_station import LASER, LINKS, Undisturbed, UsbStation
 NAMES = ("air", "material", "ballbar")
 WITH_CHECKSUM = ("air", "ballbar")  # a TEMPer has none
 GONE = ("unavailable", "faulty")
-BACK_S = 15.0  # 5 s at full speed, of which the supervisor's longest pause is 4 s
+BACK_S = 40.0  # 5 s at full speed, of which the supervisor pauses for 4; the guest is eight times slower
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
 HIDAPI_LIBUSB = "/usr/lib/x86_64-linux-gnu/libhidapi-libusb.so.0"
 
