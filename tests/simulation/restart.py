@@ -1,6 +1,11 @@
 """A daemon that dies in mid-run goes on where it was, or says why it cannot."""
 
+import contextlib
+import json
 import signal
+import sqlite3
+import subprocess
+from pathlib import Path
 
 import bench
 from bench import expect, sentence
@@ -26,7 +31,33 @@ def goes_on(b):
     expect("The station recorded nothing for" in remarks, remarks)
     expect("The laser counted on during the interruption" in remarks, remarks)
     expect("The run was resumed at" in remarks, remarks)
+    printed = pdf_words(Path(run["certificate"]) / "certificate.pdf")
+    for words in ("The run was interrupted at", "The station recorded nothing for"):
+        expect(words in printed, f"the PDF does not tell of the interruption: {printed}")
     return remarks
+
+
+def pdf_words(path):
+    done = subprocess.run(["pdftotext", "-layout", path, "-"], capture_output=True, text=True, check=True)
+    return " ".join(done.stdout.split())
+
+
+def closed_because(b, words):
+    """The next daemon closes the run as incomplete, says why, and the file says it too."""
+    b.start_daemon()
+    notes = bench.wait_until(
+        "the run is closed",
+        lambda: [n for n in b.status()["notes"] if "closed as incomplete" in n],
+        30,
+    )
+    expect(words in notes[-1], notes[-1])
+    expect(b.run() is None, "no run is open")
+    files = list((b.folder / "state" / "runs").glob("*.axiscal"))
+    told = json.loads(b.axiscal("verify", files[0], "--json"))
+    expect(told["closed"] and not told["complete"] and told["rows"]["point"] >= 5, f"{told}")
+    with contextlib.closing(sqlite3.connect(files[0])) as base:
+        reason = base.execute("SELECT reason FROM closing").fetchone()[0]
+    expect(words in reason, reason)
 
 
 @sentence("KilledDaemonGoesOnWithTheRunOverTcp")
@@ -74,14 +105,15 @@ def advanced_by_hand(b):
 def counter_restarted(b):
     interrupt(b, signal.SIGKILL, -signal.SIGKILL)
     b.sim("restart-counter")
-    b.start_daemon()
-    notes = bench.wait_until(
-        "the run is closed",
-        lambda: [n for n in b.status()["notes"] if "closed as incomplete" in n],
-        30,
-    )
-    expect("The datum is lost: its number advanced by" in notes[-1], notes[-1])
-    expect(b.run() is None, "no run is open")
+    closed_because(b, "The datum is lost: its number advanced by")
+
+
+@sentence("StationFileThatWasChangedMeanwhileEndsTheRun")
+def config_changed(b):
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    b.station["certificate"]["place"] = "another hall"
+    b.write_station()
+    closed_because(b, "The station file was changed since the run was opened.")
 
 
 if __name__ == "__main__":
