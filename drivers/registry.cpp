@@ -58,6 +58,11 @@ void check_channel(const Instrument& instrument, const ChannelConfig& wanted, Se
                                       list_of(channels));
         return;
     }
+    const std::string stored{stored_unit_of(found->kind)};
+    if (!wanted.correction_unit.empty() && wanted.correction_unit != stored)
+        options.refuse("channel", "\"" + wanted.channel + "\" counts in " + stored +
+                                      ", and its correction is stated in " +
+                                      wanted.correction_unit + ": write its unit");
     const bool settled = found->medium != Medium::none && wanted.medium;
     if (settled && *wanted.medium != found->medium)
         options.refuse("channel", "\"" + wanted.channel + "\" measures " +

@@ -2,6 +2,7 @@
 
 #include "acquisition/publish/result_json.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
+#include "analysis/certificate_expiry.hpp"
 
 namespace axiscal {
 namespace {
@@ -126,6 +127,7 @@ Json instruments_of(const RunRecord& run) {
         object["certificate_number"] = stated(instrument.certificate_number);
         object["calibrated_on"] = stated(instrument.calibrated_on);
         object["due_on"] = stated(instrument.due_on);
+        object["expired"] = has_expired(instrument.due_on, run_date_of(run));
         list.push_back(std::move(object));
     }
     return list;

@@ -5,11 +5,13 @@
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "config/certificate_dates.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -147,11 +149,24 @@ int command_program(const ProgramRequest& request, bool json) {
     return exit_ok;
 }
 
+namespace {
+
+/// ISO date, UTC.
+std::string today() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return iso8601_utc(std::chrono::nanoseconds{now}.count()).substr(0, 10);
+}
+
+} // namespace
+
 int command_check_config(const std::string& station_file, bool json) {
     const auto station = load_station(station_file);
     if (!station) return print_refusals(station.error(), json);
     Json warnings = Json::array();
-    for (const Refusal& warning : station->config.warnings) {
+    std::vector<Refusal> notes = station->config.warnings;
+    for (Refusal& note : expired_certificates(station->config, today()))
+        notes.push_back(std::move(note));
+    for (const Refusal& warning : notes) {
         warnings.push_back(warning.describe());
         if (!json) std::cout << "note: " << warning.describe() << "\n";
     }

@@ -25,6 +25,7 @@ void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 
 /// Columns and rows of the instrument table. Pure.
 std::vector<TableColumn> instrument_columns();
-TableRow instrument_row(const InstrumentRecord& instrument);
+/// `run_date` is the ISO date on which the run was opened: a certificate due before it had expired.
+TableRow instrument_row(const InstrumentRecord& instrument, const std::string& run_date);
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/plots.hpp"
+#include "analysis/certificate_expiry.hpp"
 
 #include <algorithm>
 #include <map>
@@ -211,7 +212,7 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
 void draw_instruments(Sheet& sheet, const Certificate& certificate) {
     std::vector<TableRow> rows;
     for (const InstrumentRecord& instrument : certificate.run.instruments)
-        rows.push_back(instrument_row(instrument));
+        rows.push_back(instrument_row(instrument, run_date_of(certificate.run)));
     sheet.heading("Instruments");
     sheet.table(instrument_columns(), rows);
 }

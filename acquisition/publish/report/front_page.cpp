@@ -1,5 +1,6 @@
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/plots.hpp"
+#include "analysis/certificate_expiry.hpp"
 
 #include <algorithm>
 
@@ -81,7 +82,7 @@ void draw_instruments(Sheet& sheet,
     const auto& instruments = certificate.run.instruments;
     std::vector<TableRow> rows;
     for (std::size_t i = 0; i < std::min(instruments.size(), instruments_on_front); ++i)
-        rows.push_back(instrument_row(instruments[i]));
+        rows.push_back(instrument_row(instruments[i], run_date_of(certificate.run)));
     if (rows.empty()) sheet.text("Instruments: not stated", {7.5});
     const bool cut = sheet.table(instrument_columns(), rows, 7.5, 2);
     sheet.advance(-2);
@@ -229,13 +230,14 @@ std::vector<TableColumn> instrument_columns() {
             {"Due", "", Align::left, true}};
 }
 
-TableRow instrument_row(const InstrumentRecord& instrument) {
+TableRow instrument_row(const InstrumentRecord& instrument, const std::string& run_date) {
     std::string model = instrument.maker;
     if (!model.empty() && !instrument.model.empty()) model += " ";
     model += instrument.model;
     return {instrument.name + ": " + stated(model), stated(instrument.serial),
             stated(instrument.certificate_number), stated(instrument.calibrated_on),
-            stated(instrument.due_on)};
+            stated(instrument.due_on) +
+                (has_expired(instrument.due_on, run_date) ? ", expired" : "")};
 }
 
 std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certificate) {

@@ -1,3 +1,4 @@
+#include "config/certificate_dates.hpp"
 #include "config/station_config.hpp"
 #include "tests/support/source_dir.hpp"
 
@@ -105,6 +106,16 @@ TEST(StationExample, MeansWhatItsWordsSay) {
     EXPECT_DOUBLE_EQ(config.instruments[1].channels[1].correction, 20);
     EXPECT_EQ(config.instruments[1].channels[1].correction_unit, "Pa");
     EXPECT_EQ(config.instruments[2].channels[0].medium, Medium::material);
+}
+
+TEST(CertificateDates, NameWhatHasExpiredWithItsLine) {
+    const StationConfig config = read_text(example_text()).config;
+    EXPECT_TRUE(expired_certificates(config, "2027-01-20").empty()); // the day itself is good
+    const auto notes = expired_certificates(config, "2027-01-21");
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].reason.find("\"material\" was due on 2027-01-20"), std::string::npos);
+    EXPECT_EQ(notes[0].line, config.instruments[2].line);
+    EXPECT_EQ(expired_certificates(config, "2028-01-01").size(), 3U);
 }
 
 /// "table.key" for every assignment in the file, also in a comment ("# key = ...").

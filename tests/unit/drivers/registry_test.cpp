@@ -60,6 +60,17 @@ TEST(Registry, RefusesAChannelThatTheInstrumentDoesNotHave) {
     EXPECT_NE(all_refusals(made).find("it has axis 1"), std::string::npos) << all_refusals(made);
 }
 
+TEST(Registry, RefusesACorrectionInAnotherUnitThanTheChannels) {
+    InstrumentConfig config;
+    config.channels.push_back({});
+    config.channels.back().channel = "air temperature";
+    config.channels.back().correction = 20;
+    config.channels.back().correction_unit = "Pa";
+    const auto made =
+        testing::make_instrument("dracal-vcp", "link = \"serial:/dev/ttyACM1\"\n", config);
+    EXPECT_NE(all_refusals(made).find("counts in degC"), std::string::npos) << all_refusals(made);
+}
+
 TEST(Registry, RefusesAnAirChannelAsMaterial) {
     InstrumentConfig config;
     config.channels.push_back({});

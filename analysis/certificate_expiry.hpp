@@ -1,0 +1,17 @@
+#pragma once
+// Whether an instrument's certificate was good when a run was made. Pure.
+
+#include "analysis/run_record.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// ISO date (UTC) on which the run was opened.
+std::string run_date_of(const RunRecord& run);
+
+/// A certificate due on `due_on` was no longer good on `date`; the day itself is. Both are ISO
+/// dates; false when no due date is stated.
+bool has_expired(const std::string& due_on, const std::string& date);
+
+} // namespace axiscal
