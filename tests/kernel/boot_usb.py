@@ -56,10 +56,15 @@ class DirectStation(UsbStation):
         print("\n".join(lines))
         return [line for line in lines if f"{name}:" in line]
 
+    def changes_of(self, name, since):
+        """Its changes of state: unavailable, perhaps faulty after it, available."""
+        return [line for line in self.logged()[since:] if f" {name} is " in line]
+
 
 def suffers(station, names, begin, end):
     """`begin` spoils the named instruments, all are given up, `end` mends them, all come back; the
-    laser loses nothing meanwhile. One line each in the log, however often it was met."""
+    laser loses nothing meanwhile. Each change of state is one line in the log; the reason is one at most,
+    however often it was met: what was told last is not told again."""
     since = len(station.logged())
     with Undisturbed(station, "laser"):
         for name in names:
@@ -73,7 +78,9 @@ def suffers(station, names, begin, end):
         print(f"back after {time.monotonic() - mended:.1f} s")
     for name in names:
         lines = station.lines_of(name, since)
-        expect(len(lines) == 1, f"{name} is told {len(lines)} times: {lines}")
+        expect(len(lines) <= 1, f"{name} is told {len(lines)} times: {lines}")
+        changes = station.changes_of(name, since)
+        expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{name} changed: {changes}")
 
 
 def spoilt(station, names, fault):

@@ -120,7 +120,8 @@ TEST(CertificateDates, NameWhatHasExpiredWithItsLine) {
 
 /// "table.key" for every assignment in the file, also in a comment ("# key = ...").
 std::set<std::string> explained_keys(const std::string& text) {
-    static const std::regex header{R"(^(?:# )?\[+([a-z_.]+)\]+$)"}, key{R"(^(?:# )?([A-Za-z_0-9]+) = .*)"};
+    static const std::regex header{R"(^(?:# )?\[+([a-z_.]+)\]+$)"},
+        key{R"(^(?:# )?([A-Za-z_0-9]+) = .*)"};
     std::set<std::string> keys;
     std::istringstream lines{text};
     std::string line, table;

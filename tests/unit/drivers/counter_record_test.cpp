@@ -68,6 +68,12 @@ TEST(CountUnwrapper, FollowsARegisterOverBothEnds) {
     EXPECT_EQ(whole.unwrap(5), 5);
 }
 
+Task<void>
+run_until_it_ends(Instrument& instrument, InstrumentContext context, std::optional<Fault>& ended) {
+    const auto result = co_await instrument.run(context);
+    ended = result ? Fault::none : result.error().fault;
+}
+
 TEST(Counter, ReadsEventsFromAPipeAndEndsWithIt) {
     const testing::ScratchFolder folder;
     const std::string path = folder.path() + "/counter0";
@@ -82,14 +88,10 @@ TEST(Counter, ReadsEventsFromAPipeAndEndsWithIt) {
                        "wavelength = \"632.991 nm\"\ncounts_per_cycle = 4\n");
     ASSERT_TRUE(counter->optics());
     std::optional<Fault> ended;
-    const auto run = [&]() -> Task<void> {
-        const InstrumentContext context{&scheduler, &opener, &sink};
-        const auto result = co_await counter->run(context);
-        ended = result ? Fault::none : result.error().fault;
-    };
     // A reader that does not block opens first, then the writer finds it.
     const int writer = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    boost::asio::co_spawn(loop, run(), boost::asio::detached);
+    boost::asio::co_spawn(loop, run_until_it_ends(*counter, {&scheduler, &opener, &sink}, ended),
+                          boost::asio::detached);
     auto record = literal;
     const auto now_ns = nanoseconds_of(scheduler.now());
     std::memcpy(record.data(), &now_ns, 8);
