@@ -14,7 +14,6 @@ from usb_station import LASER, LINKS, Undisturbed, UsbStation
 NAMES = ("air", "material", "ballbar")
 WITH_CHECKSUM = ("air", "ballbar")  # a TEMPer has none
 GONE = ("unavailable", "faulty")
-BACK_S = 40.0  # 5 s at full speed, of which the supervisor pauses for 4; the guest is eight times slower
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
 HIDAPI_LIBUSB = "/usr/lib/x86_64-linux-gnu/libhidapi-libusb.so.0"
 
@@ -74,7 +73,7 @@ def suffers(station, names, begin, end):
         mended = time.monotonic()
         for name in names:
             end(name)
-        station.wait_until_good(*names, limit_s=BACK_S)
+        station.wait_until_good(*names)
         print(f"back after {time.monotonic() - mended:.1f} s")
     for name in names:
         lines = station.lines_of(name, since)

@@ -2,7 +2,8 @@
 
 A boot file registers checks, each a sentence, and calls run_checks(). One check prints one line,
 `ok NAME` or `FAILED NAME: why`; what belongs to a line follows it, indented. Everything is waited
-for by condition and deadline; a deadline is generous, the guest is eight times slower than its host.
+for by condition and deadline, both by the guest's own clock, which a busy host does not hurry
+(machine.py).
 """
 
 import contextlib

@@ -11,7 +11,7 @@ sys.path.insert(0, str(SOURCE / "tests/simulation"))
 import bench  # noqa: E402  (the bench of the whole-run tests, here with other wires)
 
 RECOVERY_S = 5.0  # from the node's return to good values
-GIVEN_UP_S = 30.0  # the slowest driver's patience (10 s), and a slow guest
+GIVEN_UP_S = 15.0  # the slowest driver's patience (10 s), and its re-opening
 LASER = {"called": "laser", "serial": "7391230"}  # 16c0:0483, a Teensy
 AIR = {"called": "air", "vendor": "289b", "product": "0505", "maker": "Dracal", "name": "VCP-PTH450-CAL",
        "serial": "E24638"}
