@@ -375,16 +375,9 @@ class Screen(Scratch):
                     return
 
     def end(self):
-        """What waitpid says, once it has ended."""
-        state = [0, 0]
-        def ended():
-            state[:] = os.waitpid(self.child, os.WNOHANG)
-            return state[0] == self.child
-        self.read_until(ended)
-        while state[0] != self.child:
-            time.sleep(0.05)
-            ended()
-        return state[1]
+        """What waitpid says, once it has ended; all that it wrote is in `shown` then."""
+        self.read_until(lambda: False)  # what it wrote last stays in the terminal until it is read
+        return os.waitpid(self.child, 0)[1]
 
     def test_it_redraws_and_ends_on_ctrl_c(self):
         self.read_until(lambda: self.shown.count(self.CLEAR) >= 4)
