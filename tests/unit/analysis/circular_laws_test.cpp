@@ -139,9 +139,8 @@ TEST_F(CircularLaws, TheOrderOfTheReadingsIsOfNoMatter) {
         CircularTest shuffled = test;
         for (CircularTrace& trace : shuffled.traces) {
             const auto turn = static_cast<std::ptrdiff_t>(random() % trace.angle_rad.size());
-            std::ranges::rotate(trace.angle_rad, trace.angle_rad.begin() + turn);
-            std::ranges::rotate(trace.radial_deviation_mm,
-                                trace.radial_deviation_mm.begin() + turn);
+            for (std::vector<double>* column : {&trace.angle_rad, &trace.radial_deviation_mm})
+                std::rotate(column->begin(), column->begin() + turn, column->end());
         }
         std::swap(shuffled.traces[0], shuffled.traces[1]);
         expect_same(figures_of(shuffled, RadialCentre::automatic),

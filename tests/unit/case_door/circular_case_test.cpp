@@ -35,7 +35,7 @@ json made_case(double beta, double tau, double from_deg = 0, double to_deg = 359
     return request;
 }
 
-json one_sense(json request, int which) {
+json one_sense(json request, std::size_t which) {
     request["traces"].erase(1 - which);
     return request;
 }

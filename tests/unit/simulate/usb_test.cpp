@@ -106,8 +106,8 @@ public:
         UsbipHeader header{};
         EXPECT_EQ(::recv(socket_, header.data(), header.size(), MSG_WAITALL), 48);
         const auto word = [&](std::size_t at) {
-            return static_cast<int>(std::uint32_t{header[at]} << 24 | header[at + 1] << 16 |
-                                    header[at + 2] << 8 | header[at + 3]);
+            return static_cast<int>(std::uint32_t{header[at]} << 24 | std::uint32_t{header[at + 1]} << 16 |
+                                    std::uint32_t{header[at + 2]} << 8 | header[at + 3]);
         };
         Reply reply{word(0), word(4), word(20), {}};
         reply.bytes.resize(in ? static_cast<std::size_t>(word(24)) : 0);

@@ -68,7 +68,7 @@ UsbAnswer CdcAcm::control(const UsbSetup& setup, std::span<const std::uint8_t> d
     case set_line_coding:
         if (data.size() != coding_.size()) return UsbAnswer::stall();
         coding_.assign(data.begin(), data.end());
-        baud_ = coding_[0] | coding_[1] << 8U | coding_[2] << 16U;
+        baud_ = coding_[0] | std::uint32_t{coding_[1]} << 8U | std::uint32_t{coding_[2]} << 16U;
         return UsbAnswer::done();
     case get_line_coding: return UsbAnswer::done(coding_);
     case set_control_line_state: lines_ = setup.value; return UsbAnswer::done();
