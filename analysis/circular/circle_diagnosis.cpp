@@ -208,7 +208,7 @@ Result<CircleDiagnosis> diagnose_circle(const CircularTest& test, const AxisName
     rank_causes(scene, out);
     rank_groups(scene, out);
     rank_features(scene, out);
-    std::ranges::stable_sort(out.ranking, std::ranges::greater{}, &Contribution::G_mm);
+    std::ranges::stable_sort(out.ranking, std::ranges::greater{}, &CauseContribution::G_mm);
     return out;
 }
 

@@ -21,7 +21,7 @@ struct CauseEstimate {
 };
 
 /// What one cause, or a group that the data do not split, does to the form.
-struct Contribution {
+struct CauseContribution {
     std::string cause;            ///< "squareness", "scale_mismatch", "cyclic_x", ...
     double peak_to_valley_mm = 0; ///< of its term, over the angles measured
     /// Range of its term without the circle that the term itself shifts (least squares, first
@@ -56,7 +56,7 @@ struct CircleDiagnosis {
     std::vector<circular::Reversal> reversals;
     std::vector<circular::ChangeOver> change_overs;
     std::optional<circular::Vibration> vibration;
-    std::vector<Contribution> ranking; ///< by G_mm, largest first
+    std::vector<CauseContribution> ranking; ///< by G_mm, largest first
     [[nodiscard]] const CauseEstimate& of(circular::Cause cause) const {
         return causes[static_cast<std::size_t>(cause)];
     }

@@ -51,7 +51,7 @@ Result<void> check_sizes(const Fields& fields) {
     return {};
 }
 
-bool is_stated(const Fields& fields, const std::string& key) {
+bool is_stated(const Fields& fields, std::string_view key) {
     return std::ranges::find(fields, key, &Field::key)->value.has_value();
 }
 
@@ -62,8 +62,8 @@ Result<void> check_once(const Fields& fields, const std::string& first, const st
 
 /// A factor without its companion would silently give a term of zero.
 Result<void> check_companions(const Fields& fields) {
-    const std::string device = fields.front().key;
-    const std::vector<std::pair<std::string, std::string>> companions{
+    const std::string_view device = fields.front().key;
+    const std::pair<std::string_view, std::string_view> companions[]{
         {device, "k"},
         {"k", device},
         {"misalignment_mm", "length_m"},
@@ -78,7 +78,8 @@ Result<void> check_companions(const Fields& fields) {
         {"device_alpha_width_um_per_m_K", "device_temperature_offset_K"}};
     for (const auto& [key, companion] : companions)
         if (is_stated(fields, key) && !is_stated(fields, companion))
-            return refuse(Fault::bad_case, companion, "is missing; '" + key + "' needs it");
+            return refuse(Fault::bad_case, std::string{companion},
+                          "is missing; '" + std::string{key} + "' needs it");
     return {};
 }
 

@@ -10,7 +10,7 @@
 namespace axiscal::testing {
 
 /// Opens `finish`, which the product reaches only with a JournalReceipt.
-template <class Map> class Bench : public Map {
+template <class Map> class MapBench : public Map {
 public:
     using Map::finish;
     using Map::Map;
@@ -34,13 +34,13 @@ public:
 };
 
 /// Answers every request as a run would whose points all succeed.
-template <class Map> class Acknowledging : public Bench<Map> {
+template <class Map> class Acknowledging : public MapBench<Map> {
 public:
-    using Bench<Map>::Bench;
+    using MapBench<Map>::MapBench;
     MapNews write(const ModbusRequest& request, MonotonicTime at) override {
-        return finish_all(Bench<Map>::write(request, at));
+        return finish_all(MapBench<Map>::write(request, at));
     }
-    MapNews tick(MonotonicTime now) override { return finish_all(Bench<Map>::tick(now)); }
+    MapNews tick(MonotonicTime now) override { return finish_all(MapBench<Map>::tick(now)); }
 
 private:
     MapNews finish_all(MapNews news) {

@@ -12,20 +12,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Delays& delays, const Verdict& verdict) {
+Json json_of(const Delays& delays, const SelftestVerdict& verdict) {
     return {{"count", delays.count},   {"median_us", delays.median_us},
             {"p99_us", delays.p99_us}, {"worst_us", delays.worst_us},
             {"ok", verdict.ok},        {"means", verdict.sentence}};
 }
 
-Json json_of(const SerialPort& port, const Verdict& verdict) {
+Json json_of(const SerialPort& port, const SelftestVerdict& verdict) {
     return {{"path", port.path},
             {"latency_timer_ms", port.latency_timer_ms ? Json(*port.latency_timer_ms) : Json{}},
             {"ok", verdict.ok},
             {"means", verdict.sentence}};
 }
 
-void say(const char* what, const Verdict& verdict) {
+void say(const char* what, const SelftestVerdict& verdict) {
     std::cout << what << (verdict.ok ? "" : "LOOK: ") << verdict.sentence << "\n";
 }
 

@@ -24,8 +24,8 @@ std::vector<Cause> every_cause() {
     return causes;
 }
 
-const Contribution* find(const CircleDiagnosis& diagnosis, const std::string& cause) {
-    const auto found = std::ranges::find(diagnosis.ranking, cause, &Contribution::cause);
+const CauseContribution* find(const CircleDiagnosis& diagnosis, const std::string& cause) {
+    const auto found = std::ranges::find(diagnosis.ranking, cause, &CauseContribution::cause);
     return found == diagnosis.ranking.end() ? nullptr : &*found;
 }
 
@@ -305,7 +305,7 @@ TEST(CircleDiagnosis, RanksTheCausesByWhatEachAddsToG) {
                                               {"off_x_ccw", 0.04}},
                                         even_angles(0.5, 359.5, 1));
     const CircleDiagnosis found = diagnose(test);
-    EXPECT_TRUE(std::ranges::is_sorted(found.ranking, std::ranges::greater{}, &Contribution::G_mm));
+    EXPECT_TRUE(std::ranges::is_sorted(found.ranking, std::ranges::greater{}, &CauseContribution::G_mm));
     EXPECT_EQ(found.ranking.front().cause, "squareness");
     // closed forms: R beta; By; Sx sin 3 theta / 4; P |s| / 2, which the senses double; R (ex - ey)
     EXPECT_NEAR(find(found, "squareness")->G_mm, 150 * 4e-5, 1e-5);

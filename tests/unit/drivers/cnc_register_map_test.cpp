@@ -7,11 +7,11 @@
 namespace axiscal {
 namespace {
 
-using testing::Bench;
+using testing::MapBench;
 using namespace std::chrono_literals;
-using BlockBench = Bench<SequenceBlockMap>;
-using SingleBench = Bench<SingleRegisterMap>;
-using CoilBench = Bench<CoilAndIndexMap>;
+using BlockBench = MapBench<SequenceBlockMap>;
+using SingleBench = MapBench<SingleRegisterMap>;
+using CoilBench = MapBench<CoilAndIndexMap>;
 
 constexpr MonotonicTime begin = monotonic_from_ns(5'000'000'000);
 

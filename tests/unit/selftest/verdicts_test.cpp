@@ -5,7 +5,7 @@
 namespace axiscal {
 namespace {
 
-bool says(const Verdict& verdict, const std::string& words) {
+bool says(const SelftestVerdict& verdict, const std::string& words) {
     return verdict.sentence.find(words) != std::string::npos;
 }
 
@@ -36,7 +36,7 @@ TEST(SelfTest, SaysLatenessInTravel) {
 }
 
 TEST(SelfTest, TellsWhatAnAdapterHoldsBack) {
-    const Verdict slow = judge_port({"/dev/ttyUSB0", 16, ""});
+    const SelftestVerdict slow = judge_port({"/dev/ttyUSB0", 16, ""});
     EXPECT_FALSE(slow.ok);
     EXPECT_TRUE(says(slow, "16 ms"));
     EXPECT_TRUE(says(slow, "267 um"));

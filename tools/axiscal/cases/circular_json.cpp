@@ -115,7 +115,7 @@ Json not_separable_json(const CircleDiagnosis& from) {
 
 Json ranking_json(const CircleDiagnosis& from) {
     Json list = Json::array();
-    for (const Contribution& one : from.ranking) {
+    for (const CauseContribution& one : from.ranking) {
         Json object;
         object["cause"] = one.cause;
         object["G_mm"] = one.G_mm;

@@ -19,7 +19,7 @@ struct Delays {
 Delays delays_of(std::vector<double> samples_us);
 
 /// What it means, by a limit that was not kept; `ok` false: somebody should act.
-struct Verdict {
+struct SelftestVerdict {
     bool ok = true;
     std::string sentence;
 };
@@ -45,10 +45,10 @@ inline constexpr double slow_commit_us = 20'000;
 /// Travel in micrometres that one microsecond makes up at 1000 mm/min.
 inline constexpr double um_per_us_at_1000_mm_per_min = 1.0 / 60.0;
 
-Verdict judge_commit(const Delays& commit);
-Verdict judge_timer(const Delays& timer);
-Verdict judge_serial(const Delays& serial);
-Verdict judge_port(const SerialPort& port);
+SelftestVerdict judge_commit(const Delays& commit);
+SelftestVerdict judge_timer(const Delays& timer);
+SelftestVerdict judge_serial(const Delays& serial);
+SelftestVerdict judge_port(const SerialPort& port);
 
 /// Median and worst of `count` commits into a run file of its own, removed afterwards.
 /// @errors Fault::io, Fault::not_durable naming the folder.

@@ -37,7 +37,7 @@ Delays delays_of(std::vector<double> samples_us) {
     return delays;
 }
 
-Verdict judge_commit(const Delays& commit) {
+SelftestVerdict judge_commit(const Delays& commit) {
     if (commit.median_us < least_commit_us)
         return {false,
                 "The disk answers in " + in_words(commit.median_us) +
@@ -53,7 +53,7 @@ Verdict judge_commit(const Delays& commit) {
                       "; the CNC waits that long for its answer. No reading waits for it."};
 }
 
-Verdict judge_timer(const Delays& timer) {
+SelftestVerdict judge_timer(const Delays& timer) {
     const std::string moving = "A moving axis at 1000 mm/min travels " + travel_of(timer.p99_us) +
                                " in it, unless the instrument numbers its own samples.";
     if (timer.p99_us > 5000)
@@ -70,7 +70,7 @@ Verdict judge_timer(const Delays& timer) {
                       moving};
 }
 
-Verdict judge_serial(const Delays& serial) {
+SelftestVerdict judge_serial(const Delays& serial) {
     return {serial.p99_us <= 5000,
             "A byte needs " + in_words(serial.median_us) +
                 " from the kernel to the program, 99 of "
@@ -79,7 +79,7 @@ Verdict judge_serial(const Delays& serial) {
                 ". The adapter's own hold-back comes on top: name your ports to see it."};
 }
 
-Verdict judge_port(const SerialPort& port) {
+SelftestVerdict judge_port(const SerialPort& port) {
     if (!port.refused.empty())
         return {false, port.path + " cannot be used: " + port.refused +
                            ". Is it plugged in, and is this user in its group?"};
