@@ -14,7 +14,7 @@ protected:
     Life life{shop};
 };
 
-TEST_F(Supervision, PausesGrowToFourSecondsAndStartSmallAgain) {
+TEST_F(Supervision, PausesGrowToTwoSecondsAndStartSmallAgain) {
     life.run(10s); // ran well
     life.air->opened_at.clear();
     life.air->unplugged = true;
@@ -24,7 +24,7 @@ TEST_F(Supervision, PausesGrowToFourSecondsAndStartSmallAgain) {
         pauses.push_back(seconds_of(life.air->opened_at[i] - life.air->opened_at[i - 1]));
     ASSERT_GE(pauses.size(), 6U);
     EXPECT_EQ(std::vector<double>(pauses.begin(), pauses.begin() + 6),
-              (std::vector<double>{0.5, 1, 2, 4, 4, 4}));
+              (std::vector<double>{0.5, 1, 2, 2, 2, 2}));
     EXPECT_EQ(view("air").state, InstrumentState::unavailable);
     EXPECT_EQ(view("laser").state, InstrumentState::available);
     life.air->unplugged = false;
