@@ -5,6 +5,7 @@
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/line_reader.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace axiscal {
@@ -138,8 +139,8 @@ Result<std::array<std::size_t, 3>> order_of(const json& object) {
     AXISCAL_TRY(const std::string word,
                 one_of(object, "order", "order", {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"}));
     std::array<std::size_t, 3> order{};
-    for (std::size_t i = 0; i < 3; ++i)
-        order[i] = static_cast<std::size_t>(word[i] - 'x');
+    std::ranges::transform(word, order.begin(),
+                           [](char axis) { return static_cast<std::size_t>(axis - 'x'); });
     return order;
 }
 
