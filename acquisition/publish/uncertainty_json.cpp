@@ -88,7 +88,7 @@ remarks_on(const MonteCarloResult& simulated, const UncertaintyBudget& budget, d
     std::vector<std::string> remarks{
         "each reading is drawn by itself, so E and M count the environment at two targets, as "
         "eve_model difference does"};
-    const auto ratio = conservatism_of_R(budget, simulated, divisor);
+    const auto ratio = conservatism_of_repeatability(budget, simulated, divisor);
     if (!ratio) return remarks;
     const long percent = std::lround(std::fabs(*ratio - 1) * 100);
     remarks.push_back("u(R) by the source's formula is " + std::to_string(percent) + " % " +

@@ -184,9 +184,9 @@ const MonteCarloFigure* MonteCarloResult::find(std::string_view key) const {
     return found == figures.end() ? nullptr : &*found;
 }
 
-std::optional<double> conservatism_of_R(const UncertaintyBudget& budget,
-                                        const MonteCarloResult& simulated,
-                                        double budget_per_unit) {
+std::optional<double> conservatism_of_repeatability(const UncertaintyBudget& budget,
+                                                    const MonteCarloResult& simulated,
+                                                    double budget_per_unit) {
     const MonteCarloFigure* drawn = simulated.find("R");
     const ParameterUncertainty* formula = budget.find("R");
     if (!drawn || !formula || !(drawn->u > 0)) return std::nullopt;

@@ -66,9 +66,9 @@ Result<MonteCarloResult> simulate_sessions(const RunAt20C& run,
 
 /// u(R) of the budget's formula over the simulated one, both made of the same statement: above 1
 /// the formula is conservative. None where either lacks R.
-std::optional<double> conservatism_of_R(const UncertaintyBudget& budget,
-                                        const MonteCarloResult& simulated,
-                                        double budget_per_unit);
+std::optional<double> conservatism_of_repeatability(const UncertaintyBudget& budget,
+                                                    const MonteCarloResult& simulated,
+                                                    double budget_per_unit);
 
 /// Whether readings scatter less than the stated environment allows: the simulated mean of R lies
 /// above the evaluated R by more than its u. The formulas and the simulation then tell of E_VE, not

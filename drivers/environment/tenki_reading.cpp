@@ -31,7 +31,7 @@ enum Chip : int {
 
 /// The MS5611's own temperature is that of the stick, warmer than the air: it comes last.
 struct ChipRow {
-    int chip;
+    int chip = 0;
     TenkiMeasure measure;
 };
 constexpr std::array chip_rows{
@@ -96,14 +96,14 @@ std::optional<double> sht3x_value(Raw raw, double offset, double span) {
 
 /// [rtd300] gain is 2^(high half of byte 5); 2-wire: the source's current by its low half.
 std::optional<double> rtd300_value(int chip, Raw raw) {
-    constexpr std::array source_uA{0, 10, 50, 100, 250, 500, 750, 1000, 1500, 2000};
+    constexpr std::array source_microamperes{0, 10, 50, 100, 250, 500, 750, 1000, 1500, 2000};
     if (raw.size() != 8) return std::nullopt;
     const double gain = std::ldexp(1.0, static_cast<int>(byte_at(raw, 5) >> 4));
     const double part = big24(raw, 0) / 8'388'608.0 / gain;
     if (chip == rtd300_pt100_2_wire) {
         const std::size_t row = byte_at(raw, 5) & 15U;
-        if (row == 0 || row >= source_uA.size()) return std::nullopt;
-        return platinum_temperature(part * 2.5 / (source_uA[row] * 1e-6), 100);
+        if (row == 0 || row >= source_microamperes.size()) return std::nullopt;
+        return platinum_temperature(part * 2.5 / (source_microamperes[row] * 1e-6), 100);
     }
     const double reference_ohm = big16(raw, 3) + signed16(big16(raw, 6)) / 8192.0;
     return platinum_temperature(part * reference_ohm, chip == rtd300_pt1000_3_wire ? 1000 : 100);
@@ -117,10 +117,11 @@ double signed18(Raw raw, std::size_t at) {
 
 /// [pt100] the whole loop at gain 2, one lead at gain 8; the leads are taken off twice.
 std::optional<double> pt100_value(Raw raw, const TenkiCalibration& calibration) {
-    constexpr double step_V = 15.625e-6;
+    constexpr double step_volts = 15.625e-6;
     if (raw.size() != 6) return std::nullopt;
-    const double loop_V = signed18(raw, 0) * step_V / 2, lead_V = signed18(raw, 3) * step_V / 8;
-    return platinum_temperature((loop_V - 2 * lead_V) / calibration.pt100_current_A, 100);
+    const double loop_volts = signed18(raw, 0) * step_volts / 2,
+                 lead_volts = signed18(raw, 3) * step_volts / 8;
+    return platinum_temperature((loop_volts - 2 * lead_volts) / calibration.pt100_current_A, 100);
 }
 
 std::optional<double> converted(int chip, Raw raw, const TenkiCalibration& calibration) {

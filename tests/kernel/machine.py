@@ -4,8 +4,9 @@ QEMU in pure emulation (no /dev/kvm needed, no root), the kernel as Debian ships
 inside by the kernel's own virtual USB controller. Built once into build/rig of the source tree:
 70 MB of download, 500 MB on disk, 10 s. A guest reaches its first line in about 4 s.
 
-The guest's clock counts its instructions (2 ns each) and jumps over idle time: a deadline inside means
-the same on a busy host as on a free one, and waiting costs nothing. The price is a single processor.
+The guest's clock counts its instructions (2 ns each) and follows the host's only while the guest has
+nothing to do: a deadline inside means the same on a busy host as on a free one. (Jumping over idle
+time, sleep=off, would let deadlines pass while the host fetches a file.) The price is one processor.
 """
 
 import contextlib
@@ -115,7 +116,7 @@ def boot(share, command, limit_s, append="", memory_mb=1536):
         f"{{ {command}; }} >/hostshare/output.txt 2>&1; status=$?; sync\n"
         f"printf \"\\\\$(printf %o $status)\" | dd of=/dev/port bs=1 seek={SAYS_GOODBYE} 2>/dev/null\n"
     )
-    words = ["qemu-system-x86_64", "-accel", "tcg", "-icount", "shift=1,sleep=off", "-cpu", "qemu64", "-M", "q35",
+    words = ["qemu-system-x86_64", "-accel", "tcg", "-icount", "shift=1", "-cpu", "qemu64", "-M", "q35",
              "-m", str(memory_mb), "-nodefaults", "-no-reboot", "-display", "none",
              "-serial", f"file:{share}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
              "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),

@@ -184,8 +184,8 @@ void draw_simulation(Sheet& sheet, const Certificate& certificate) {
                         std::to_string(known.simulation->seed) +
                         "). Terms that grow with the length count by the distance of the targets, "
                         "extremes by the targets that may become one.";
-    const auto ratio = conservatism_of_R(*known.budget, *known.simulation,
-                                         budget_units_per(certificate.result.unit));
+    const auto ratio = conservatism_of_repeatability(*known.budget, *known.simulation,
+                                                     budget_units_per(certificate.result.unit));
     if (ratio)
         words += " u(R) by the source's formula is " + fixed(std::fabs(*ratio - 1) * 100, 0) +
                  " % " + (*ratio >= 1 ? "above" : "below") + " the simulated one.";

@@ -31,11 +31,11 @@ struct Points {
 Points random_points(std::size_t count, double from, double to, double noise = 0.3) {
     std::mt19937_64 random{count};
     std::uniform_real_distribution<double> any{from, to};
-    std::normal_distribution<double> scatter{0, noise};
+    std::normal_distribution<double> normal; // of no width it would be refused: noise may be 0
     Points points;
     for (std::size_t i = 0; i < count; ++i) {
         points.x.push_back(any(random));
-        points.y.push_back(std::sin(points.x.back() / 7) + scatter(random));
+        points.y.push_back(std::sin(points.x.back() / 7) + noise * normal(random));
     }
     return points;
 }
