@@ -178,9 +178,4 @@ Task<Result<std::unique_ptr<UsbLink>>> open_usb_device(Scheduler& scheduler,
     co_return std::make_unique<LibusbLink>(scheduler, *std::move(thread), *std::move(opened));
 }
 
-Task<Result<std::unique_ptr<UsbLink>>> LinkOpener::open_usb(const LinkSettings& settings,
-                                                            MonotonicTime /*deadline*/) {
-    co_return fail(Fault::link_closed, "no USB here for " + settings.describe());
-}
-
 } // namespace axiscal

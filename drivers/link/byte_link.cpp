@@ -1,0 +1,12 @@
+#include "drivers/link/byte_link.hpp"
+
+#include "drivers/link/usb_link.hpp"
+
+namespace axiscal {
+
+Task<Result<std::unique_ptr<UsbLink>>> LinkOpener::open_usb(const LinkSettings& settings,
+                                                            MonotonicTime /*deadline*/) {
+    co_return fail(Fault::link_closed, "no USB here for " + settings.describe());
+}
+
+} // namespace axiscal
