@@ -171,7 +171,9 @@ def watchdog(station):
     wait_until("the open run goes on", station.run)
     expect(station.run()["id"] == run_id, "another run goes on")
     station.axiscal("watch", "--until-published")
-    published = wait_until("the certificate is on the share", lambda: list(PUBLISHED.rglob("certificate.json")))
+    # File by file, each whole at once under its name.
+    published = wait_until("the certificate is on the share",
+                           lambda: [one for one in PUBLISHED.rglob("certificate.json") if one.with_suffix(".pdf").exists()])
     certificate = json.loads(published[0].read_text())
     rows = certificate["run"]["deviations"]
     expect([len(row) for row in rows["forward"] + rows["backward"]] == [2] * 10, f"{rows}")

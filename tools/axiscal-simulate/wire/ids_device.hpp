@@ -30,7 +30,8 @@ public:
 private:
     nlohmann::json
     result_of(const std::string& method, const nlohmann::json& parameters, const IdsReading& now);
-    nlohmann::json displacement(const nlohmann::json& parameters, const IdsReading& now) const;
+    [[nodiscard]] nlohmann::json displacement(const nlohmann::json& parameters,
+                                              const IdsReading& now) const;
     [[nodiscard]] double index_used(const IdsReading& now) const;
 };
 

@@ -19,6 +19,10 @@ public:
     static Result<std::unique_ptr<IdsFace>>
     open(const Scenario& scenario, SimClock clock, std::function<double(double)> drive);
     ~IdsFace() override;
+    IdsFace(const IdsFace&) = delete;
+    IdsFace(IdsFace&&) = delete;
+    IdsFace& operator=(const IdsFace&) = delete;
+    IdsFace& operator=(IdsFace&&) = delete;
     void run(std::stop_token stop) override;
     [[nodiscard]] nlohmann::json place() const override { return {{"port", port_}}; }
 
