@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <charconv>
 
 namespace axiscal {
 namespace {
@@ -29,9 +29,10 @@ int number_at(const Row& row, std::size_t column) {
 int skipped_by(const Row& event) {
     const std::string text = text_at(event, 3);
     const auto space = text.rfind(' ');
-    return text_at(event, 0) == "skipped" && space != std::string::npos
-               ? std::atoi(text.c_str() + space)
-               : -1;
+    if (text_at(event, 0) != "skipped" || space == std::string::npos) return -1;
+    int step = -1;
+    std::from_chars(text.data() + space + 1, text.data() + text.size(), step);
+    return step;
 }
 
 std::string joined(const std::vector<std::string>& words) {

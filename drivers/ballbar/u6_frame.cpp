@@ -151,9 +151,9 @@ Result<U6Range> u6_range(std::span<const double> constants, int gain_index) {
     const auto gain = static_cast<std::size_t>(gain_index);
     if (constants.size() < 16 || gain > 3) return fail(Fault::internal, "no such gain of a U6");
     const U6Range range{constants[2 * gain], constants[2 * gain + 8], constants[2 * gain + 9]};
-    const double nominal_V = 3.158e-4 / std::pow(10.0, gain_index);
-    const bool plausible = std::abs(range.slope_V / nominal_V - 1) < 0.05 &&
-                           std::abs(range.negative_slope_V / nominal_V + 1) < 0.05 &&
+    const double nominal_volts = 3.158e-4 / std::pow(10.0, gain_index);
+    const bool plausible = std::abs(range.slope_V / nominal_volts - 1) < 0.05 &&
+                           std::abs(range.negative_slope_V / nominal_volts + 1) < 0.05 &&
                            std::abs(range.centre - 33523) < 1676;
     if (!plausible)
         return fail(Fault::bad_frame, "the calibration constants in the U6's memory are none: "

@@ -137,7 +137,7 @@ void LibusbLink::begin_stream(int endpoint, std::size_t longest) {
     thread_->post([thread = thread_.get(), handle = handle_, inbox = inbox_, loop, endpoint,
                    longest]() mutable {
         read_ahead(*thread, *handle, endpoint, longest, inbox, loop);
-        boost::asio::post(loop, [inbox = std::move(inbox)] {}); // timers die on the loop
+        loop.execute([inbox = std::move(inbox)] {}); // timers die on the loop
     });
 }
 

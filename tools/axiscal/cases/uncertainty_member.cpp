@@ -49,6 +49,11 @@ std::vector<Number> numbers_of(UncertaintyStatement& s) {
             {"eve_um", &s.eve}};
 }
 
+std::string key_to_take(bool rotary, const std::string& name) {
+    return rotary ? "is a length; a rotary axis takes '" + name + "_arcsec' or '" + name + "_deg'"
+                  : "is an angle; a linear axis takes '" + name + "_um'";
+}
+
 /// A micrometre is no angle without a radius, and an angle no length: told with the key to take.
 Result<void> check_units(const json& member, AxisKind kind) {
     const bool rotary = kind == AxisKind::rotary;
@@ -56,10 +61,7 @@ Result<void> check_units(const json& member, AxisKind kind) {
         for (const char* unit : {"_um", "_arcsec", "_deg"}) {
             const bool is_length = unit == std::string_view{"_um"};
             if (is_length != rotary || !member.contains(name + unit)) continue;
-            return refuse(Fault::bad_case, field_prefix + name + unit,
-                          rotary ? "is a length; a rotary axis takes '" + name + "_arcsec' or '" +
-                                       name + "_deg'"
-                                 : "is an angle; a linear axis takes '" + name + "_um'");
+            return refuse(Fault::bad_case, field_prefix + name + unit, key_to_take(rotary, name));
         }
     return {};
 }
