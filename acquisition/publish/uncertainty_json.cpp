@@ -62,14 +62,14 @@ void add_to_parameter(ordered_json& parameter,
                       const UncertaintyBudget& budget,
                       const ParameterUncertainty& figure,
                       double divisor) {
-    const double U = figure.expanded / divisor;
-    parameter["expanded_uncertainty"]["value"] = U;
+    const double expanded = figure.expanded / divisor; // U
+    parameter["expanded_uncertainty"]["value"] = expanded;
     parameter["expanded_uncertainty"]["k"] = budget.coverage;
     parameter["budget"] = parameter_json(budget, figure, divisor);
     const auto target = targets.find(figure.key);
     if (target == targets.end()) return;
     parameter["target_uncertainty"]["value"] = target->second;
-    parameter["target_uncertainty"]["met"] = U <= target->second;
+    parameter["target_uncertainty"]["met"] = expanded <= target->second;
 }
 
 ordered_json simulated_json(const MonteCarloFigure& figure) {

@@ -1,6 +1,7 @@
 #include "analysis/circle/circle_start.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -53,19 +54,49 @@ bool is_line(Values x, Values y, const CheckedPoints& points, const Moments& m) 
     return high - low <= 4 * std::numeric_limits<double>::epsilon() * points.box.magnitude();
 }
 
+/// The circle through three points, from the corner between the two shorter sides: moments lose a
+/// pair that is close together and far from the third.
+SeenCircle
+circle_through(std::array<double, 3> x, std::array<double, 3> y, const CheckedPoints& points) {
+    const auto side = [&](std::size_t i) { // the one that faces corner i
+        return std::hypot(x[(i + 1) % 3] - x[(i + 2) % 3], y[(i + 1) % 3] - y[(i + 2) % 3]);
+    };
+    const std::size_t corner = side(0) >= side(1) && side(0) >= side(2) ? 0
+                               : side(1) >= side(2)                     ? 1
+                                                                        : 2;
+    const std::size_t p = (corner + 1) % 3, q = (corner + 2) % 3;
+    const double px = x[p] - x[corner], py = y[p] - y[corner];
+    const double qx = x[q] - x[corner], qy = y[q] - y[corner];
+    const double pp = px * px + py * py, qq = qx * qx + qy * qy, twice = 2 * (px * qy - py * qx);
+    const double a = (qy * pp - py * qq) / twice, b = (px * qq - qx * pp) / twice;
+    // seen from the mean, with k from the same parts: the circle passes through the corner
+    const double dx = x[corner] - points.mean_x, dy = y[corner] - points.mean_y;
+    return {points.mean_x,
+            points.mean_y,
+            a + dx,
+            b + dy,
+            dx * dx + dy * dy + 2 * (a * dx + b * dy),
+            std::sqrt(a * a + b * b)};
+}
+
 } // namespace
 
 Result<SeenCircle> starting_circle(Values x, Values y, const CheckedPoints& points) {
     // the mean of long lists has a rounding of its own: the moments say what is left
     const Moments m = moments_about(x, y, points.mean_x, points.mean_y);
     if (is_line(x, y, points, m)) return refuse_line();
+    const double extent = points.box.extent();
+    if (const auto own = first_distinct(x, y); own.size() == 3) {
+        const SeenCircle circle = circle_through({x[own[0]], x[own[1]], x[own[2]]},
+                                                 {y[own[0]], y[own[1]], y[own[2]]}, points);
+        if (circle.radius < largest_radius_in_extents * extent) return circle;
+    }
     const double root = taubin_root(m);
     const double xx = m.xx - root, yy = m.yy - root;
     const double determinant = xx * yy - m.xy * m.xy;
     const double a = (m.xz * yy - m.yz * m.xy) / determinant / 2;
     const double b = (m.yz * xx - m.xz * m.xy) / determinant / 2;
     const double radius = std::sqrt(a * a + b * b + m.xx + m.yy);
-    const double extent = points.box.extent();
     if (std::isfinite(radius) && radius < largest_radius_in_extents * extent)
         return seen_from(points.mean_x, points.mean_y, a, b, radius);
     // nearly straight: a flat arc along the greatest spread, for the refinement to bend

@@ -27,6 +27,8 @@ tl::unexpected<Error> refuse_coordinate(Values x, Values y) {
     return refuse(Fault::internal, "points", "were found wrong without a wrong coordinate");
 }
 
+} // namespace
+
 std::vector<std::size_t> first_distinct(Values x, Values y) {
     constexpr std::size_t enough = 4;
     std::vector<std::size_t> found;
@@ -35,8 +37,6 @@ std::vector<std::size_t> first_distinct(Values x, Values y) {
             found.push_back(i);
     return found;
 }
-
-} // namespace
 
 double Box::extent() const {
     return std::sqrt((high_x - low_x) * (high_x - low_x) + (high_y - low_y) * (high_y - low_y));

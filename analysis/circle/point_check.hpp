@@ -20,9 +20,11 @@ struct Box {
 struct CheckedPoints {
     Box box;
     double mean_x = 0, mean_y = 0;
-    /// Indices of the first distinct points, four at most: three are enough to be a circle's own.
-    std::vector<std::size_t> distinct;
+    std::vector<std::size_t> distinct; ///< as first_distinct()
 };
+
+/// Indices of the first distinct points, four at most: three are enough to be a circle's own.
+std::vector<std::size_t> first_distinct(Values x, Values y);
 
 /// @errors Fault::bad_case: lists of different length, a coordinate that is not finite or beyond
 /// 1e12 ("points[7]"), fewer than three distinct points ("points").

@@ -98,6 +98,22 @@ TEST(MinimumZoneCircle, OfThreePointsHasNoWidth) {
     expect_certified(points, circle);
 }
 
+// The centre from the same doubles in exact rational arithmetic.
+TEST(MinimumZoneCircle, MeetsAClosePairFarFromTheThirdPoint) {
+    const std::vector<double> x{1000000001.0, 1000000000.8253356, 1000000000.3623577};
+    const std::vector<double> y{-87251264.0, -999999999.4353576, -999999999.0679609};
+    const auto zone = fit_minimum_zone_circle(x, y);
+    const auto mean = fit_least_squares_circle(x, y);
+    ASSERT_TRUE(zone && mean);
+    for (const double center_x : {zone->x, mean->x})
+        EXPECT_NEAR(center_x, 1362156481.894001, 1.0); // the last digit of the pair moves it by 500
+    EXPECT_NEAR(zone->outer_radius, 582610401.7493112, 1.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(std::hypot(x[i] - zone->x, y[i] - zone->y), zone->outer_radius, 1e-6);
+        EXPECT_NEAR(std::hypot(x[i] - mean->x, y[i] - mean->y), mean->radius, 1e-6);
+    }
+}
+
 TEST(MinimumZoneCircleRefuses, LinesAndFewerThanThreeDistinctPoints) {
     for (const Points& points :
          {listed({{0, 0}, {1, 1}, {5, 5}}), listed({{1, 2}, {3, 4}, {1, 2}}), Points{}}) {
