@@ -17,7 +17,7 @@ namespace {
 // A file system stamps changes by a coarse clock: what changed this recently may change again under
 // the same stamp, and is read again.
 constexpr std::int64_t coarse_ns = 1'000'000'000;
-constexpr std::uintmax_t longest_report = 16 * 1024; // bytes; one sentence and two names
+constexpr std::uintmax_t longest_report = 16'384; // bytes; one sentence and two names
 
 std::optional<std::int64_t> changed_ns(const std::string& path) {
     struct stat status {};

@@ -46,22 +46,22 @@ std::optional<long> whole_number(std::string_view text) {
     return whole ? std::optional{value} : std::nullopt;
 }
 
-Result<double> judged(long mdegC) {
-    if (mdegC == power_on_mdegC)
+Result<double> judged(long milli_degC) {
+    if (milli_degC == power_on_mdegC)
         return fail(Fault::signal_error, "85 degC is what the sensor shows after power-on: its "
                                          "supply broke, or no conversion took place");
-    if (mdegC == failed_mdegC)
+    if (milli_degC == failed_mdegC)
         return fail(Fault::signal_error, "the sensor tells that its conversion failed");
-    if (mdegC < lowest_mdegC || mdegC > highest_mdegC)
+    if (milli_degC < lowest_mdegC || milli_degC > highest_mdegC)
         return fail(Fault::signal_error, "a temperature that the sensor cannot have");
-    return static_cast<double>(mdegC) / 1000;
+    return static_cast<double>(milli_degC) / 1000;
 }
 
 /// Two bytes, low first, in sixteenths of a degree; the kernel drops what is below a millidegree.
-bool agree(const Scratchpad& bytes, long mdegC) {
+bool agree(const Scratchpad& bytes, long milli_degC) {
     const auto raw =
         static_cast<std::int16_t>(static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8));
-    return std::abs(raw * 62.5 - static_cast<double>(mdegC)) < 1;
+    return std::abs(raw * 62.5 - static_cast<double>(milli_degC)) < 1;
 }
 
 } // namespace
@@ -81,20 +81,20 @@ Result<double> parse_w1_slave(std::string_view text) {
     if (std::ranges::all_of(*bytes, [](std::uint8_t byte) { return byte == 0; }))
         return fail(Fault::signal_error, "all bytes are zero: the wire is shorted");
     const auto place = second.find("t=");
-    const auto mdegC =
+    const auto milli_degC =
         place == std::string_view::npos ? std::nullopt : whole_number(second.substr(place + 2));
-    if (!mdegC) return fail(Fault::bad_frame, "no temperature in w1_slave");
-    return judged(*mdegC).and_then([&](double value) -> Result<double> {
-        if (agree(*bytes, *mdegC)) return value;
+    if (!milli_degC) return fail(Fault::bad_frame, "no temperature in w1_slave");
+    return judged(*milli_degC).and_then([&](double value) -> Result<double> {
+        if (agree(*bytes, *milli_degC)) return value;
         return fail(Fault::bad_frame, "t= is not what the scratchpad holds: another family?");
     });
 }
 
 Result<double> parse_w1_temperature(std::string_view text) {
     if (text.ends_with('\n')) text.remove_suffix(1);
-    const auto mdegC = whole_number(text);
-    if (!mdegC) return fail(Fault::bad_frame, "no temperature yet");
-    return judged(*mdegC);
+    const auto milli_degC = whole_number(text);
+    if (!milli_degC) return fail(Fault::bad_frame, "no temperature yet");
+    return judged(*milli_degC);
 }
 
 } // namespace axiscal

@@ -1,8 +1,8 @@
 #include "wire/vaisala_line.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 
 namespace axiscal::simulate {
 
@@ -64,6 +64,12 @@ void Message::unit_in(int places) {
     if (wanted > unit_.size()) text_.append(wanted - unit_.size(), ' ');
 }
 
+int number_in(std::string_view digits) {
+    int number = 0; // of no digits, too
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return number;
+}
+
 void Message::add(std::string_view modifier) {
     if (modifier.starts_with('"') && modifier.size() >= 2)
         text_ += modifier.substr(1, modifier.size() - 2);
@@ -80,10 +86,10 @@ void Message::add(std::string_view modifier) {
     else if (modifier == "\\n")
         text_ += '\n';
     else if (modifier.starts_with('U'))
-        unit_in(std::atoi(std::string{modifier.substr(1)}.c_str()));
+        unit_in(number_in(modifier.substr(1)));
     else if (const auto point = modifier.find('.'); point != std::string_view::npos) {
-        digits_ = std::atoi(std::string{modifier.substr(0, point)}.c_str());
-        decimals_ = std::atoi(std::string{modifier.substr(point + 1)}.c_str());
+        digits_ = number_in(modifier.substr(0, point));
+        decimals_ = number_in(modifier.substr(point + 1));
     }
 }
 

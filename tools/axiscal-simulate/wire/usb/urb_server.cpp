@@ -119,7 +119,7 @@ bool UrbServer::ask_held_again(int socket) {
     return true;
 }
 
-void UrbServer::serve(int socket, std::stop_token stop) {
+void UrbServer::serve(int socket, const std::stop_token& stop) {
     held_.clear();
     device_.plugged();
     bool in_vain = false; // bytes are there, but no transfer to take them: wait a pace

@@ -19,7 +19,7 @@ public:
         , faults_{faults} {}
     /// From plugging-in to unplugging: until the peer closes `socket`, or stopped. A message that
     /// is neither SUBMIT nor UNLINK ends it, too.
-    void serve(int socket, std::stop_token stop);
+    void serve(int socket, const std::stop_token& stop);
 
 private:
     struct Transfer {
