@@ -89,7 +89,7 @@ Result<SeenCircle> starting_circle(Values x, Values y, const CheckedPoints& poin
     if (const auto own = first_distinct(x, y); own.size() == 3) {
         const SeenCircle circle = circle_through({x[own[0]], x[own[1]], x[own[2]]},
                                                  {y[own[0]], y[own[1]], y[own[2]]}, points);
-        if (circle.radius < largest_radius_in_extents * extent) return circle;
+        if (std::isfinite(circle.radius)) return circle; // met exactly, however flat
     }
     const double root = taubin_root(m);
     const double xx = m.xx - root, yy = m.yy - root;

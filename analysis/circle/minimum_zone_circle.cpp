@@ -50,11 +50,21 @@ bool take_step(const WorkingSet& set, Optimum& at, const Problem& problem) {
     return false;
 }
 
-void look(WorkingSet& set, Optimum& at) {
+void see(WorkingSet& set, Optimum& at) {
     set.see_from(at.circle);
     const auto [low, high] = std::ranges::minmax(set.bearings(), {}, &Bearing::e);
     at.low = low.e;
     at.high = high.e;
+}
+
+void look(WorkingSet& set, Optimum& at) {
+    see(set, at);
+    // In a cloud a step can leave next to no radius, and directions from there have no digits.
+    const double middle = (at.low + at.high) / 2;
+    if (at.circle.radius < middle) {
+        at.circle = swollen(at.circle, middle);
+        see(set, at);
+    }
     at.balance = balance(set, at.balance.places);
 }
 
@@ -231,7 +241,6 @@ void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
         const Optimum other = optimum_from(start, problem);
         if (other.width() < best.width() - problem.rounding) best = other;
     }
-    if (search != ZoneSearch::exhaustive) close_gap(best, problem);
     constexpr int most_moves = 50;
     for (int i = 0; i < most_moves && search == ZoneSearch::multi_start; ++i) {
         const auto next = narrower_near_by(best, problem);
@@ -240,6 +249,8 @@ void search_wider(Optimum& best, ZoneSearch& search, const Problem& problem) {
         if (!(other.width() < best.width() - problem.rounding)) break;
         best = other;
     }
+    if (search != ZoneSearch::exhaustive)
+        close_gap(best, problem); // the last: a move can open it again
 }
 
 MinimumZoneCircle result_of(const Optimum& at, const Problem& problem, ZoneSearch search) {
@@ -281,10 +292,27 @@ MinimumZoneCircle exact_zone(const Problem& problem, const SeenCircle& start) {
     return out;
 }
 
+Result<MinimumZoneCircle>
+zone_of_distinct(Values x, Values y, const std::vector<std::size_t>& own) {
+    std::vector<double> own_x, own_y;
+    for (const std::size_t i : own) {
+        own_x.push_back(x[i]);
+        own_y.push_back(y[i]);
+    }
+    auto zone = fit_minimum_zone_circle(own_x, own_y);
+    if (zone)
+        for (ControlPoint& point : zone->control_points)
+            point.index = own[point.index];
+    return zone;
+}
+
 } // namespace
 
 Result<MinimumZoneCircle> fit_minimum_zone_circle(Values x, Values y) {
     AXISCAL_TRY(CheckedPoints checked, check_points(x, y));
+    // A point said again changes no zone, but it hides how few there are.
+    if (const auto own = first_distinct(x, y, few + 1); own.size() <= few && own.size() < x.size())
+        return zone_of_distinct(x, y, own);
     const double extent = checked.box.extent();
     const double rounding =
         4 * std::numeric_limits<double>::epsilon() * std::max(extent, checked.box.magnitude());

@@ -29,8 +29,7 @@ tl::unexpected<Error> refuse_coordinate(Values x, Values y) {
 
 } // namespace
 
-std::vector<std::size_t> first_distinct(Values x, Values y) {
-    constexpr std::size_t enough = 4;
+std::vector<std::size_t> first_distinct(Values x, Values y, std::size_t enough) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < x.size() && found.size() < enough; ++i)
         if (std::ranges::none_of(found, [&](auto j) { return x[i] == x[j] && y[i] == y[j]; }))

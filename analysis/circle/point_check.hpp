@@ -23,8 +23,8 @@ struct CheckedPoints {
     std::vector<std::size_t> distinct; ///< as first_distinct()
 };
 
-/// Indices of the first distinct points, four at most: three are enough to be a circle's own.
-std::vector<std::size_t> first_distinct(Values x, Values y);
+/// Indices of the first distinct points, `enough` at most. Of four: three are a circle's own.
+std::vector<std::size_t> first_distinct(Values x, Values y, std::size_t enough = 4);
 
 /// @errors Fault::bad_case: lists of different length, a coordinate that is not finite or beyond
 /// 1e12 ("points[7]"), fewer than three distinct points ("points").

@@ -68,6 +68,13 @@ SeenCircle seen_from(double origin_x, double origin_y, double a, double b, doubl
     return {origin_x, origin_y, a, b, (far - radius) * (far + radius), radius};
 }
 
+SeenCircle swollen(const SeenCircle& circle, double by) {
+    SeenCircle out = circle;
+    out.k -= by * (2 * circle.radius + by);
+    out.radius += by;
+    return out;
+}
+
 bool is_far(const SeenCircle& circle) {
     return std::hypot(circle.a, circle.b) > far_centre * circle.radius;
 }

@@ -19,6 +19,9 @@ constexpr double largest_radius_in_extents = 1e6;
 /// Made of centre and radius; loses digits of k where the centre is far, hence only for starts.
 SeenCircle seen_from(double origin_x, double origin_y, double a, double b, double radius);
 
+/// The circle with a radius larger by this much.
+SeenCircle swollen(const SeenCircle& circle, double by);
+
 /// Whether the centre lies outside the points so far that its curvature moves better than itself.
 bool is_far(const SeenCircle& circle);
 

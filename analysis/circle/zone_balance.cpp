@@ -93,7 +93,9 @@ Bearing bearing_of(double from_x, double from_y, const SeenCircle& c) {
     const double f = from_x * from_x + from_y * from_y - 2 * (c.a * from_x + c.b * from_y) + c.k;
     const double dx = from_x - c.a, dy = from_y - c.b, d = std::sqrt(dx * dx + dy * dy);
     if (d == 0) return {-c.radius, c.a / c.radius, c.b / c.radius};
-    return {f / (d + c.radius), dx / d + c.a / c.radius, dy / d + c.b / c.radius};
+    // v = (p - c) / d + c / R without the cancellation that a far centre would bring
+    const double e = f / (d + c.radius), turned = e / c.radius;
+    return {e, (from_x + c.a * turned) / d, (from_y + c.b * turned) / d};
 }
 
 bool WorkingSet::add(std::size_t index, double from_x, double from_y) {

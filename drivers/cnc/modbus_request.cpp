@@ -52,7 +52,7 @@ Parsed parse_coils_write(std::span<const std::uint8_t> pdu) {
 Parsed parse_words(std::span<const std::uint8_t> pdu, std::size_t place, int most) {
     if (pdu.size() < place + 7) return wrong_value();
     const int count = word_at(pdu, place + 2);
-    const auto bytes = static_cast<std::size_t>(2 * count);
+    const std::size_t bytes = 2 * static_cast<std::size_t>(count);
     if (count < 1 || count > most || pdu[place + 4] != bytes || pdu.size() != place + 5 + bytes)
         return wrong_value();
     ModbusRequest request{pdu[0], 0, 0, word_at(pdu, place), {}};

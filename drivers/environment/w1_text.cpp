@@ -12,8 +12,8 @@
 namespace axiscal {
 namespace {
 
-constexpr long power_on_mdegC = 85000, failed_mdegC = 127937;
-constexpr long lowest_mdegC = -55000, highest_mdegC = 125000;
+constexpr long power_on_milli_degC = 85000, failed_milli_degC = 127937;
+constexpr long lowest_milli_degC = -55000, highest_milli_degC = 125000;
 
 using Scratchpad = std::array<std::uint8_t, 9>;
 
@@ -47,12 +47,12 @@ std::optional<long> whole_number(std::string_view text) {
 }
 
 Result<double> judged(long milli_degC) {
-    if (milli_degC == power_on_mdegC)
+    if (milli_degC == power_on_milli_degC)
         return fail(Fault::signal_error, "85 degC is what the sensor shows after power-on: its "
                                          "supply broke, or no conversion took place");
-    if (milli_degC == failed_mdegC)
+    if (milli_degC == failed_milli_degC)
         return fail(Fault::signal_error, "the sensor tells that its conversion failed");
-    if (milli_degC < lowest_mdegC || milli_degC > highest_mdegC)
+    if (milli_degC < lowest_milli_degC || milli_degC > highest_milli_degC)
         return fail(Fault::signal_error, "a temperature that the sensor cannot have");
     return static_cast<double>(milli_degC) / 1000;
 }

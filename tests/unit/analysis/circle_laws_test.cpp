@@ -269,6 +269,30 @@ TEST(CircleLaws, APointJustAsideOfADiameterStillLiesInTheCircumscribedCircle) {
     }
 }
 
+// Seven places said 66 times ended as a strip of 400, its gap open; said once, in a zone of 23.
+TEST(MinimumZoneLaws, PlacesSaidAgainChangeNoZone) {
+    const Points once = test::listed(
+        {{0, 0}, {-1968, 0}, {0, 64}, {4.25, 0}, {8.3125, 400.3125}, {13.4375, 0}, {0.5, 0}});
+    Points often = once;
+    for (std::size_t i = 0; i < 59; ++i) {
+        const std::size_t place = i < 40 ? 0 : i % 7;
+        often.x.insert(often.x.begin() + 1, once.x[place]);
+        often.y.insert(often.y.begin() + 1, once.y[place]);
+    }
+    const auto single = fit_minimum_zone_circle(once.x, once.y);
+    const auto repeated = fit_minimum_zone_circle(often.x, often.y);
+    ASSERT_TRUE(single && repeated);
+    EXPECT_NEAR(repeated->width, single->width, 1e-9);
+    EXPECT_LE(repeated->gap, 1e-12 * 1968);
+    for (const ControlPoint& point : repeated->control_points) {
+        const double d =
+            std::hypot(often.x[point.index] - repeated->x, often.y[point.index] - repeated->y);
+        const double side =
+            point.side == ZoneSide::outer ? repeated->outer_radius : repeated->inner_radius;
+        EXPECT_NEAR(d, side, 1e-9);
+    }
+}
+
 TEST(MinimumZoneLaws, ClumpsFarApartAreCertified) {
     std::mt19937_64 random{46};
     for (int trial = 0; trial < 100; ++trial) {

@@ -11,6 +11,8 @@ public:
     /// @errors io: the path can not be opened.
     static Result<TtyBehind> open(const std::string& path);
     TtyBehind(TtyBehind&& other) noexcept;
+    TtyBehind(const TtyBehind&) = delete;
+    TtyBehind& operator=(const TtyBehind&) = delete;
     TtyBehind& operator=(TtyBehind&&) = delete;
     ~TtyBehind();
 

@@ -56,7 +56,7 @@ Result<void> VhciPort::plug() {
                         " of vhci_hcd; is the module loaded, and is this root?",
                     {failed, std::generic_category()});
     }
-    pump_ = std::jthread{[this, socket = ends[1]](std::stop_token stop) {
+    pump_ = std::jthread{[this, socket = ends[1]](const std::stop_token& stop) {
         UrbServer{*device_, faults_}.serve(socket, stop);
         ::close(socket);
     }};
