@@ -23,7 +23,7 @@ bool next_command(std::string& typed, std::string& command) {
 }
 
 std::string sylvac_answer(const std::string& command, double value_mm) {
-    const std::string echo = command + "\r";
+    std::string echo = command + "\r";
     if (command == "?" || command == "PRI") return echo + sylvac_record(value_mm);
     if (command == "SET?") return echo + "MM RES3 REF1 NOR CHA+ B1\r";
     return echo;

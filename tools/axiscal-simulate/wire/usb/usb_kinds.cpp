@@ -32,14 +32,21 @@ std::uint16_t UsbWish::hexadecimal(const std::string& name, std::uint16_t otherw
     return static_cast<std::uint16_t>(std::strtoul(number.c_str(), nullptr, 16));
 }
 
+namespace {
+
+tl::unexpected<Error> no_setting(const std::string& part, const std::string& text) {
+    return fail(Fault::bad_request, "\"" + part + "\" in " + text + " is no name=value");
+}
+
+} // namespace
+
 Result<UsbWish> parse_usb_wish(const std::string& text) {
     std::istringstream parts{text};
     UsbWish wish;
     std::getline(parts, wish.kind, ',');
     for (std::string part; std::getline(parts, part, ',');) {
         const auto equals = part.find('=');
-        if (equals == std::string::npos || equals == 0)
-            return fail(Fault::bad_request, "\"" + part + "\" in " + text + " is no name=value");
+        if (equals == std::string::npos || equals == 0) return no_setting(part, text);
         wish.settings[part.substr(0, equals)] = part.substr(equals + 1);
     }
     return wish;
