@@ -8,7 +8,7 @@ namespace axiscal {
 namespace {
 
 constexpr Duration first_pause = std::chrono::milliseconds{250};
-constexpr Duration longest_pause = std::chrono::seconds{2}; // back within 5 s, of which opening and the first reading take up to 3
+constexpr Duration longest_pause = std::chrono::seconds{2}; // a cable is back within 5 s
 constexpr Duration between_notes = std::chrono::seconds{2};
 constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports every few seconds
 
