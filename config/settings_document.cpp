@@ -25,7 +25,7 @@ std::string without_indices(std::string_view path) {
 /// At most one byte more than `largest_file`. Plain C calls: a stream throws on a folder.
 Result<std::string> read_file(const std::string& path) {
     const auto unreadable = [&] {
-        return fail(Fault::bad_configuration, path + ":1: the file cannot be read",
+        return fail(Fault::bad_configuration, path + ": the file cannot be read",
                     std::error_code{errno, std::generic_category()});
     };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{std::fopen(path.c_str(), "rb"),
@@ -46,6 +46,7 @@ std::string unread_reason(const std::string& key, const std::set<std::string>& k
 } // namespace
 
 std::string Refusal::describe() const {
+    if (line == 0 && reason.starts_with(file)) return reason; // of the whole file; says its place
     return file + ":" + std::to_string(line) + ": " + (key.empty() ? "" : key + ": ") + reason;
 }
 

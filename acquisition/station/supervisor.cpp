@@ -141,6 +141,8 @@ Task<void> Supervisor::keep_running(Seat& seat) {
 
 void Supervisor::set_state(Seat& seat, InstrumentState state) {
     if (seat.view.state == state) return;
+    // The next outage tells its reason again, be it the same one.
+    if (state == InstrumentState::available) seat.told_note.clear();
     seat.view.state = state;
     seat.view.since = scheduler_.now();
     listener_.on_instrument_state(seat.view);

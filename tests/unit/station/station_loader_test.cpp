@@ -39,6 +39,15 @@ TEST(StationLoader, AcceptsTheExample) {
     EXPECT_EQ(refusals_of(example_with("[station]", "[station]")), "");
 }
 
+TEST(StationLoader, SaysOnceWhereAFileIsThatCannotBeReadOrParsed) {
+    const auto absent = load_station("/nonexistent/station.toml");
+    ASSERT_FALSE(absent);
+    EXPECT_EQ(absent.error().front().describe().find("/nonexistent/station.toml: the file"), 0U);
+    const std::string told = refusals_of("a = 1\na = 2\n");
+    EXPECT_NE(told.find("station.toml:2:"), std::string::npos) << told;
+    EXPECT_EQ(told.find("station.toml"), told.rfind("station.toml")) << told;
+}
+
 /// A scale's lengths would be divided by the index of air.
 TEST(StationLoader, RefusesAScaleInPlaceOfTheLaser) {
     std::string text = example_with("[station]", "[station]");

@@ -43,6 +43,17 @@ TEST_F(Supervision, TheSameFaultIsToldOnce) {
     EXPECT_GT(view("air").restarts, 20U);
 }
 
+TEST_F(Supervision, EveryOutageTellsItsReasonOnce) {
+    for (int outage = 1; outage <= 3; ++outage) {
+        life.air->unplugged = true;
+        life.run(20s);
+        EXPECT_EQ(life.notes_with("no such device"), outage);
+        life.air->unplugged = false;
+        life.run(5s);
+        EXPECT_EQ(view("air").state, InstrumentState::available);
+    }
+}
+
 TEST_F(Supervision, SilenceIsUnavailableAndBadValuesAreFaulty) {
     life.air->silent = true;
     life.laser->quality = Quality::beam_lost;
