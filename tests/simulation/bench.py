@@ -340,10 +340,14 @@ class Bench:
     def arm(self, *words):
         self.axiscal("arm", "--program", self.plan["file"], *words)
 
-    def begin_run(self):
+    def begin_run(self, hold_after=None):
+        """The CNC stands still after so many requests, until it is told to `go`: what is then done to
+        the station happens in mid-run, however slow this computer is."""
         self.start()
         self.write_program()
         self.go_to_datum()
+        if hold_after:
+            self.sim(f"hold {hold_after}")
         self.arm()
 
     def wait_for_points(self, count, limit_s=60):

@@ -14,9 +14,10 @@ def fails_and_comes_back(b, sensor, behaviour, words):
     """Points need the sensor: refused while it is stale, taken again when it is back."""
     b.station["axis"]["air"]["oldest"] = "2 s"
     b.station["capture"]["timeout"] = "20 s"  # the CNC waits for its answer as long
-    b.begin_run()
+    b.begin_run(hold_after=3)
     b.wait_for_points(3)
     b.sim(f"sensor {sensor} {behaviour}")
+    b.sim("go")
     run = b.wait_for_refusal("environment_stale")
     expect(words in run["sentence"], run["sentence"])
     others = [one for one in b.status()["instruments"] if one["name"] != sensor]
@@ -75,9 +76,10 @@ def ends_with_datum_lost(b):
 
 @sentence("LostBeamIsToldAndEndsTheRunWhenItComesBack")
 def beam_lost(b):
-    b.begin_run()
+    b.begin_run(hold_after=3)
     b.wait_for_points(3)
     b.sim("beam off")
+    b.sim("go")
     run = b.wait_for_refusal("beam_lost")
     axis = b.status()["axis"]
     expect(axis["position_mm"] is None, f"a lost beam shows no position: {axis}")
@@ -88,7 +90,7 @@ def beam_lost(b):
 
 @sentence("RestartedCounterEndsTheRun")
 def counter_restart(b):
-    b.begin_run()
+    b.begin_run(hold_after=3)
     b.wait_for_points(3)
     b.sim("restart-counter")
     ends_with_datum_lost(b)
@@ -96,7 +98,7 @@ def counter_restart(b):
 
 @sentence("UnpluggedLaserIsToldComesBackAndEndsTheRun")
 def laser_off(b):
-    b.begin_run()
+    b.begin_run(hold_after=3)
     b.wait_for_points(3)
     b.sim("sensor laser off")
     bench.wait_until(
@@ -151,11 +153,13 @@ def skipped_records(b):
 
 @sentence("LaserThatChangesToSixteenFieldsIsReadOn")
 def sixteen_fields(b):
-    b.begin_run()
+    b.begin_run(hold_after=3)
     b.wait_for_points(3)
     b.sim("fields 16")
+    b.sim("hold 8")
     b.wait_for_points(8)
     b.sim("fields 8")
+    b.sim("go")
     b.finish()
     laser_was_undisturbed(b)
     expect(b.instrument("laser")["bad_frames"] == 0, f"{b.instrument('laser')}")

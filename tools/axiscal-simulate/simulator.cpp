@@ -154,6 +154,11 @@ Result<void> Simulator::obey_cnc(const std::string& word, std::istream& argument
     if (word == "stop") return runner_->stop(), Result<void>{};
     if (word == "motion-fault")
         return runner_->inject(argument == "none" ? "" : argument), Result<void>{};
+    if (word == "go") return runner_->go(), Result<void>{};
+    int number = 0;
+    if (word == "hold" && !(std::istringstream{argument} >> number))
+        return fail(Fault::bad_request, "hold needs the number of requests after which");
+    if (word == "hold") return runner_->hold(number), Result<void>{};
     int port = 0;
     arguments >> port;
     if (client_ == nullptr || port == 0)
@@ -180,7 +185,8 @@ Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& ar
     if (word == "beam" || word == "restart-counter" || word == "skip" || word == "fields" ||
         word == "error-mask")
         return done(obey_laser(word, arguments));
-    if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect")
+    if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect" ||
+        word == "hold" || word == "go")
         return done(obey_cnc(word, arguments));
     return fail(Fault::bad_request, "\"" + word + "\" is no command");
 }

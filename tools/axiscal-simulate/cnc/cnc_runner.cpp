@@ -96,6 +96,25 @@ void CncRunner::inject(const std::string& motion_fault) {
     motion_fault_ = motion_fault;
 }
 
+void CncRunner::hold(int requests) {
+    const std::lock_guard lock{mutex_};
+    hold_at_ = requests;
+    wake_.notify_all(); // a later hold lets go of an earlier one
+}
+
+void CncRunner::go() {
+    const std::lock_guard lock{mutex_};
+    hold_at_.reset();
+    wake_.notify_all();
+}
+
+bool CncRunner::may_move() {
+    std::unique_lock lock{mutex_};
+    const auto held = [this] { return hold_at_ && lines_.requests() >= *hold_at_; };
+    wake_.wait(lock, [&] { return stop_ || !held(); });
+    return !stop_;
+}
+
 bool CncRunner::sleep_until(double seconds) {
     std::unique_lock lock{mutex_};
     return !wake_.wait_until(lock, clock_.at(seconds), [this] { return stop_; });
@@ -120,6 +139,7 @@ void CncRunner::move(double target_mm, double feed_mm_per_min) {
         left_travel_ = true;
         return stop();
     }
+    if (!may_move()) return;
     const double fastest = axis.rapid_mm_per_min;
     const double feed = feed_mm_per_min > 0 ? std::min(feed_mm_per_min, fastest) : fastest;
     const double end_s = axis_.move(clock_.now_s(), physical_mm(target_mm), feed / 60.0);

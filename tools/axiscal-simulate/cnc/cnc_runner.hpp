@@ -11,6 +11,7 @@
 #include <condition_variable>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 namespace axiscal::simulate {
@@ -34,6 +35,9 @@ public:
     void stop();
     [[nodiscard]] nlohmann::json status() const;
     void inject(const std::string& motion_fault);
+    /// Feed hold: no move begins once the program has made this many requests, until go().
+    void hold(int requests);
+    void go();
 
 private:
     void move(double target_mm, double feed_mm_per_min) override;
@@ -48,6 +52,8 @@ private:
 
     /// Sleeps to this instant; false when the operator stopped.
     bool sleep_until(double seconds);
+    /// Waits while the feed is held; false when the operator stopped.
+    bool may_move();
     [[nodiscard]] double physical_mm(double programmed_mm) const;
     void finish(const Result<void>& outcome);
 
@@ -59,6 +65,7 @@ private:
     std::condition_variable wake_;
     std::string state_ = "idle", message_, motion_fault_;
     int line_ = 0;
+    std::optional<int> hold_at_;
     bool stop_ = false;
     std::atomic<bool> left_travel_{false};
     std::thread thread_;

@@ -183,7 +183,8 @@ private:
 void RtuFace::answer(std::span<const std::uint8_t> frame) {
     if (!rtu_crc_right(frame) || frame[0] != sensor_.unit) return;
     ++answers_;
-    if (behaviour() == Behaviour::off) return;
+    // Who babbles hears nothing: an answer amid the flood could still be found by its checksum.
+    if (behaviour() == Behaviour::off || behaviour() == Behaviour::flood) return;
     if (behaviour() == Behaviour::garbage)
         return pty_.write(garbage_bytes(scenario_.seed, answers_));
     RegisterBank bank = sensor_bank(scenario_, sensor_, clock_.now_s());
