@@ -1,5 +1,6 @@
 #include "drivers/link/byte_link.hpp"
 
+#include "drivers/link/can_link.hpp"
 #include "drivers/link/usb_link.hpp"
 
 namespace axiscal {
@@ -7,6 +8,11 @@ namespace axiscal {
 Task<Result<std::unique_ptr<UsbLink>>> LinkOpener::open_usb(const LinkSettings& settings,
                                                             MonotonicTime /*deadline*/) {
     co_return fail(Fault::link_closed, "no USB here for " + settings.describe());
+}
+
+Task<Result<std::unique_ptr<CanLink>>> LinkOpener::open_can(const LinkSettings& settings,
+                                                            MonotonicTime /*deadline*/) {
+    co_return fail(Fault::link_closed, "no CAN here for " + settings.describe());
 }
 
 } // namespace axiscal

@@ -13,6 +13,7 @@
 
 namespace axiscal {
 
+class CanLink;
 class ModbusBuses;
 class UsbLink;
 
@@ -36,8 +37,8 @@ public:
 
 /// Where a link leads, as the station file says it.
 struct LinkSettings {
-    enum class Kind : std::uint8_t { serial, tcp, usb, hid } kind = Kind::serial;
-    std::string path; ///< serial: /dev/serial/by-id/...
+    enum class Kind : std::uint8_t { serial, tcp, usb, hid, can } kind = Kind::serial;
+    std::string path; ///< serial: /dev/serial/by-id/...; can: the interface, can0
     int baud = 115200;
     char parity = 'N';
     int data_bits = 8, stop_bits = 1;
@@ -46,7 +47,7 @@ struct LinkSettings {
     std::string host;
     int port = 0;
     UsbPlace usb; ///< usb, hid
-    /// "serial /dev/ttyACM0 115200 8N1" | "tcp host:port" | "USB 0cd5:0006 port 1-2"
+    /// "serial /dev/ttyACM0 115200 8N1" | "tcp host:port" | "USB 0cd5:0006 port 1-2" | "CAN can0"
     [[nodiscard]] std::string describe() const;
 };
 
@@ -59,6 +60,11 @@ public:
     /// A USB device that speaks in transfers of its own. `open` gives HID reports as bytes.
     /// @errors as `choose_usb`; Fault::link_closed where there is no USB; busy while it is in use.
     virtual Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                            MonotonicTime deadline);
+    /// A CAN bus, for an instrument among others on it.
+    /// @errors Fault::link_closed where there is no CAN, or the interface is missing, down or
+    /// bus-off.
+    virtual Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
                                                             MonotonicTime deadline);
     /// The Modbus lines behind this opener; null where there are none (tapes).
     [[nodiscard]] virtual ModbusBuses* modbus_buses() { return nullptr; }

@@ -1,5 +1,6 @@
 #include "drivers/link/link_opener.hpp"
 
+#include "drivers/link/can_link.hpp"
 #include "drivers/link/hid_link.hpp"
 #include "drivers/link/serial_link.hpp"
 #include "drivers/link/tcp_link.hpp"
@@ -26,7 +27,7 @@ Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings&
         auto hid = co_await open_hid(scheduler_, threads_, settings.usb, deadline);
         co_return hid;
     }
-    if (settings.kind == LinkSettings::Kind::usb)
+    if (settings.kind == LinkSettings::Kind::usb || settings.kind == LinkSettings::Kind::can)
         co_return fail(Fault::internal, settings.describe() + " is no stream of bytes");
     auto& porter = porters_[settings.path];
     if (!porter) porter = std::make_shared<TtyPorter>(settings.describe(), scheduler_.executor());
@@ -38,6 +39,11 @@ Task<Result<std::unique_ptr<UsbLink>>> RealLinkOpener::open_usb(const LinkSettin
                                                                 MonotonicTime deadline) {
     auto opened = co_await open_usb_device(scheduler_, threads_, settings.usb, deadline);
     co_return opened;
+}
+
+Task<Result<std::unique_ptr<CanLink>>> RealLinkOpener::open_can(const LinkSettings& settings,
+                                                                MonotonicTime /*deadline*/) {
+    co_return open_socketcan(scheduler_, settings.path);
 }
 
 } // namespace axiscal

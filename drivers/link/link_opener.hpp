@@ -1,6 +1,6 @@
 #pragma once
-// Opens real links: serial lines, TCP connections, USB and HID devices, shared Modbus lines.
-// Loop-bound.
+// Opens real links: serial lines, TCP connections, USB and HID devices, CAN buses, shared Modbus
+// lines. Loop-bound.
 
 #include "drivers/link/byte_link.hpp"
 #include "drivers/link/modbus_bus.hpp"
@@ -22,6 +22,8 @@ public:
     Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                  MonotonicTime deadline) override;
     Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override;
+    Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
                                                     MonotonicTime deadline) override;
     [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
 

@@ -6,7 +6,7 @@ namespace axiscal {
 namespace {
 
 constexpr std::string_view serial_prefix = "serial:", tcp_prefix = "tcp:", usb_prefix = "usb:",
-                           usb_port_prefix = "usb-port:";
+                           usb_port_prefix = "usb-port:", can_prefix = "can:";
 
 constexpr std::string_view name_of_parity(char parity) {
     return parity == 'E' ? "even" : parity == 'O' ? "odd" : "none";
@@ -38,6 +38,7 @@ Result<LinkSettings> parse_tcp(std::string_view place, LinkSettings settings) {
 std::string LinkSettings::describe() const {
     if (kind == Kind::tcp) return "tcp " + host + ":" + std::to_string(port);
     if (kind == Kind::usb || kind == Kind::hid) return usb.describe();
+    if (kind == Kind::can) return "CAN " + path;
     return "serial " + path + " " + std::to_string(baud) + " " + std::to_string(data_bits) +
            parity + std::to_string(stop_bits);
 }
@@ -86,6 +87,20 @@ LinkSettings read_usb_link(Settings& options, const LinkSettings& defaults) {
                                "\"usb:SERIAL\" with its serial number, or \"usb-port:1-2.4\" with "
                                "its socket as the kernel names it");
     settings.usb.serial = serial == "any" ? std::string{} : serial;
+    return settings;
+}
+
+LinkSettings read_can_link(Settings& options) {
+    LinkSettings settings;
+    settings.kind = LinkSettings::Kind::can;
+    const bool stated = options.has("link");
+    const std::string text = options.text("link");
+    settings.path = text.starts_with(can_prefix) ? text.substr(can_prefix.size()) : std::string{};
+    constexpr std::size_t longest_name = 15; // IFNAMSIZ of the kernel, without its end
+    const bool is_name = !settings.path.empty() && settings.path.size() <= longest_name &&
+                         settings.path.find_first_of(" /\t\n") == std::string::npos;
+    if (stated && !is_name)
+        options.refuse("link", "write \"can:can0\", with the interface as `ip link` names it");
     return settings;
 }
 

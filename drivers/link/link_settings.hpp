@@ -21,4 +21,7 @@ LinkSettings read_link(Settings& options, const LinkSettings& defaults = {});
 /// device shows itself as stands in `defaults`. Refusals go to `options`.
 LinkSettings read_usb_link(Settings& options, const LinkSettings& defaults);
 
+/// Reads `link` of an instrument on a CAN bus: "can:can0". Refusals go to `options`.
+LinkSettings read_can_link(Settings& options);
+
 } // namespace axiscal

@@ -134,6 +134,21 @@ Task<Result<TimedBytes>> TapePlayer::play_in(MonotonicTime deadline) {
     co_return played;
 }
 
+Task<Result<std::vector<TimedBytes>>> TapePlayer::play_all_in(MonotonicTime deadline) {
+    const std::size_t before = next_;
+    auto first = co_await play_in(deadline);
+    if (!first) co_return tl::unexpected<Error>(first.error());
+    first->read_at = *begin_ + tape_.entries[before].offset;
+    std::vector<TimedBytes> played;
+    played.push_back(*std::move(first));
+    while (!at_end() && tape_.entries[next_].direction == TapeEntry::Direction::in &&
+           *begin_ + tape_.entries[next_].offset <= scheduler_.now()) {
+        const TapeEntry& entry = tape_.entries[next_++];
+        played.push_back({entry.bytes, *begin_ + entry.offset});
+    }
+    co_return played;
+}
+
 Result<void> TapePlayer::play_out(std::span<const std::byte> bytes) {
     if (!at_end() && tape_.entries[next_].direction == TapeEntry::Direction::closed &&
         scheduler_.now() >= *begin_ + tape_.entries[next_].offset) {

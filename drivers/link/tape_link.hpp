@@ -10,6 +10,7 @@
 //
 // USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
 // endpoints '>' and '<' begin with the endpoint's address.
+// CAN frames: four bytes of identifier, the high one first (80000000: 29 bits), then the data.
 
 #include "drivers/link/byte_link.hpp"
 
@@ -51,12 +52,18 @@ public:
     /// Transfers of USB are played as they are.
     Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
                                                     MonotonicTime deadline) override;
+    /// Frames of CAN are played with the time that the tape has for each.
+    Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override;
     [[nodiscard]] bool at_end() const { return next_ == tape_.entries.size(); }
 
     /// What links of this player are made of: the next entry must be to, or from, the instrument.
     /// @errors Fault::link_timeout when nothing comes before the deadline, link_closed at '!' and
     /// at the end, refused at 'x'.
     Task<Result<TimedBytes>> play_in(MonotonicTime deadline);
+    /// The same where the kernel stamps and keeps: all that has come by now, at least one, each
+    /// with the tape's own time.
+    Task<Result<std::vector<TimedBytes>>> play_all_in(MonotonicTime deadline);
     /// @errors Fault::internal for a write that is not the one on the tape.
     Result<void> play_out(std::span<const std::byte> bytes);
 
