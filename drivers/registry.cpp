@@ -1,7 +1,9 @@
 #include "drivers/registry.hpp"
 
 #include "config/measure.hpp"
+#include "drivers/ballbar/ballbar_canopen_406.hpp"
 #include "drivers/ballbar/ballbar_labjack_u6.hpp"
+#include "drivers/environment/environment_canopen_404.hpp"
 #include "drivers/environment/environment_dracal_usbtenki.hpp"
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/environment_ds18b20.hpp"
@@ -39,6 +41,11 @@ constexpr std::array drivers{
     InstrumentDriver{"temper", "PCsensor TEMPer temperature stick, USB HID", make_temper},
     InstrumentDriver{"labjack-u6", "ballbar: LVDT on a LabJack U6, streamed over USB",
                      make_labjack_u6},
+    InstrumentDriver{"canopen-404", "JUMO CANtrans T and other CiA 404 thermometers on a CAN bus",
+                     make_canopen_404},
+    InstrumentDriver{"canopen-406",
+                     "ballbar or gauge: CiA 406 linear transducer (Temposonics) on a CAN bus",
+                     make_canopen_406},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus},
 };
 

@@ -3,6 +3,7 @@
 #include "control_socket.hpp"
 #include "simulator.hpp"
 #include "truth.hpp"
+#include "wire/can/can_bus.hpp"
 #include "wire/usb/usb_hub.hpp"
 
 #include <CLI/CLI.hpp>
@@ -23,7 +24,7 @@ using namespace axiscal::simulate;
 constexpr int can_not_open = 1, is_refused = 3;
 
 struct Options {
-    std::string scenario, program, truth, control, positions;
+    std::string scenario, program, truth, control, positions, interface = "can0";
     std::vector<double> targets;
     std::vector<std::string> devices;
     int approaches = 5, positions_field = 1, cnc_port = -1, first_port = 0;
@@ -132,6 +133,21 @@ int plug_usb(const Options& options) {
     return 0;
 }
 
+/// The devices stay on the bus until quit or a signal.
+int join_can(const Options& options) {
+    auto scenario = read_scenario(options.scenario);
+    if (!scenario) return complain(scenario.error(), is_refused);
+    auto bus = CanBus::open(options.interface, options.devices, {*scenario, SimClock{}});
+    if (!bus) return complain(bus.error(), can_not_open);
+    const std::string ready = (*bus)->status().dump();
+    const auto control = answer_commands(options.control, **bus);
+    if (!control) return complain(control.error(), can_not_open);
+    std::cout << ready << '\n' << std::flush;
+    while (!(*bus)->ended() && asked_to_end == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    return 0;
+}
+
 int run(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     struct sigaction action {};
@@ -159,12 +175,17 @@ int run(int argc, char** argv) {
     usb->fallthrough();
     usb->add_option("--device", options.devices, "KIND,name=value,... (README.md)")->required();
     usb->add_option("--first-port", options.first_port, "socket of the first device, 0 to 7");
+    CLI::App* can = app.add_subcommand("can", "CANopen devices on a CAN interface");
+    can->fallthrough();
+    can->add_option("--device", options.devices, "KIND,name=value,... (README.md)")->required();
+    can->add_option("--interface", options.interface, "as `ip link` names it");
     CLI11_PARSE(app, argc, argv);
     if (options.scenario.empty()) {
         std::cerr << "axiscal-simulate: --scenario FILE is missing\n";
         return is_refused;
     }
     if (usb->parsed()) return plug_usb(options);
+    if (can->parsed()) return join_can(options);
     return truth->parsed() ? print_truth(options) : open_and_live(options);
 }
 

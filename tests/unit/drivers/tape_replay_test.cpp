@@ -67,6 +67,7 @@ const std::string corner_cube = umd_keys + "fold = \"corner cube\"\n";
 const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string usb_keys = "link = \"usb:any\"\n";
 const std::string ballbar_keys = "link = \"usb:470012345\"\nscale_length = \"1 mm\"\n";
+const std::string can_keys = "link = \"can:can0\"\n";
 const std::string dracal_keys = "link = \"serial:/dev/null\"\n";
 const std::string ids_keys = "link = \"tcp:192.168.1.1:9090\"\nair = \"corrected here\"\n"
                              "wavelength = \"1530 nm\"\nfastest = \"0.5 m/s\"\n"
@@ -95,6 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
                                             "checksum = \"CS4\"\n"},
                       TapeCase{"dracal-usbtenki-pth", "dracal-usbtenki", usb_keys},
                       TapeCase{"temper-x", "temper", usb_keys},
+                      TapeCase{"canopen-404-cantrans", "canopen-404", can_keys},
+                      TapeCase{"canopen-406-temposonics", "canopen-406", can_keys},
                       TapeCase{"labjack-u6-stream", "labjack-u6", ballbar_keys}),
     [](const auto& which) {
         std::string name = which.param.tape;

@@ -1,0 +1,44 @@
+#pragma once
+// What a CANopen node says unasked, and what the master says to its state. Pure.
+
+#include "drivers/link/can_frame.hpp"
+
+#include <optional>
+#include <string>
+
+namespace axiscal {
+
+enum class NmtCommand : std::uint8_t {
+    start = 0x01,
+    stop = 0x02,
+    pre_operational = 0x80,
+    reset_node = 0x81,
+    reset_communication = 0x82,
+};
+CanFrame nmt_frame(NmtCommand command, int node);
+
+/// As the node tells it on 0x700 + node: the boot-up message, then its heartbeat.
+enum class NodeState : std::uint8_t {
+    boot_up = 0x00,
+    stopped = 0x04,
+    operational = 0x05,
+    pre_operational = 0x7F,
+};
+/// Empty for any other frame.
+std::optional<NodeState> decode_heartbeat(const CanFrame& frame, int node);
+std::string_view name_of(NodeState state);
+
+/// An emergency message, on 0x080 + node.
+struct Emergency {
+    std::uint16_t code = 0; ///< 0x00xx: what was wrong is over
+    std::uint8_t error_register = 0;
+    std::array<std::byte, 5> maker{}; ///< the maker's own
+    [[nodiscard]] bool is_over() const { return code >> 8U == 0; }
+    /// About the bus, not about what is measured.
+    [[nodiscard]] bool is_of_communication() const { return code >> 8U == 0x81; }
+    [[nodiscard]] std::string describe() const; ///< "0x5030 (device hardware), 00 01 00 00 00"
+};
+/// Empty for any other frame.
+std::optional<Emergency> decode_emergency(const CanFrame& frame, int node);
+
+} // namespace axiscal

@@ -1,0 +1,9 @@
+#pragma once
+#include "drivers/instrument.hpp"
+
+namespace axiscal {
+
+/// Reads `link`, `node`, `inputs`, `sample_period`, `unit` and `digits`.
+std::unique_ptr<Instrument> make_canopen_404(const InstrumentConfig& config, Settings& options);
+
+} // namespace axiscal

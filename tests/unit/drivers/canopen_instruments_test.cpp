@@ -1,0 +1,246 @@
+// Both CANopen drivers on a simulated bus under virtual time: what they hand up, and what they say
+// of a bus and of nodes that fail.
+#include "tests/support/model_can.hpp"
+#include "wire/can/can_instruments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string on_can0 = "link = \"can:can0\"\n";
+
+class CanOpen : public ::testing::Test {
+protected:
+    CanOpen() {
+        bus.nodes = {probe.get(), bar.get()};
+        probe->power_on(1);
+        bar->power_on(1);
+    }
+    [[nodiscard]] double now_s() const { return seconds_of(scheduler.now().time_since_epoch()); }
+    /// 3 mm + 0.5 mm sin t: 0.5 um a sample at the most, with steps of 1 um.
+    static double metres(double seconds) { return 3e-3 + 0.5e-3 * std::sin(seconds); }
+
+    testing::VirtualScheduler scheduler;
+    int status = 0, area = 0;
+    double celsius = 20.15;
+    std::unique_ptr<simulate::CanNode> probe = simulate::make_cantrans(
+        125, {[this](double) { return celsius; }, [this](double) { return status; }});
+    simulate::TemposonicsWorld world{metres, [this](double) { return area; }};
+    std::unique_ptr<simulate::CanNode> bar = simulate::make_temposonics(127, world);
+    testing::ModelCanBus bus{scheduler};
+    testing::InstrumentOnCan material{scheduler, bus, "canopen-404", on_can0};
+    testing::InstrumentOnCan ballbar{scheduler, bus, "canopen-406", on_can0};
+};
+
+TEST_F(CanOpen, ProbeIsReadByItsOwnMappingUnitAndDigits) {
+    material.start();
+    scheduler.run_for(10s);
+    EXPECT_TRUE(material.ends.empty()) << material.last_end();
+    ASSERT_GE(material.sink.samples.size(), 18U);
+    for (const Sample& sample : material.sink.samples)
+        EXPECT_DOUBLE_EQ(sample.value().value(), 20.15);
+    ASSERT_EQ(material.sink.identities.size(), 1U);
+    EXPECT_EQ(material.sink.identities[0].model, "CANtrans T");
+    EXPECT_EQ(material.sink.identities[0].serial, "4836");
+    EXPECT_EQ(material.counters().bad_frames, 0U);
+}
+
+TEST_F(CanOpen, ProbeStatedInTheStationFileNeedsNoObjectsOfItsOwn) {
+    auto bare = std::make_unique<simulate::CanNode>(5);
+    bare->put_number(0x1000, 0, 0x00020194, 4);
+    bare->put_measured(0x7130, 1, [](double) { return std::vector<std::uint8_t>{0xC9, 0x00}; });
+    bare->put_tpdo(3, 0x3A5, 0x01, 0, {0x71300110}); // on SYNC, until it is told otherwise
+    bus.nodes.push_back(bare.get());
+    testing::InstrumentOnCan other{scheduler, bus, "canopen-404",
+                                   on_can0 + "node = 5\nunit = \"degC\"\ndigits = 1\n"};
+    bare->power_on(now_s());
+    other.start();
+    scheduler.run_for(5s);
+    EXPECT_TRUE(other.ends.empty()) << other.last_end();
+    ASSERT_FALSE(other.sink.samples.empty());
+    EXPECT_DOUBLE_EQ(other.sink.samples.back().value().value(), 20.1);
+}
+
+TEST_F(CanOpen, ProbeWithoutUnitOrInputIsRefusedWithTheWayOut) {
+    testing::InstrumentOnCan two{scheduler, bus, "canopen-404", on_can0 + "inputs = 2\n"};
+    two.start();
+    scheduler.run_for(3s);
+    EXPECT_NE(two.last_end().find("input 2"), std::string::npos) << two.last_end();
+    testing::InstrumentOnCan wrong{scheduler, bus, "canopen-404", on_can0 + "node = 127\n"};
+    wrong.start();
+    scheduler.run_for(3s);
+    EXPECT_NE(wrong.last_end().find("profile 406, not 404"), std::string::npos) << wrong.last_end();
+}
+
+TEST_F(CanOpen, BrokenProbeHasNoNumberAndSaysSo) {
+    material.start();
+    scheduler.run_for(3s);
+    status = 1;
+    probe->tell_emergency(0x5030, 1, {0, 1});
+    scheduler.run_for(2s);
+    EXPECT_EQ(material.sink.samples.back().quality(), Quality::absent);
+    EXPECT_EQ(material.sink.notes, std::vector{Fault::signal_error});
+    status = 0;
+    probe->tell_emergency(0, 0, {});
+    scheduler.run_for(2s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+    EXPECT_TRUE(material.ends.empty());
+}
+
+TEST_F(CanOpen, BallbarStreamsAtOneKilohertzWithoutAHole) {
+    ballbar.start();
+    scheduler.run_for(10s);
+    EXPECT_TRUE(ballbar.ends.empty()) << ballbar.last_end();
+    const auto& samples = ballbar.sink.samples;
+    ASSERT_GE(samples.size(), 9500U);
+    EXPECT_EQ(ballbar.counters().gaps, 0U);
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        ASSERT_EQ(samples[i].device_count, samples[i - 1].device_count + 1);
+        ASSERT_NEAR(seconds_of(samples[i].at - samples[i - 1].at), 1e-3, 1e-6);
+    }
+    for (const Sample& sample : samples) {
+        // The model measures when it sends, 1 ms after the driver's stamp: 0.5 um; a step is 1 um.
+        const double seconds = seconds_of(sample.at.time_since_epoch());
+        ASSERT_NEAR(sample.value().value(), metres(seconds), 1.1e-6);
+    }
+    EXPECT_EQ(ballbar.sink.identities.at(0).model, "Temposonics E-series");
+}
+
+TEST_F(CanOpen, BallbarCanGrowTheOtherWayByAStepOfTheStationFile) {
+    testing::InstrumentOnCan other{scheduler, bus, "canopen-406",
+                                   on_can0 + "position_step = \"2 um\"\nreversed = true\n"};
+    other.start();
+    scheduler.run_for(3s);
+    ASSERT_FALSE(other.sink.samples.empty());
+    EXPECT_NEAR(other.sink.samples.back().value().value(), -2 * metres(now_s()), 5e-6);
+}
+
+TEST_F(CanOpen, BallbarCountsWhatIsMissing) {
+    ballbar.start();
+    scheduler.run_for(3s);
+    bus.swallow = 25; // lost on the wire: only time tells
+    scheduler.run_for(1s);
+    EXPECT_EQ(ballbar.counters().lost_records, 25U);
+    bus.drop = 10; // dropped by the kernel, which says so
+    scheduler.run_for(1s);
+    EXPECT_EQ(ballbar.counters().lost_records, 35U);
+    EXPECT_EQ(ballbar.counters().gaps, 2U);
+    EXPECT_EQ(ballbar.sink.notes, (std::vector{Fault::samples_lost, Fault::samples_lost}));
+    const auto& counters = ballbar.counters();
+    EXPECT_EQ(ballbar.sink.samples.back().device_count, counters.samples + counters.lost_records);
+}
+
+TEST_F(CanOpen, BallbarHasNoNumberOutsideOfItsAreaOrWithAFault) {
+    ballbar.start();
+    scheduler.run_for(3s);
+    area = 1;
+    scheduler.run_for(500ms);
+    EXPECT_EQ(ballbar.sink.samples.back().quality(), Quality::absent);
+    area = 0;
+    bar->tell_emergency(0xFF00, 0x81, {1}); // the magnet is missing
+    scheduler.run_for(500ms);
+    EXPECT_EQ(ballbar.sink.samples.back().quality(), Quality::signal_error);
+    bar->tell_emergency(0, 0, {});
+    scheduler.run_for(500ms);
+    EXPECT_TRUE(ballbar.sink.samples.back().value());
+}
+
+TEST_F(CanOpen, DeadNodesAreGivenUpInOneSentenceAndComeBackWithin5Seconds) {
+    material.start();
+    ballbar.start();
+    scheduler.run_for(5s);
+    probe->power_off();
+    bar->power_off();
+    scheduler.run_for(20s);
+    for (const auto* one : {&material, &ballbar}) {
+        ASSERT_FALSE(one->ends.empty());
+        for (const Error& end : one->ends) {
+            EXPECT_EQ(end.fault, Fault::link_timeout);
+            EXPECT_EQ(describe(end), describe(one->ends.front()));
+        }
+    }
+    EXPECT_NE(ballbar.last_end().find("node 127 on CAN can0 does not answer"), std::string::npos);
+    const auto probe_samples = material.sink.samples.size();
+    const auto samples = ballbar.sink.samples.size();
+    probe->power_on(now_s());
+    bar->power_on(now_s());
+    scheduler.run_for(5s);
+    EXPECT_GT(material.sink.samples.size(), probe_samples);
+    EXPECT_GT(ballbar.sink.samples.size(), samples);
+    EXPECT_EQ(ballbar.sink.samples.back().epoch, 1U);
+    EXPECT_EQ(ballbar.counters().restarts, 1U);
+}
+
+TEST_F(CanOpen, NodeThatWasResetIsSetUpAgain) {
+    material.start();
+    ballbar.start();
+    scheduler.run_for(5s);
+    bar->power_on(now_s());
+    scheduler.run_for(5s);
+    ASSERT_EQ(ballbar.ends.size(), 1U);
+    EXPECT_EQ(ballbar.ends.front().fault, Fault::link_closed);
+    EXPECT_NE(ballbar.last_end().find("was reset"), std::string::npos);
+    EXPECT_TRUE(material.ends.empty()) << "the other was not disturbed";
+    EXPECT_TRUE(ballbar.sink.samples.back().value());
+    EXPECT_EQ(ballbar.sink.samples.back().epoch, 1U);
+}
+
+TEST_F(CanOpen, NodeThatSomebodyStopsIsStartedAgain) {
+    material.start();
+    scheduler.run_for(5s);
+    probe->take({0, {0x80, 125}}, now_s());
+    scheduler.run_for(5s);
+    ASSERT_EQ(material.ends.size(), 1U);
+    EXPECT_NE(material.last_end().find("taken out of operation"), std::string::npos);
+    EXPECT_GT(seconds_of(material.sink.samples.back().at.time_since_epoch()), now_s() - 1);
+}
+
+TEST_F(CanOpen, BusThatIsMissingDownOrOffIsNamed) {
+    ballbar.start();
+    scheduler.run_for(5s);
+    for (const auto& [state, words] :
+         {std::pair{CanState::down, "can0 is down"}, std::pair{CanState::bus_off, "bus-off"},
+          std::pair{CanState::missing, "no CAN interface can0"}}) {
+        bus.state = state;
+        scheduler.run_for(3s);
+        EXPECT_EQ(ballbar.ends.back().fault, Fault::link_closed);
+        EXPECT_NE(ballbar.last_end().find(words), std::string::npos) << ballbar.last_end();
+        const auto samples = ballbar.sink.samples.size();
+        bus.state = CanState::up;
+        scheduler.run_for(5s);
+        EXPECT_GT(ballbar.sink.samples.size(), samples);
+    }
+}
+
+TEST_F(CanOpen, NothingIsHeardButWhatIsMeantForTheInstruments) {
+    material.start();
+    scheduler.run_for(5s); // the ballbar's node is on the bus, but nobody started it
+    for (const CanFrame& frame : bus.sent) {
+        const bool for_probe =
+            frame.id == 0x67D || (frame.id == 0 && frame.bytes()[1] == std::byte{125});
+        EXPECT_TRUE(for_probe) << frame.id;
+    }
+}
+
+TEST(CanOpenKeys, AreRefusedWithTheWayOut) {
+    const auto refusal = [](const std::string& driver, const std::string& keys) {
+        const auto made = testing::make_instrument(driver, keys);
+        return made.refusals.empty() ? std::string{} : made.refusals.front().describe();
+    };
+    EXPECT_NE(refusal("canopen-404", "link = \"can0\"\n").find("\"can:can0\""), std::string::npos);
+    EXPECT_NE(refusal("canopen-404", "link = \"can:can0 up\"\n").find("can:can0"),
+              std::string::npos);
+    EXPECT_NE(refusal("canopen-404", "").find("link"), std::string::npos);
+    EXPECT_NE(refusal("canopen-404", on_can0 + "node = 128\n").find("node"), std::string::npos);
+    EXPECT_NE(refusal("canopen-406", on_can0 + "sample_period = \"1500 us\"\n").find("whole"),
+              std::string::npos);
+    EXPECT_EQ(refusal("canopen-406", on_can0 + "node = 3\nwork_area = \"ignored\"\n"), "");
+}
+
+} // namespace
+} // namespace axiscal
