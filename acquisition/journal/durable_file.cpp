@@ -59,6 +59,26 @@ Result<void> move_to_free_name(const std::string& from, const std::string& to) {
     return {};
 }
 
+std::string way_out(const std::error_code& cause, const std::string& folder) {
+    if (cause == std::errc::no_space_on_device || cause.value() == EDQUOT) {
+        std::error_code unknown;
+        const auto space = std::filesystem::space(folder, unknown);
+        constexpr std::uintmax_t mb = 1'000'000;
+        return "The disk of " + folder + " is full" +
+               (unknown ? "" : " (" + std::to_string(space.available / mb) + " MB are free)") +
+               ": free some 100 MB there; runs under published have been copied to the share and "
+               "may "
+               "go.";
+    }
+    if (cause == std::errc::read_only_file_system || cause == std::errc::permission_denied)
+        return folder + " cannot be written: mount its disk for writing, and let it belong to the "
+                        "user of axiscald.";
+    if (cause == std::errc::io_error)
+        return "The disk of " + folder +
+               " reports an error of its own (see dmesg): copy the runs to another one.";
+    return {};
+}
+
 std::string folder_of(const std::string& path) {
     const auto folder = std::filesystem::path{path}.parent_path().string();
     return folder.empty() ? "." : folder;

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace axiscal {
 
@@ -40,6 +41,9 @@ Result<void> sync_folder(const std::string& path);
 Result<void> write_synced(const std::string& path, std::string_view content);
 /// Renames a file or folder to a name that must be free. @errors Fault::refused if it is taken.
 Result<void> move_to_free_name(const std::string& from, const std::string& to);
+/// What a person can do about an error of the disk that carries `folder`; empty where the system's
+/// word says all there is.
+std::string way_out(const std::error_code& cause, const std::string& folder);
 /// Folder part of a path; "." when there is none.
 std::string folder_of(const std::string& path);
 

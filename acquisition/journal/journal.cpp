@@ -14,6 +14,7 @@ namespace axiscal {
 namespace {
 
 constexpr std::chrono::seconds longest_unsaved{2};
+constexpr std::size_t most_kept = 100'000; // notes while nothing can be written: a few MB
 
 } // namespace
 
@@ -48,6 +49,7 @@ struct Journal::Worker {
     template <class T> void queue_note(std::vector<T>& queue, std::vector<T> items) {
         {
             const std::scoped_lock lock{mutex};
+            if (queue.size() > most_kept) return; // hours without a disk: the newest is let go
             queue.insert(queue.end(), std::make_move_iterator(items.begin()),
                          std::make_move_iterator(items.end()));
             if (!save_at) save_at = clock.now() + longest_unsaved;
@@ -88,7 +90,39 @@ struct Journal::Worker {
 
     Result<void> save_notes() {
         if (!writer) return {}; // before a run: kept for its first commit
-        return write(take_notes());
+        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+        RunBatch notes = take_notes();
+        auto written = write(notes);
+        if (!written) put_back(std::move(notes));
+        return written;
+    }
+
+    /// What could not be written waits for a disk. If it is there after all it stands there twice.
+    void put_back(RunBatch notes) {
+        const std::scoped_lock lock{mutex};
+        notes.events.insert(notes.events.end(), noted.events.begin(), noted.events.end());
+        notes.environment.insert(notes.environment.end(), noted.environment.begin(),
+                                 noted.environment.end());
+        noted.events = std::move(notes.events);
+        noted.environment = std::move(notes.environment);
+    }
+
+    Result<void> write_with_notes(const RunBatch& batch) {
+        if (!writer) return fail(Fault::no_run_armed, "no run file is open");
+        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+        RunBatch notes = take_notes(), whole = batch;
+        // What was noted before comes first: the chain tells the order.
+        whole.events.insert(whole.events.begin(), notes.events.begin(), notes.events.end());
+        whole.environment = notes.environment;
+        auto written = write(whole);
+        if (!written) put_back(std::move(notes));
+        return written;
+    }
+
+    void let_go() {
+        writer.reset();
+        const std::scoped_lock lock{mutex};
+        broken.reset();
     }
 
     Result<void> write(const RunBatch& batch) {
@@ -115,9 +149,10 @@ struct Journal::Worker {
         return {};
     }
 
-    Result<void> may_open() const {
-        if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+    /// A failure of another file, closed since, is no reason against a new one.
+    Result<void> may_open() {
         if (writer) return fail(Fault::busy, writer->path() + " is still open");
+        let_go();
         return {};
     }
 
@@ -206,13 +241,8 @@ Task<Result<void>> Journal::reopen(std::string path) {
 Task<Result<JournalReceipt>> Journal::commit(RunBatch batch, std::uint16_t sequence, int step) {
     Worker* worker = worker_.get();
     auto shared = std::make_shared<RunBatch>(std::move(batch));
-    std::function<Result<void>()> work = [worker, shared]() -> Result<void> {
-        if (!worker->writer) return fail(Fault::no_run_armed, "no run file is open");
-        RunBatch notes = worker->take_notes();
-        // What was noted before comes first: the chain tells the order.
-        shared->events.insert(shared->events.begin(), notes.events.begin(), notes.events.end());
-        shared->environment = std::move(notes.environment);
-        return worker->write(*shared);
+    std::function<Result<void>()> work = [worker, shared] {
+        return worker->write_with_notes(*shared);
     };
     const auto written = co_await perform<Worker, void>(worker, std::move(work));
     if (!written) co_return tl::unexpected<Error>(written.error());
@@ -297,6 +327,25 @@ Task<Result<void>> Journal::flush() {
     Worker* worker = worker_.get();
     std::function<Result<void>()> work = [worker] { return worker->save_notes(); };
     co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
+Task<void> Journal::let_go() {
+    Worker* worker = worker_.get();
+    std::function<Result<void>()> work = [worker]() -> Result<void> {
+        worker->let_go();
+        return {};
+    };
+    (void)co_await perform<Worker, void>(worker, std::move(work)); // cannot fail
+}
+
+Task<Result<void>> Journal::tidy(std::string folder) {
+    std::function<Result<void>()> work = [folder] { return tidy_run_files(folder); };
+    co_return co_await perform<Worker, void>(worker_.get(), std::move(work));
+}
+
+Task<Result<RunRecord>> Journal::read(std::string path) {
+    std::function<Result<RunRecord>()> work = [path] { return read_run_file(path); };
+    co_return co_await perform<Worker, RunRecord>(worker_.get(), std::move(work));
 }
 
 Task<Result<void>> Journal::close(bool complete, std::string reason) {

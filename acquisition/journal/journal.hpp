@@ -67,6 +67,14 @@ public:
     /// Makes everything noted durable now.
     Task<Result<void>> flush();
 
+    /// After a failed write: lets go of the run file and forgets the failure, so that reopen() can
+    /// verify and sync what is on disk, as after a restart. What was noted meanwhile is kept.
+    Task<void> let_go();
+    /// tidy_run_files() off the loop.
+    Task<Result<void>> tidy(std::string folder);
+    /// Everything in a run file, read and verified off the loop.
+    Task<Result<RunRecord>> read(std::string path);
+
     /// Ends the run: one single file, synced. The journal can then open another.
     Task<Result<void>> close(bool complete, std::string reason);
     /// Adds a result to a closed run file, off the loop.

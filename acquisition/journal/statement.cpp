@@ -1,5 +1,6 @@
 #include "acquisition/journal/statement.hpp"
 
+#include <cerrno>
 #include <sqlite3.h>
 
 namespace axiscal {
@@ -123,7 +124,12 @@ Result<std::int64_t> Database::integer_of(const std::string& sql) const {
 }
 
 tl::unexpected<Error> Database::failure() const {
-    const int system = connection_ ? sqlite3_system_errno(connection_.get()) : 0;
+    int system = connection_ ? sqlite3_system_errno(connection_.get()) : 0;
+    const int kind = connection_ ? sqlite3_errcode(connection_.get()) & 0xff : SQLITE_NOMEM;
+    // For these SQLite keeps no errno, or not always.
+    if (kind == SQLITE_FULL) system = ENOSPC;
+    if (kind == SQLITE_READONLY) system = EROFS;
+    if (kind == SQLITE_IOERR && system == 0) system = EIO;
     const char* word = connection_ ? sqlite3_errmsg(connection_.get()) : "out of memory";
     const std::error_code cause =
         system != 0 ? std::error_code{system, std::generic_category()} : std::error_code{};

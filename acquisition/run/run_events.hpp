@@ -7,6 +7,7 @@
 #include "drivers/trigger_port.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -38,6 +39,12 @@ struct CommitFailed {
     std::string reason;
     MonotonicTime at;
 };
+/// The disk takes records again. What it holds was verified and synced anew: the record whose
+/// commit had failed may be among it after all.
+struct DiskBack {
+    std::shared_ptr<const RunRecord> on_disk;
+    MonotonicTime at;
+};
 /// By what share a reading in vacuum wavelengths exceeds the length at 20 degC, from fresh air and
 /// material readings: n (1 + alpha (T - 20 degC)) - 1; or why it is not known (environment_stale).
 /// Until the first one the environment counts as stale.
@@ -64,6 +71,7 @@ using RunInput = std::variant<Arm,
                               WindowResult,
                               Committed,
                               CommitFailed,
+                              DiskBack,
                               EnvironmentNow,
                               LaserFault,
                               Abort,

@@ -136,14 +136,44 @@ void RunMachine::on(const CommitFailed& failed, RunActions& out) {
         ++counters_.stray;
         return;
     }
-    const auto lost = std::move(*pending_);
+    unwritten_ = std::move(pending_);
     pending_.reset();
     stopped_ = true; // a failed sync is final: what is on disk now is not known
-    refuse(lost.sequence, lost.origin,
-           {Fault::not_durable, failed.reason + " The run acknowledges nothing more.", {}, {}},
-           failed.at, out);
+    refuse(
+        unwritten_->sequence, unwritten_->origin,
+        {Fault::not_durable,
+         failed.reason + " Nothing is acknowledged until the disk takes it; then the run goes on.",
+         {},
+         {}},
+        failed.at, out);
     set_state(PortState::error, out);
     if (wanted_close_) close(false, wanted_close_->reason, wanted_close_->fault, out);
+}
+
+/// The record that was captured is written again: the axis stood still for it, whatever it did
+/// since. A CNC that has asked anew in the meantime finds its number finished.
+void RunMachine::on(const DiskBack& back, RunActions& out) {
+    if (!stopped_ || closed_) return;
+    stopped_ = false;
+    set_state(PortState::armed, out);
+    const auto lost = std::exchange(unwritten_, std::nullopt);
+    if (!lost || pending_) return;
+    const auto& run = *back.on_disk;
+    pending_ = lost;
+    const auto committed = Committed{lost->sequence, lost->step, back.at};
+    if (lost->purpose == Purpose::point) {
+        if (std::ranges::find(run.points, lost->step, &PointRecord::step) != run.points.end())
+            return on(committed, out);
+        out.push_back(CommitPoint{lost->point});
+    } else if (lost->purpose == Purpose::datum) {
+        if (std::ranges::find(run.datums, lost->datum.id, &DatumRecord::id) != run.datums.end())
+            return on(committed, out);
+        out.push_back(CommitDatum{lost->datum});
+    } else {
+        if (lost->sequence != 0 && last_durable_request(run).sequence == lost->sequence)
+            return on(committed, out);
+        out.push_back(CommitEvent{lost->event, lost->step});
+    }
 }
 
 void RunMachine::on(const EnvironmentNow& environment, RunActions& /*out*/) {

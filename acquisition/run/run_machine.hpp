@@ -69,6 +69,7 @@ private:
         bool committing = false;
         PointRecord point;
         DatumRecord datum;
+        EventRecord event; ///< of a skip or an end
     };
 
     void on(const Arm& arm, RunActions& out);
@@ -76,6 +77,7 @@ private:
     void on(const WindowResult& result, RunActions& out);
     void on(const Committed& committed, RunActions& out);
     void on(const CommitFailed& failed, RunActions& out);
+    void on(const DiskBack& back, RunActions& out);
     void on(const EnvironmentNow& environment, RunActions& out);
     void on(const LaserFault& fault, RunActions& out);
     void on(const Abort& abort, RunActions& out);
@@ -136,6 +138,7 @@ private:
     Result<double> scale_minus_1_ =
         fail(Fault::environment_stale, "No environment reading has come yet.");
     std::optional<Pending> pending_;
+    std::optional<Pending> unwritten_;  ///< its commit failed; waits for the disk
     std::optional<Close> wanted_close_; ///< waits for the outstanding commit
     std::uint64_t windows_ = 0;
     std::optional<Refuse> last_refusal_; ///< an unchanged one is not recorded again

@@ -67,7 +67,7 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
         return true;
     }
     if (stopped_) {
-        refuse(event, {Fault::not_durable, "The run acknowledges nothing more.", {}, {}}, out);
+        refuse(event, {Fault::not_durable, "The disk takes no records; once it does the run goes on by itself.", {}, {}}, out);
         return true;
     }
     if (sequence == next_sequence(last_durable_)) return false;
@@ -122,6 +122,7 @@ void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunAct
                         ? "The CNC ended the run before its last point."
                         : "The CNC aborted the run.";
     }
+    pending.event = note;
     out.push_back(CommitEvent{note, pending.step});
     pending_ = std::move(pending);
 }

@@ -135,6 +135,8 @@ Task<void> Station::tick() {
         }
         feed_with_air(Tick{now});
         publish_to_port();
+        if (run_ && !run_->shut && journal_.failure() && !std::exchange(waiting_for_disk_, true))
+            spawn(scheduler_, wait_for_disk());
     }
 }
 

@@ -59,6 +59,7 @@ private:
         RunRecord header; ///< without points
         std::string path;
         bool closing = false, closed = false;
+        bool shut = false; ///< its closing row is durable
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
         std::string certificate;      ///< folder
@@ -100,6 +101,16 @@ private:
     void settle(Result<JournalReceipt> receipt);
     Task<void> close_run(Close action);
     Task<void> certify(std::string run_id, std::string path);
+
+    // station_disk.cpp: the disk failed under an open run
+    /// Tries until the run file can be written again, then goes on with the run or closes it.
+    Task<void> wait_for_disk();
+    Task<Result<void>> try_disk(std::string path, MonotonicTime since);
+    Task<Result<void>> go_on_after_disk(std::shared_ptr<const RunRecord> on_disk);
+    Task<Result<void>> close_after_disk();
+    Task<Result<void>> finish_after_disk();
+    /// What failed and what to do, without the fault's own sentence.
+    [[nodiscard]] std::string disk_in_words(const Error& error) const;
 
     // station_arm.cpp: opening and resuming
     Task<Result<std::string>> open_and_tie(ArmRequest request);
@@ -170,6 +181,7 @@ private:
     std::string port_note_, refused_note_;
     std::deque<std::string> notes_;
     boost::asio::cancellation_signal end_port_;
+    bool waiting_for_disk_ = false; ///< the run file could not be written
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
 };
 

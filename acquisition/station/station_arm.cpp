@@ -2,6 +2,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -39,6 +40,8 @@ Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
 }
 
 Result<void> Station::ready_to_measure() const {
+    if (waiting_for_disk_)
+        return fail(Fault::not_durable, "the disk of the last run does not take records yet");
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
@@ -80,8 +83,11 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
     RunRecord copy = header;
-    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened)
-        co_return tl::unexpected<Error>(opened.error());
+    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened) {
+        Error why = opened.error();
+        why.detail += " " + way_out(why.cause, config_.state_directory);
+        co_return tl::unexpected<Error>(std::move(why));
+    }
     RunMachine machine{setup_of(header)};
     begin_run(std::move(header), std::move(path), std::move(machine));
     manual_refusal_.reset();

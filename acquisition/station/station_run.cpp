@@ -100,10 +100,7 @@ Task<void> Station::commit_event(CommitEvent action) {
 
 void Station::settle(Result<JournalReceipt> receipt) {
     const MonotonicTime now = scheduler_.now();
-    if (!receipt) {
-        note("Not durable: " + describe(receipt.error()));
-        return feed(CommitFailed{describe(receipt.error()), now});
-    }
+    if (!receipt) return feed(CommitFailed{disk_in_words(receipt.error()), now});
     last_receipt_ = *receipt;
     run_->refusal.reset();
     refused_note_.clear();
@@ -155,6 +152,7 @@ Task<void> Station::close_run(Close action) {
     run_->outcome = action;
     run_->closed = true;
     run_->closing = false;
+    run_->shut = closed.has_value();
     if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
 }
 

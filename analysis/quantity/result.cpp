@@ -31,8 +31,7 @@ constexpr std::array rows{
     FaultRow{Fault::overspeed, 6, "overspeed",
              "The axis moved faster than the laser can count: lower the feed, move to the datum "
              "and arm again."},
-    FaultRow{Fault::not_durable, 7, "not_durable",
-             "The point could not be written to disk: free space on the disk of the run files."},
+    FaultRow{Fault::not_durable, 7, "not_durable", "The run file cannot be written to disk."},
     FaultRow{
         Fault::datum_lost, 8, "datum_lost",
         "The laser lost its zero: this run cannot go on; move to the datum and arm a new run."},

@@ -415,6 +415,43 @@ TEST(Disk, AFailedCommitIsFinal) {
     EXPECT_EQ(bench.machine.view().last_durable, 1);
 }
 
+std::shared_ptr<const RunRecord> disk_with_points(int count) {
+    RunRecord run;
+    for (int step = 0; step < count; ++step)
+        run.points.emplace_back().step = step;
+    return std::make_shared<const RunRecord>(std::move(run));
+}
+
+TEST(Disk, ARecordThatItRefusedIsWrittenWhenItIsBack) {
+    Bench bench;
+    bench.arm().point(1).trigger(2).window_here();
+    bench.give(CommitFailed{"No space left.", bench.tick()});
+    bench.give(DiskBack{disk_with_points(1), bench.tick()});
+    ASSERT_TRUE(bench.saw<CommitPoint>());
+    EXPECT_EQ(bench.the<CommitPoint>().point.sequence, 2);
+    EXPECT_FALSE(bench.saw<Acknowledge>());
+    EXPECT_TRUE(bench.commit().saw<Acknowledge>());
+    EXPECT_EQ(bench.machine.view().last_durable, 2);
+    EXPECT_TRUE(bench.point(3).saw<Acknowledge>());
+}
+
+TEST(Disk, ARecordThatIsThereAfterAllIsAcknowledgedAndNotWrittenTwice) {
+    Bench bench;
+    bench.arm().point(1).trigger(2).window_here();
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    bench.give(DiskBack{disk_with_points(2), bench.tick()});
+    EXPECT_FALSE(bench.saw<CommitPoint>());
+    EXPECT_TRUE(bench.saw<Acknowledge>());
+    EXPECT_EQ(bench.machine.view().last_durable, 2);
+}
+
+TEST(Disk, ThatIsBackUncalledForChangesNothing) {
+    Bench bench;
+    bench.arm().point(1).trigger(2).window_here();
+    EXPECT_TRUE(bench.give(DiskBack{disk_with_points(2), bench.tick()}).last.empty());
+    EXPECT_EQ(bench.machine.view().last_durable, 1);
+}
+
 TEST(Disk, ACommitThatNobodyAskedForIsNeverAcknowledged) {
     Bench bench;
     bench.arm();

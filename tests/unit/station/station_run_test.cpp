@@ -206,24 +206,44 @@ private:
     rlimit before_{};
 };
 
-TEST_F(StationRuns, AFullDiskAcknowledgesNothingAnyMore) {
+TEST_F(StationRuns, AFullDiskAcknowledgesNothingUntilItHasRoomAgain) {
     Life life{shop};
     ASSERT_TRUE(life.arm());
     ASSERT_TRUE(life.take(0));
     {
         const FullDisk full;
         EXPECT_FALSE(life.take(1));
+        life.run(5s);
+        EXPECT_EQ(life.port->done, 1);
     }
     EXPECT_EQ(life.port->refusals.back(), (std::pair<std::uint16_t, Fault>{2, Fault::not_durable}));
     EXPECT_EQ(life.status().run->state, "stopped");
     EXPECT_TRUE(life.port->status.feed_hold);
     EXPECT_FALSE(life.port->status.may_move);
     life.port->refusals.clear();
-    EXPECT_FALSE(life.take(1)) << "also when the disk has room again";
-    EXPECT_EQ(life.port->done, 1);
-    ASSERT_TRUE(life.station->abort("disk full"));
-    life.run(1s);
-    EXPECT_EQ(life.status().run->state, "incomplete");
+    life.run_until([&] { return life.port->done == 2; }); // without being asked again
+    EXPECT_TRUE(life.port->refusals.empty());
+    for (int step = 2; step < 10; ++step)
+        ASSERT_TRUE(life.take(step));
+    life.run_until([&] { return life.status().run->state == "complete"; });
+}
+
+TEST_F(StationRuns, ARunAbortedOnAFullDiskIsClosedWhenItHasRoom) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    {
+        const FullDisk full;
+        EXPECT_FALSE(life.take(1));
+        ASSERT_TRUE(life.station->abort("disk full"));
+        life.run(3s);
+        EXPECT_EQ(life.status().run->state, "incomplete");
+    }
+    life.run_until([&] {
+        const auto run = summarize_run_file(shop.run_files().front());
+        return run && run->closed && !run->complete;
+    });
+    EXPECT_TRUE(life.arm());
 }
 
 TEST_F(StationRuns, AMissingReportProgramIsToldAndTheRunKept) {

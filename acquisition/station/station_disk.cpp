@@ -1,0 +1,83 @@
+// The disk fails under an open run: nothing is acknowledged, and the station waits for the disk as
+// a new daemon would find it: the file is opened, verified and synced anew.
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/run/resume.hpp"
+#include "acquisition/station/station.hpp"
+
+namespace axiscal {
+namespace {
+
+constexpr Duration try_every = std::chrono::seconds{1};
+
+} // namespace
+
+std::string Station::disk_in_words(const Error& error) const {
+    const std::string advice = way_out(error.cause, config_.state_directory);
+    const std::string cause = error.cause ? " (" + error.cause.message() + ")" : "";
+    return error.detail + cause + "." + (advice.empty() ? "" : " " + advice);
+}
+
+Task<void> Station::wait_for_disk() {
+    const MonotonicTime since = scheduler_.now();
+    const std::string path = run_->path;
+    if (const auto why = journal_.failure())
+        note(std::string{fault_sentence(why->fault)} + " " + disk_in_words(*why));
+    while (!stopping_) {
+        co_await scheduler_.sleep_for(try_every);
+        if (run_->closing) continue; // its own attempt to close is under way
+        if (co_await try_disk(path, since)) break;
+    }
+    waiting_for_disk_ = false;
+}
+
+/// One attempt. The first thing written is how long nothing was.
+Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
+    co_await journal_.let_go();
+    const auto opened = co_await journal_.reopen(path);
+    if (!opened && run_->closed && opened.error().fault == Fault::refused)
+        co_return co_await finish_after_disk();
+    if (!opened) co_return tl::unexpected<Error>(opened.error());
+    if (auto kept = co_await journal_.flush(); !kept) co_return kept;
+    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
+                         "The disk took no records for " + in_seconds(scheduler_.now() - since) +
+                             "; the file was verified and synced anew.",
+                         Fault::not_durable, 0}});
+    if (auto told = co_await journal_.flush(); !told) co_return told;
+    auto run = co_await journal_.read(path);
+    if (!run) co_return tl::unexpected<Error>(run.error());
+    note("The run file is written again.");
+    auto on_disk = std::make_shared<const RunRecord>(*std::move(run));
+    if (run_->closed) co_return co_await close_after_disk();
+    co_return co_await go_on_after_disk(std::move(on_disk));
+}
+
+Task<Result<void>> Station::go_on_after_disk(std::shared_ptr<const RunRecord> on_disk) {
+    if (last_durable_request(*on_disk).sequence != 0) {
+        const auto published = co_await publish_last_done(*on_disk);
+        if (!published) co_return published;
+    }
+    run_->refusal.reset();
+    feed(DiskBack{std::move(on_disk), scheduler_.now()});
+    co_return Result<void>{};
+}
+
+/// The run ended while nothing could be written: its closing row is due.
+Task<Result<void>> Station::close_after_disk() {
+    const Close wanted =
+        run_->outcome.value_or(Close{false, "The disk failed.", Fault::not_durable});
+    const auto closed = co_await journal_.close(wanted.complete, wanted.reason);
+    if (!closed) co_return closed;
+    co_return co_await finish_after_disk();
+}
+
+/// The closing row is there; what may be left is to fold the file and to report.
+Task<Result<void>> Station::finish_after_disk() {
+    const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
+    if (!tidied) co_return tidied;
+    run_->shut = true;
+    if (run_->outcome && run_->outcome->complete) co_await certify(run_->header.run_id, run_->path);
+    co_return Result<void>{};
+}
+
+} // namespace axiscal

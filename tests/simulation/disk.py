@@ -1,0 +1,117 @@
+"""The disk fails in mid-run: nothing is acknowledged, the CNC holds, the message says what to do, and the
+run goes on by itself once the disk is mended."""
+
+import ctypes
+import errno
+import json
+import os
+import subprocess
+import sys
+
+import bench
+from bench import expect, sentence
+from steps import DATA, NAME, SYNC, Steps
+
+BEFORE = 5  # points
+NEW_MOUNTS, NEW_USER = 0x00020000, 0x10000000  # of unshare(2)
+
+
+def begin(b):
+    b.station["capture"]["timeout"] = "20 s"  # the CNC holds that long
+    b.begin_run()
+    b.wait_for_points(BEFORE)
+
+
+def held(b, words):
+    """The station names the fault and what to do; the CNC sees no new `done`."""
+    run = b.wait_for_refusal("not_durable")
+    expect(words in run["sentence"], f"not a word of {words!r}: {run['sentence']}")
+    expect(run["state"] == "stopped", f"{run}")
+    done = b.sim("status")["done"]
+    expect(done == run["done"], f"the CNC sees {done} done, the run {run['done']}")
+    return done
+
+
+def goes_on(b, done):
+    """Every point once; the file is whole; the certificate tells of it."""
+    certificate = b.finish()
+    run = b.run()
+    expect(run["step"] == run["steps"] == 20 > done, f"{run}")
+    told = json.loads(b.axiscal("verify", b.folder / "state/runs" / f"{run['id']}.axiscal", "--json"))
+    expect(told["rows"]["point"] == 20 and told["complete"], f"{told}")
+    remarks = " ".join(certificate["run"]["remarks"])
+    print(remarks)
+    expect("The disk took no records for" in remarks, remarks)
+
+
+def fails(b, error, kinds, words):
+    steps = Steps(b)
+    begin(b)
+    steps.fail(error, kinds)
+    done = held(b, words)
+    failed = steps["failed"]
+    bench.wait_until("three more attempts", lambda: steps["failed"] >= failed + 3, 20)
+    expect(b.sim("status")["done"] == done, "acknowledged without a disk")
+    steps.fail(0, 0)
+    goes_on(b, done)
+    print(f"{steps['failed']} steps failed with {errno.errorcode[error]}")
+
+
+@sentence("FullDiskHoldsTheCncAndTheRunGoesOn")
+def full(b):
+    fails(b, errno.ENOSPC, DATA | NAME, "is full")
+
+
+@sentence("ReadOnlyDiskHoldsTheCncAndTheRunGoesOn")
+def read_only(b):
+    fails(b, errno.EROFS, DATA | NAME, "cannot be written")
+
+
+@sentence("DiskThatCannotSyncHoldsTheCncAndTheRunGoesOn")
+def broken_sync(b):
+    fails(b, errno.EIO, SYNC, "reports an error of its own")
+
+
+def own_mounts():
+    """From here on what this test mounts is seen by it and its programs alone, and ends with them."""
+    user, group = os.geteuid(), os.getegid()
+    if ctypes.CDLL(None).unshare(NEW_MOUNTS | (NEW_USER if user != 0 else 0)) != 0:
+        return False
+    if user != 0:
+        for name, line in (("setgroups", "deny"), ("uid_map", f"0 {user} 1"), ("gid_map", f"0 {group} 1")):
+            with open(f"/proc/self/{name}", "w") as file:
+                file.write(line)
+    subprocess.run(["mount", "--make-rprivate", "/"], check=True)
+    return True
+
+
+@sentence("RealDiskFilledToTheLastByteHoldsTheCncAndTheRunGoesOn")
+def really_full(b):
+    state = b.folder / "state"
+    state.mkdir()
+    if not own_mounts():
+        print("neither root nor a user namespace: no disk can be mounted here")
+        sys.exit(77 if "mount" in os.environ.get("AXISCAL_MAY_SKIP", "").split(",") else "or AXISCAL_MAY_SKIP=mount")
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "axiscal-test", state], check=True)
+    try:
+        begin(b)
+        ballast = state / "ballast"
+        with open(ballast, "wb", buffering=0) as file:
+            for size in (65536, 4096):
+                try:
+                    while True:
+                        file.write(bytes(size))
+                except OSError as full_now:
+                    expect(full_now.errno == errno.ENOSPC, f"{full_now}")
+        done = held(b, "is full")
+        ballast.unlink()
+        goes_on(b, done)
+    finally:
+        for process in b.processes.values():
+            process.kill()
+            process.wait()
+        subprocess.run(["umount", "-l", state], check=True)
+
+
+if __name__ == "__main__":
+    bench.main()
