@@ -53,7 +53,8 @@ class BenchInstrument final : public Instrument {
 public:
     using Reading = std::function<double(int channel, MonotonicTime at)>;
     BenchInstrument(std::vector<Channel> channels, Duration period, Reading reading)
-        : channels_{std::move(channels)}
+        : send_every{period}
+        , channels_{std::move(channels)}
         , period_{period}
         , reading_{std::move(reading)} {}
 
@@ -72,7 +73,7 @@ public:
         if (unplugged) co_return fail(Fault::link_closed, "no such device");
         context.sink->identify({"Maker", "Model", serial, "1.0"});
         for (;;) {
-            co_await context.scheduler->sleep_for(period_);
+            co_await context.scheduler->sleep_for(send_every);
             if (unplugged) co_return fail(Fault::link_closed, "unplugged");
             const MonotonicTime now = context.scheduler->now();
             if (!silent) send(now, *context.sink);
@@ -81,6 +82,7 @@ public:
         }
     }
 
+    Duration send_every; ///< the device may leave out some of its numbers
     bool unplugged = false, silent = false;
     Quality quality = Quality::good;
     std::uint32_t epoch = 0;
@@ -171,6 +173,12 @@ struct Shop {
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
     bool port_broken = false;
+    /// What adds to the laser's reading, and what the air warms up by; nothing at first.
+    std::function<double(MonotonicTime)> drift_um, warmth_K;
+
+    [[nodiscard]] double laser_m(MonotonicTime at) const {
+        return axis.at(at) * 1e-3 * (1 + 2.7e-4) + (drift_um ? drift_um(at) * 1e-6 : 0.0);
+    }
 
     static StationConfig make_config(const std::string& folder) {
         StationConfig config;
@@ -321,13 +329,14 @@ private:
         made.journal_thread = JournalThread::caller;
         auto light = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"axis 1", ChannelKind::displacement}}, 5ms,
-            [this](int, MonotonicTime at) { return shop.axis.at(at) * 1e-3 * (1 + 2.7e-4); });
+            [this](int, MonotonicTime at) { return shop.laser_m(at); });
         auto weather = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"air temperature", ChannelKind::temperature, Medium::air},
                                  {"air pressure", ChannelKind::pressure, Medium::air},
                                  {"air humidity", ChannelKind::humidity, Medium::air}},
-            500ms, [](int channel, MonotonicTime) {
-                return channel == 0 ? 23.0 : channel == 1 ? 101'325.0 : 50.0;
+            500ms, [this](int channel, MonotonicTime at) {
+                if (channel == 0) return 23.0 + (shop.warmth_K ? shop.warmth_K(at) : 0.0);
+                return channel == 1 ? 101'325.0 : 50.0;
             });
         auto contacts = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"contact 1", ChannelKind::temperature, Medium::material},
