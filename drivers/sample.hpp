@@ -24,8 +24,6 @@ struct Channel {
     std::string name; ///< "axis 1", "air temperature", "contact 2"
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
-    Duration typical_latency{};     ///< subtracted from the arrival time by the driver
-    Duration latency_uncertainty{}; ///< half-known delay of the link (FTDI latency timer)
 };
 
 /// One reading. The number can be had only through `value()`, which is empty unless it is good:
@@ -59,8 +57,16 @@ public:
         return quality_ == Quality::good ? std::optional{value_} : std::nullopt;
     }
     [[nodiscard]] Quality quality() const { return quality_; }
+    /// The same reading of another channel number, `correction` added to its number.
+    [[nodiscard]] Sample corrected(int of_channel, double correction) const {
+        Sample sample = *this;
+        sample.channel = of_channel;
+        sample.value_ += correction;
+        return sample;
+    }
 
     MonotonicTime at{};
+    Duration time_uncertainty{};    ///< u(t) of `at`, standard; 0 where the driver states none
     std::uint64_t device_count = 0; ///< the instrument's own sample number, 0 if none
     int channel = 0;
     std::uint32_t epoch = 0; ///< rises whenever an incremental counter lost its zero

@@ -65,10 +65,7 @@ struct Supervisor::Seat final : SampleSink {
         last_sample = now;
         const int id = first_channel + sample.channel;
         const StationChannel& channel = supervisor.channels_[static_cast<std::size_t>(id)];
-        Sample forwarded = value ? Sample{channel.id, sample.at, *value + channel.correction,
-                                          sample.device_count, sample.epoch}
-                                 : Sample::bad(channel.id, sample.at, sample.quality(),
-                                               sample.device_count, sample.epoch);
+        const Sample forwarded = sample.corrected(channel.id, value ? channel.correction : 0);
         if (value) supervisor.set_state(*this, InstrumentState::available);
         supervisor.listener_.on_sample(forwarded);
     }

@@ -44,7 +44,7 @@ class CanOpen406 final : public Instrument {
 public:
     explicit CanOpen406(Cia406Setup setup)
         : setup_{std::move(setup)}
-        , channels_{{"ballbar", ChannelKind::displacement, Medium::none, latency, latency}}
+        , channels_{{"ballbar", ChannelKind::displacement, Medium::none}}
         , session_{setup_.bus, counters_}
         , stream_{setup_.bus.sample_period} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
@@ -113,8 +113,10 @@ void CanOpen406::hand_up(const std::vector<PdoStream::Numbered>& settled, Sample
         ++counters_.samples;
         const bool good = reading.metres && !one.arrival.in_error;
         const Quality why = one.arrival.in_error ? Quality::signal_error : Quality::absent;
-        sink.take(good ? Sample{0, at, *reading.metres, one.number, epoch_}
-                       : Sample::bad(0, at, why, one.number, epoch_));
+        Sample sample = good ? Sample{0, at, *reading.metres, one.number, epoch_}
+                             : Sample::bad(0, at, why, one.number, epoch_);
+        sample.time_uncertainty = latency;
+        sink.take(sample);
     }
 }
 

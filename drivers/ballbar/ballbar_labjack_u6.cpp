@@ -35,7 +35,7 @@ constexpr Duration silence = std::chrono::seconds{2}; ///< without a whole packe
 /// STALL comes at once: asking again at once would only burn the CPU.
 constexpr Duration after_stall = std::chrono::milliseconds{10};
 /// From the last sample of a packet to the host: conversion and one frame of USB [N].
-constexpr Duration usb_latency = std::chrono::milliseconds{1};
+constexpr Duration usb_frame = std::chrono::milliseconds{1};
 
 class LabJackU6 final : public Instrument {
 public:
@@ -43,8 +43,8 @@ public:
         : link_settings_{std::move(link)}
         , serial_{std::exchange(link_settings_.usb.serial, {})}
         , setup_{setup}
-        , channels_{{"ballbar", ChannelKind::displacement, Medium::none, usb_latency, usb_latency}}
-        , stream_{setup, scale, usb_latency, counters_} {}
+        , channels_{{"ballbar", ChannelKind::displacement, Medium::none}}
+        , stream_{setup, scale, usb_frame, counters_} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }

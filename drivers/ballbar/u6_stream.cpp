@@ -11,15 +11,12 @@ constexpr Duration tick = std::chrono::nanoseconds{250}; ///< of the 4 MHz clock
 
 } // namespace
 
-U6Stream::U6Stream(U6StreamSetup setup,
-                   U6Scale scale,
-                   Duration latency,
-                   InstrumentCounters& counters)
+U6Stream::U6Stream(U6StreamSetup setup, U6Scale scale, Duration frame, InstrumentCounters& counters)
     : setup_{setup}
     , scale_{scale}
-    , latency_{latency}
     , period_{setup.interval_ticks * tick}
-    , counters_{counters} {}
+    , counters_{counters}
+    , clock_{frame} {}
 
 void U6Stream::begin(const U6Range& range) {
     if (std::exchange(begun_, true)) {
@@ -71,13 +68,15 @@ void U6Stream::hand_up(const U6Packet& packet, MonotonicTime read_at, SampleSink
     for (const std::uint16_t count : packet.samples) {
         ++number_;
         --behind;
-        const MonotonicTime at = clock_.place(number_, read_at, period_, behind) - latency_;
+        const auto [at, uncertainty] = clock_.place(number_, read_at, period_, behind);
         const double volts = u6_volts(count, range_);
         ++counters_.samples;
         // The ends of the converter's scale stand for everything beyond them.
         const bool inside = count != 0 && count != 0xFFFF && std::abs(volts) <= scale_.usable_V;
-        sink.take(inside ? Sample{0, at, volts * scale_.metres_per_volt, number_, epoch_}
-                         : Sample::bad(0, at, Quality::absent, number_, epoch_));
+        Sample sample = inside ? Sample{0, at, volts * scale_.metres_per_volt, number_, epoch_}
+                               : Sample::bad(0, at, Quality::absent, number_, epoch_);
+        sample.time_uncertainty = uncertainty;
+        sink.take(sample);
     }
 }
 

@@ -2,8 +2,8 @@
 // Samples out of a U6's stream packets: numbered without a hole, timed, in metres. Loop-bound.
 
 #include "drivers/ballbar/u6_frame.hpp"
+#include "drivers/clock/device_clock.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/laser/count_clock.hpp"
 
 namespace axiscal {
 
@@ -15,7 +15,7 @@ struct U6Scale {
 
 class U6Stream {
 public:
-    U6Stream(U6StreamSetup setup, U6Scale scale, Duration latency, InstrumentCounters& counters);
+    U6Stream(U6StreamSetup setup, U6Scale scale, Duration frame, InstrumentCounters& counters);
 
     /// A stream begins: numbers from 1 again, in a new epoch after the first.
     void begin(const U6Range& range);
@@ -30,10 +30,10 @@ private:
 
     U6StreamSetup setup_;
     U6Scale scale_;
-    Duration latency_, period_;
+    Duration period_;
     InstrumentCounters& counters_;
     U6Range range_;
-    CountClock clock_;
+    DeviceClock clock_;
     std::uint64_t number_ = 0; ///< of the last sample, from 1
     int next_counter_ = 0;
     bool overflow_told_ = false, begun_ = false;

@@ -36,10 +36,9 @@ struct Cia404Setup {
 std::vector<Channel> channels_of(const Cia404Setup& setup) {
     std::vector<Channel> channels;
     channels.reserve(static_cast<std::size_t>(setup.inputs));
-    // A value is at most one measuring cycle old when it is sent; nobody tells the cycle.
     for (int input = 1; input <= setup.inputs; ++input)
-        channels.push_back({"contact " + std::to_string(input), ChannelKind::temperature,
-                            Medium::none, Duration{}, setup.bus.sample_period});
+        channels.push_back(
+            {"contact " + std::to_string(input), ChannelKind::temperature, Medium::none});
     return channels;
 }
 
@@ -122,8 +121,11 @@ void CanOpen404::take(const PdoArrival& arrival, SampleSink& sink) {
         if (!input.has_status && arrival.in_error) reading.celsius.reset();
         ++counters_.samples;
         const int channel = static_cast<int>(at);
-        sink.take(reading.celsius ? Sample{channel, arrival.at, *reading.celsius}
-                                  : Sample::bad(channel, arrival.at, Quality::absent));
+        Sample sample = reading.celsius ? Sample{channel, arrival.at, *reading.celsius}
+                                        : Sample::bad(channel, arrival.at, Quality::absent);
+        // A value is at most one measuring cycle old when it is sent; nobody tells the cycle.
+        sample.time_uncertainty = setup_.bus.sample_period;
+        sink.take(sample);
     }
 }
 

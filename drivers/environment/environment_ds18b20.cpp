@@ -35,8 +35,8 @@ std::vector<Channel> channels_of(const W1Setup& setup) {
     std::vector<Channel> channels;
     channels.reserve(setup.sensors.size());
     for (std::size_t i = 0; i < setup.sensors.size(); ++i)
-        channels.push_back({"contact " + std::to_string(i + 1), ChannelKind::temperature,
-                            Medium::none, conversion_half, conversion_half});
+        channels.push_back(
+            {"contact " + std::to_string(i + 1), ChannelKind::temperature, Medium::none});
     return channels;
 }
 
@@ -85,7 +85,9 @@ void Ds18b20::take(int channel, const FileText& file, SampleSink& sink) {
     }
     ++counters_.frames;
     ++counters_.samples;
-    sink.take(Sample{channel, at, *value});
+    Sample sample{channel, at, *value};
+    sample.time_uncertainty = conversion_half;
+    sink.take(sample);
 }
 
 /// How many sensors there are. The files outlive every task of this instrument.

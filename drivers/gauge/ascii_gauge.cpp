@@ -59,7 +59,7 @@ public:
     explicit AsciiGauge(GaugeSetup setup)
         : setup_{std::move(setup)}
         , latency_{time_on_wire(setup_.link)}
-        , channels_{{"length", ChannelKind::displacement, Medium::none, latency_}} {}
+        , channels_{{"length", ChannelKind::displacement, Medium::none}} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
@@ -75,7 +75,7 @@ private:
     [[nodiscard]] bool is_echo(std::string_view line) const;
 
     GaugeSetup setup_;
-    Duration latency_;
+    Duration latency_, time_uncertainty_{};
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
     std::optional<GaugeUnit> told_unit_; ///< by the gauge, on this connection
@@ -112,7 +112,9 @@ void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, Sample
         sink.identify(
             Identity{std::string{setup_.model->maker}, std::string{setup_.model->model}, "", ""});
     const double metres = setup_.sign * length_of(answer.number, *unit).si();
-    sink.take(Sample{0, at - latency_, metres, 0, epoch_});
+    Sample sample{0, at - latency_, metres, 0, epoch_};
+    sample.time_uncertainty = time_uncertainty_;
+    sink.take(sample);
     counted_before_ = true;
 }
 
@@ -195,7 +197,8 @@ Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
         co_await context.links->open(setup_.link, context.scheduler->now() + link_patience);
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     const std::unique_ptr<ByteLink> link = *std::move(opened);
-    channels_[0].latency_uncertainty = link->latency_uncertainty() + latency_ / 2;
+    // Answers have 10 to 18 characters; an adapter keeps them for as long as its timer runs.
+    time_uncertainty_ = link->latency_uncertainty() + latency_ / 2;
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
     told_unit_.reset();
     contradiction_.reset();

@@ -22,7 +22,7 @@ namespace {
 /// 16 fields of at most 20 characters, and their separators.
 constexpr std::size_t longest_record = 352;
 /// One USB frame between the end of a sample period and the host.
-constexpr Duration usb_latency = std::chrono::milliseconds{1};
+constexpr Duration usb_frame = std::chrono::milliseconds{1};
 /// Longer than a host may stall: opening the line anew costs the datum, waiting costs nothing. That
 /// the laser is silent is seen by the age of its samples.
 constexpr Duration patience = std::chrono::seconds{8};
@@ -30,7 +30,7 @@ constexpr std::string_view umd0_greeting = "Minimalist Homodyne Test:";
 
 std::vector<Channel> channels_of(const UmdSetup& setup) {
     const std::string axis = "axis " + std::to_string(setup.axis);
-    return {{axis, ChannelKind::displacement, Medium::none, usb_latency},
+    return {{axis, ChannelKind::displacement, Medium::none},
             {"temperature 1", ChannelKind::temperature, Medium::air},
             {"temperature 2", ChannelKind::temperature, Medium::air},
             {"pressure", ChannelKind::pressure, Medium::air},
@@ -43,7 +43,7 @@ public:
         : link_settings_{std::move(link)}
         , setup_{setup}
         , channels_{channels_of(setup)}
-        , counter_{setup, usb_latency, counters_} {}
+        , counter_{setup, counters_} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
@@ -98,9 +98,8 @@ Task<Result<void>> UmdInstrument::run(InstrumentContext context) {
     auto opened = co_await context.links->open(link_settings_, begin + patience);
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     const std::unique_ptr<ByteLink> link = *std::move(opened);
-    channels_[umd_displacement].latency_uncertainty = link->latency_uncertainty();
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
-    counter_.opened();
+    counter_.opened(usb_frame + link->latency_uncertainty());
     LineFramer framer{longest_record, true};
     last_record_at_ = context.scheduler->now();
     for (;;) {

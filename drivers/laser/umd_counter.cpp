@@ -19,13 +19,13 @@ constexpr std::int64_t no_reference_bits = 0x0400 | 0x2000, no_measurement_bits 
 
 } // namespace
 
-UmdCounter::UmdCounter(UmdSetup setup, Duration latency, InstrumentCounters& counters)
+UmdCounter::UmdCounter(UmdSetup setup, InstrumentCounters& counters)
     : setup_{setup}
     , facts_{setup}
-    , latency_{latency}
     , counters_{counters} {}
 
-void UmdCounter::opened() {
+void UmdCounter::opened(Duration frame) {
+    clock_ = DeviceClock{frame};
     facts_ = UmdFacts{setup_}; // another firmware may answer now
     records_without_facts_ = 0;
     introduced_ = complained_ = contradicted_ = false;
@@ -59,14 +59,14 @@ void UmdCounter::take(std::span<const UmdRecord> records, MonotonicTime read_at,
     for (const UmdRecord& record : records) {
         follow_sequence(record.sequence, read_at, sink);
         facts_.learn(record.low_speed_code, record.low_speed_data);
-        MonotonicTime at = clock_.place(device_count_, read_at, period(), --behind) - latency_;
+        PlacedTime placed = clock_.place(device_count_, read_at, period(), --behind);
         // Never back: a record that came quicker than all before moves the clock's origin.
-        at = std::max(at, last_at_ + std::chrono::microseconds{1});
-        last_at_ = at;
-        learn_environment(record, at, sink);
+        placed.at = std::max(placed.at, last_at_ + std::chrono::microseconds{1});
+        last_at_ = placed.at;
+        learn_environment(record, placed.at, sink);
         introduce(sink);
         if (facts_.complete())
-            hand_up(read(record), at, sink);
+            hand_up(read(record), placed, sink);
         else
             complain_without_facts(sink);
     }
@@ -191,7 +191,7 @@ void UmdCounter::judge_jump(double counts, SampleSink& sink) {
     steps_since_counts_ = 0;
 }
 
-void UmdCounter::hand_up(const Reading& reading, MonotonicTime at, SampleSink& sink) {
+void UmdCounter::hand_up(const Reading& reading, PlacedTime placed, SampleSink& sink) {
     ++counters_.samples;
     steps_since_counts_ += last_step_;
     if (reading.signal != Signal::good) {
@@ -199,7 +199,7 @@ void UmdCounter::hand_up(const Reading& reading, MonotonicTime at, SampleSink& s
         if (news) sink.note(reading.fault, reading.what);
         if (reading.signal == Signal::lost) signal_lost_ = true;
         doubted_ = true;
-        sink.take(Sample::bad(umd_displacement, at, reading.quality, device_count_, epoch_));
+        sink.take(Sample::bad(umd_displacement, placed.at, reading.quality, device_count_, epoch_));
         return;
     }
     doubted_ = false;
@@ -208,7 +208,9 @@ void UmdCounter::hand_up(const Reading& reading, MonotonicTime at, SampleSink& s
     judge_jump(reading.counts, sink);
     datum_in_use_ = true;
     const double metres = reading.counts * facts_.metres_per_count();
-    sink.take(Sample{umd_displacement, at, metres, device_count_, epoch_});
+    Sample sample{umd_displacement, placed.at, metres, device_count_, epoch_};
+    sample.time_uncertainty = placed.uncertainty;
+    sink.take(sample);
 }
 
 } // namespace axiscal

@@ -1,8 +1,8 @@
 #pragma once
 // From uMD records to samples: continuity, signal faults, datum, time. No I/O. Loop-bound.
 
+#include "drivers/clock/device_clock.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/laser/count_clock.hpp"
 #include "drivers/laser/umd_facts.hpp"
 #include "drivers/laser/umd_record.hpp"
 
@@ -24,9 +24,10 @@ enum UmdChannel : int {
 /// a jump that no axis makes.
 class UmdCounter {
 public:
-    UmdCounter(UmdSetup setup, Duration latency, InstrumentCounters& counters);
-    /// A link was opened: what the counter did meanwhile is unknown.
-    void opened();
+    UmdCounter(UmdSetup setup, InstrumentCounters& counters);
+    /// A link was opened that hands up bytes once a `frame`: what the counter did meanwhile is
+    /// unknown.
+    void opened(Duration frame);
     /// The instrument printed its greeting: it restarted.
     void greeted(SampleSink& sink);
     /// Records that arrived together; their numbers and the record rate place them in time.
@@ -53,12 +54,11 @@ private:
     [[nodiscard]] Reading read(const UmdRecord& record) const;
     [[nodiscard]] Reading read_signal(const UmdRecord& record, const UmdAxisFields& axis) const;
     void judge_jump(double counts, SampleSink& sink);
-    void hand_up(const Reading& reading, MonotonicTime at, SampleSink& sink);
+    void hand_up(const Reading& reading, PlacedTime placed, SampleSink& sink);
     [[nodiscard]] Duration period() const;
 
     UmdSetup setup_;
     UmdFacts facts_;
-    Duration latency_;
     InstrumentCounters& counters_;
     std::uint32_t epoch_ = 0;
     bool datum_in_use_ = false; ///< a sample was handed up in this epoch
@@ -66,7 +66,7 @@ private:
     bool introduced_ = false, complained_ = false, contradicted_ = false, doubted_ = false;
     std::optional<std::int64_t> last_sequence_;
     std::uint64_t device_count_ = 0;
-    CountClock clock_;
+    DeviceClock clock_{Duration{}};
     std::int64_t last_step_ = 1;
     int records_without_facts_ = 0;
     std::optional<double> last_counts_;
