@@ -7,8 +7,8 @@
 namespace axiscal {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double widest_step_rad = 0.5 * degree; ///< to a neighbour that may still be interpolated
+constexpr double one_degree = std::numbers::pi / 180;
+constexpr double widest_step_rad = 0.5 * one_degree; ///< to a neighbour that may still be interpolated
 
 const CircleCapture* circle_of(const CircularRun& run, Sense sense, int repeat) {
     for (const auto& circle : run.circles)
@@ -76,20 +76,6 @@ tl::unexpected<Error> missing_circle(Sense sense, int repeat) {
 }
 
 } // namespace
-
-std::string_view name_of(CircularPlane plane) {
-    if (plane == CircularPlane::xy) return "XY";
-    return plane == CircularPlane::yz ? "YZ" : "ZX";
-}
-
-AxisNames axes_of(CircularPlane plane) {
-    const std::string_view name = name_of(plane);
-    return {std::string{name.substr(0, 1)}, std::string{name.substr(1, 1)}};
-}
-
-std::string_view name_of(StartMethod method) {
-    return method == StartMethod::feed_step ? "feed_step" : "trigger";
-}
 
 Result<CircularTest> test_of_repeat(const CircularRun& run, int repeat) {
     CircularTest test = without_traces(run);

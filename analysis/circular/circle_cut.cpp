@@ -1,0 +1,214 @@
+#include "analysis/circular/circle_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace axiscal {
+namespace {
+
+constexpr double one_degree = std::numbers::pi / 180;
+constexpr double largest_time_error = 0.02; ///< of the programmed path
+/// Two samples between which a step may be interpolated lie no further apart than this share of
+/// the feed-in: beyond it the crossing is known to a tenth of the step only.
+constexpr double widest_share_of_step = 0.2;
+
+std::string in_mm(double value_mm) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.2f mm", value_mm);
+    return text;
+}
+
+/// Samples first ... last - 1 lie on the circle's side of the step.
+struct Stay {
+    std::size_t first = 0, last = 0;
+};
+
+class Cutter {
+public:
+    Cutter(const CircularSetup& setup, const StreamSamples& stream)
+        : setup_{setup}
+        , plan_{setup.plan}
+        , stream_{stream}
+        , path_mm_{programmed_path_mm(setup.plan)} {}
+
+    [[nodiscard]] double time_error(const Stay& stay) const {
+        const double found = seconds_of(stream_.at[stay.last - 1] - stream_.at[stay.first]);
+        return found * plan_.feed_mm_per_s / path_mm_ - 1;
+    }
+
+    /// Every stretch on the circle's side of the step within samples [first, last).
+    [[nodiscard]] std::vector<Stay> stays(std::size_t first, std::size_t last) const {
+        std::vector<Stay> found;
+        bool inside = false;
+        for (std::size_t i = first; i < last; ++i) {
+            const bool now = height_mm(i) < 0;
+            if (now && !inside) found.push_back({i, i});
+            if (now) found.back().last = i + 1;
+            inside = now;
+        }
+        return found;
+    }
+
+    [[nodiscard]] Result<CircleCapture> cut(const PlannedCircle& circle, const Stay& stay) const {
+        AXISCAL_TRY(const double begin_s, crossing_s(stay.first, "feed-in", circle));
+        AXISCAL_TRY(const double end_s, crossing_s(stay.last, "feed-out", circle));
+        CircleCapture capture;
+        capture.repeat = circle.repeat;
+        capture.warm_up = circle.warm_up;
+        capture.trace.sense = circle.sense;
+        capture.residual_mm = (end_s - begin_s) * plan_.feed_mm_per_s - path_mm_;
+        capture.speed_residual = capture.residual_mm / path_mm_;
+        if (std::fabs(capture.speed_residual) > largest_time_error)
+            return fail(Fault::incomplete_run,
+                        words(circle) + " took " + in_mm(capture.residual_mm) +
+                            " of path more than programmed: is the feed override at 100 %, and is "
+                            "the feed that of the station file?");
+        take_arc(capture, stay, (begin_s + end_s) / 2);
+        return capture;
+    }
+
+    static std::string words(const PlannedCircle& circle) {
+        return "circle " + std::to_string(circle.number) + " (" +
+               std::string{name_of(circle.sense)} + ")";
+    }
+
+private:
+    /// Above the middle of the step: positive away from the circle.
+    [[nodiscard]] double height_mm(std::size_t i) const {
+        const double deviation = radial_deviation_mm(setup_, stream_.value[i]);
+        return (plan_.feed_in_outside ? deviation : -deviation) - plan_.feed_in_mm / 2;
+    }
+    [[nodiscard]] double seconds(std::size_t i) const {
+        return seconds_of(stream_.at[i] - stream_.at.front());
+    }
+    [[nodiscard]] bool hole_before(std::size_t i) const {
+        return std::ranges::binary_search(stream_.gaps, i, {}, &StreamGap::at);
+    }
+
+    /// Between samples i - 1 and i.
+    [[nodiscard]] Result<double>
+    crossing_s(std::size_t i, const char* which, const PlannedCircle& circle) const {
+        const bool seen = i > 0 && i < stream_.at.size() &&
+                          (seconds(i) - seconds(i - 1)) * plan_.feed_mm_per_s <
+                              widest_share_of_step * plan_.feed_in_mm;
+        if (!seen)
+            return fail(Fault::incomplete_run,
+                        "the " + std::string{which} + " of " + words(circle) +
+                            " was not seen: half of feed_in must lie within the gauge's range, and "
+                            "no sample may be missing there");
+        const double low = height_mm(i - 1), high = height_mm(i);
+        return seconds(i - 1) + (seconds(i) - seconds(i - 1)) * low / (low - high);
+    }
+
+    void take_arc(CircleCapture& capture, const Stay& stay, double middle_s) const {
+        const double half_rad = plan_.arc_deg / 2 * one_degree;
+        const double middle_rad = plan_.start_deg * one_degree + half_rad;
+        const double speed_rad = plan_.feed_mm_per_s / plan_.nominal_radius_mm;
+        const double sense = sign_of(capture.trace.sense);
+        for (std::size_t i = stay.first; i < stay.last; ++i) {
+            const double turned = (seconds(i) - middle_s) * speed_rad;
+            // the end itself belongs to the next turn: a full circle has every angle once
+            if (turned < -half_rad || turned >= half_rad) continue;
+            if (capture.trace.angle_rad.empty())
+                capture.begin = stream_.at[i];
+            else if (hole_before(i))
+                count_hole(capture, i);
+            capture.end = stream_.at[i];
+            capture.trace.angle_rad.push_back(middle_rad + sense * turned);
+            capture.trace.radial_deviation_mm.push_back(
+                radial_deviation_mm(setup_, stream_.value[i]));
+        }
+    }
+    void count_hole(CircleCapture& capture, std::size_t i) const {
+        const auto gap = std::ranges::lower_bound(stream_.gaps, i, {}, &StreamGap::at);
+        ++capture.gaps;
+        capture.missing += gap->missing;
+    }
+
+    const CircularSetup& setup_;
+    const CircularPlan& plan_;
+    const StreamSamples& stream_;
+    double path_mm_;
+};
+
+std::size_t index_at(const StreamSamples& stream, MonotonicTime at) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(stream.at, at) - stream.at.begin());
+}
+
+/// The stay that lasts nearest to as long as programmed.
+Result<Stay>
+best_of(const Cutter& cutter, const std::vector<Stay>& stays, const PlannedCircle& of) {
+    const auto best = std::ranges::min_element(
+        stays, {}, [&](const Stay& stay) { return std::fabs(cutter.time_error(stay)); });
+    if (best == stays.end())
+        return fail(Fault::incomplete_run,
+                    "no feed-in is seen in the readings of " + Cutter::words(of) +
+                        ": is the bar mounted, and are feed_in and its side those of the program?");
+    return *best;
+}
+
+Result<std::vector<Stay>> stays_by_marks(const Cutter& cutter,
+                                         const StreamSamples& stream,
+                                         const std::vector<PlannedCircle>& circles,
+                                         std::span<const CircleMark> marks) {
+    std::vector<Stay> chosen;
+    chosen.reserve(circles.size());
+    for (const PlannedCircle& circle : circles) {
+        const auto mark = std::ranges::find(marks, circle.number, &CircleMark::number);
+        if (mark == marks.end())
+            return fail(Fault::incomplete_run, Cutter::words(circle) + " was never begun");
+        const auto next = std::next(mark);
+        const std::size_t last =
+            next == marks.end() ? stream.at.size() : index_at(stream, next->at);
+        AXISCAL_TRY(const Stay stay,
+                    best_of(cutter, cutter.stays(index_at(stream, mark->at), last), circle));
+        chosen.push_back(stay);
+    }
+    return chosen;
+}
+
+Result<std::vector<Stay>> stays_by_order(const Cutter& cutter,
+                                         const StreamSamples& stream,
+                                         const std::vector<PlannedCircle>& circles) {
+    std::vector<Stay> stays = cutter.stays(0, stream.at.size());
+    std::erase_if(stays, [&](const Stay& stay) {
+        return std::fabs(cutter.time_error(stay)) > largest_time_error;
+    });
+    if (stays.size() == circles.size()) return stays;
+    return fail(Fault::incomplete_run, std::to_string(stays.size()) +
+                                           " circles are seen in the "
+                                           "readings, " +
+                                           std::to_string(circles.size()) + " are planned");
+}
+
+} // namespace
+
+double radial_deviation_mm(const CircularSetup& setup, double reading_m) {
+    const double from_nominal =
+        setup.bar_length_mm > 0 ? setup.bar_length_mm - setup.plan.nominal_radius_mm : 0;
+    return setup.bar_sign * reading_m * 1e3 + from_nominal;
+}
+
+double programmed_path_mm(const CircularPlan& plan) {
+    return driven_deg(plan) * one_degree * plan.nominal_radius_mm + plan.feed_in_mm;
+}
+
+Result<std::vector<CircleCapture>> cut_circles(const CircularSetup& setup,
+                                               const StreamSamples& stream,
+                                               std::span<const CircleMark> marks) {
+    const std::vector<PlannedCircle> circles = planned_circles(setup.plan);
+    const Cutter cutter{setup, stream};
+    AXISCAL_TRY(const auto stays, marks.empty() ? stays_by_order(cutter, stream, circles)
+                                                : stays_by_marks(cutter, stream, circles, marks));
+    std::vector<CircleCapture> captures;
+    captures.reserve(circles.size());
+    for (std::size_t i = 0; i < circles.size(); ++i) {
+        AXISCAL_TRY(auto capture, cutter.cut(circles[i], stays[i]));
+        captures.push_back(std::move(capture));
+    }
+    return captures;
+}
+
+} // namespace axiscal

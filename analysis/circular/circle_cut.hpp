@@ -1,0 +1,39 @@
+#pragma once
+// Circles cut out of the stream of a bar: begin and end by the radial steps of feed-in and
+// feed-out, the angle by the programmed feed. Pure.
+
+#include "analysis/circular/circular_run.hpp"
+#include "analysis/stream_record.hpp"
+
+#include <span>
+#include <vector>
+
+namespace axiscal {
+
+/// The controller's word that a circle comes next; number 0 ends the last one.
+struct CircleMark {
+    int number = 0; ///< PlannedCircle::number
+    MonotonicTime at;
+};
+
+/// What a reading stands for: radius - nominal radius, mm, outward positive.
+///   sign * reading + (calibrated length - R), or sign * reading while no length is known.
+double radial_deviation_mm(const CircularSetup& setup, double reading_m);
+
+/// Path from half the feed-in to half the feed-out, mm.
+double programmed_path_mm(const CircularPlan& plan);
+
+/// Circles in the order of the plan. Marks tell which stretch of the stream holds which circle;
+/// without any, every stretch that fits is a circle and they must be as many as planned.
+///
+/// Begin and end are where the reading crosses half the feed-in, between two samples linearly. The
+/// middle of the circle lies half way between them, whatever time braking takes at both ends as
+/// long as it is the same; from there the angle is counted at the programmed feed. A feed that is
+/// wrong by a share e puts the ends of the arc wrong by e (arc / 2).
+/// @errors Fault::incomplete_run naming the circle: no step in its stretch, a step that the gauge
+/// did not see, a time that differs by more than 2 % from the programmed one.
+Result<std::vector<CircleCapture>> cut_circles(const CircularSetup& setup,
+                                               const StreamSamples& stream,
+                                               std::span<const CircleMark> marks);
+
+} // namespace axiscal

@@ -1,0 +1,79 @@
+#pragma once
+// What is known of a circular test before the first circle: what is driven, how it is captured, the
+// bar, and what is stated for the uncertainty. Pure data.
+
+#include "analysis/circular/circle_diagnosis.hpp"
+#include "analysis/circular/circular_uncertainty.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+enum class CircularPlane : std::uint8_t { xy, yz, zx };
+std::string_view name_of(CircularPlane plane); ///< "XY" | "YZ" | "ZX"
+AxisNames axes_of(CircularPlane plane);        ///< first and second axis: "Z" and "X" for ZX
+
+/// How the begin of a circle was found in the stream.
+enum class StartMethod : std::uint8_t {
+    feed_step, ///< the radial step of feed-in and feed-out; the angle is the constant-feed share
+    trigger    ///< the controller's word at the begin of the sense; the angle is feed times time
+};
+std::string_view name_of(StartMethod method); ///< "feed_step" | "trigger"
+
+/// What is driven. Angles as in CircularTrace: 0 on the first + axis, counter-clockwise positive.
+struct CircularPlan {
+    CircularPlane plane = CircularPlane::xy;
+    double nominal_radius_mm = 0, feed_mm_per_s = 0;
+    std::vector<Sense> senses{Sense::ccw, Sense::cw}; ///< in the order driven
+    int repeats = 1;                                  ///< of each sense, evaluated
+    int warm_up = 0;      ///< circles of each sense driven before them and not evaluated
+    double start_deg = 0; ///< where the evaluated arc begins counter-clockwise
+    double arc_deg = 360; ///< evaluated; clockwise it is driven from start + arc back to start
+    double overshoot_deg = 180;           ///< driven before and after the evaluated arc
+    double feed_in_mm = 1.5;              ///< radial way from rest onto the circle
+    bool feed_in_outside = true;          ///< rest lies outside the circle
+    std::array<double, 3> centre_mm{};    ///< X, Y, Z in machine coordinates
+    std::string tool_offset, work_offset; ///< "offset to tool and workpiece reference"
+};
+
+/// What was done to the readings before they were stored; all of it changes G.
+struct CircularCapture {
+    double sample_rate_hz = 0;         ///< nominal
+    std::optional<double> low_pass_hz; ///< cut-off of a filter; absent: none
+    int averaged = 1;                  ///< readings averaged into one; 1: none
+};
+
+/// The bar as its certificate states it, and the machine that it is compared with.
+struct CircularSetup {
+    CircularPlan plan;
+    CircularCapture capture;
+    std::string bar_instrument; ///< name in the station file
+    int bar_sign = 1;           ///< +1: the reading rises with the radius
+    double bar_length_mm = 0; ///< calibrated at 20 degC, that readings are relative to; 0: unknown
+    std::optional<double> bar_alpha_per_K, machine_alpha_per_K;
+    std::optional<int> bar_temperature_channel; ///< ChannelRecord::id
+    CircularUncertaintyStatement uncertainty;
+};
+
+/// One circle of the program.
+struct PlannedCircle {
+    int number = 1; ///< 1-based, in the order driven; the CNC's sequence number
+    Sense sense = Sense::ccw;
+    int repeat = 1; ///< 1-based among the warm-up circles or among the evaluated ones
+    bool warm_up = false;
+};
+/// Warm-up first; of each repeat every sense in order.
+std::vector<PlannedCircle> planned_circles(const CircularPlan& plan);
+
+/// Angle driven on the circle, overshoot included.
+inline double driven_deg(const CircularPlan& plan) {
+    return plan.arc_deg + 2 * plan.overshoot_deg;
+}
+/// Where the circle of this sense is entered and left.
+double entry_deg(const CircularPlan& plan, Sense sense);
+double exit_deg(const CircularPlan& plan, Sense sense);
+
+} // namespace axiscal
