@@ -168,6 +168,10 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
     read_air(axis.table("air"), config);
 }
 
+RoleConfig read_role(Settings& table, std::string_view key, const StationConfig& config) {
+    return RoleReader{table, config}.one(key, Medium::none);
+}
+
 void read_ballbar(Settings root, StationConfig& config) {
     Settings ballbar = root.table("ballbar");
     const std::string sensor = ballbar.text("sensor", "");

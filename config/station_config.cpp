@@ -125,6 +125,7 @@ StationConfig read_station(SettingsDocument& document) {
     const AxisUnits units{config.cycle.axis_kind};
     read_axis(axis, units, config);
     read_ballbar(root, config);
+    read_circular(root, config);
     read_cycle(root.table("cycle"), units, config.cycle);
     read_capture(root.table("capture"), units, config.cycle, config.capture);
     read_trigger(root.table("trigger"), units, config.cycle, config.trigger);

@@ -1,6 +1,7 @@
 #pragma once
 // The station file as checked structs. Reading opens no device.
 
+#include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
 #include "config/address_range.hpp"
 #include "config/instrument_config.hpp"
@@ -87,6 +88,12 @@ struct RoleConfig {                  ///< which instrument channel plays which p
     std::string instrument, channel; ///< "air", "air temperature"
 };
 
+/// A circular test with a ballbar.
+struct CircularConfig {
+    CircularSetup setup; ///< without the ids of channels, which the station resolves
+    std::optional<RoleConfig> bar_temperature;
+};
+
 struct AxisConfig {
     std::string name = "X";
     RoleConfig laser;
@@ -125,6 +132,7 @@ struct StationConfig {
     std::string state_directory = "/var/lib/axiscal"; ///< runs/, outbox/, token
     AxisConfig axis;
     std::optional<RoleConfig> ballbar; ///< which channel measures the ballbar's length, if any
+    std::optional<CircularConfig> circular; ///< absent: no circular test
     CycleConfig cycle;
     CaptureConfig capture;
     TriggerConfig trigger;

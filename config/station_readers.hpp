@@ -44,6 +44,10 @@ void read_instruments(Settings root, StationConfig& config);
 void read_axis(Settings axis, AxisUnits units, StationConfig& config);
 /// Nothing without the table.
 void read_ballbar(Settings root, StationConfig& config);
+/// The bar's certificate in [ballbar] and the cycle in [circular]; after read_ballbar.
+void read_circular(Settings root, StationConfig& config);
+/// The channel named by `key` ("instrument/channel"), checked against [[instrument]].
+RoleConfig read_role(Settings& table, std::string_view key, const StationConfig& config);
 void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config);
 void read_capture(Settings capture,
                   AxisUnits units,

@@ -7,7 +7,7 @@ std::string_view name_of(CircularPlane plane) {
     return plane == CircularPlane::yz ? "YZ" : "ZX";
 }
 
-AxisNames axes_of(CircularPlane plane) {
+std::array<std::string, 2> axes_of(CircularPlane plane) {
     const std::string_view name = name_of(plane);
     return {std::string{name.substr(0, 1)}, std::string{name.substr(1, 1)}};
 }

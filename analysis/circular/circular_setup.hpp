@@ -2,7 +2,7 @@
 // What is known of a circular test before the first circle: what is driven, how it is captured, the
 // bar, and what is stated for the uncertainty. Pure data.
 
-#include "analysis/circular/circle_diagnosis.hpp"
+#include "analysis/circular/circular_test.hpp"
 #include "analysis/circular/circular_uncertainty.hpp"
 
 #include <array>
@@ -14,7 +14,8 @@ namespace axiscal {
 
 enum class CircularPlane : std::uint8_t { xy, yz, zx };
 std::string_view name_of(CircularPlane plane); ///< "XY" | "YZ" | "ZX"
-AxisNames axes_of(CircularPlane plane);        ///< first and second axis: "Z" and "X" for ZX
+/// "Z" and "X" for ZX.
+std::array<std::string, 2> axes_of(CircularPlane plane);
 
 /// How the begin of a circle was found in the stream.
 enum class StartMethod : std::uint8_t {

@@ -12,7 +12,7 @@ import sys
 MAY = {
     "analysis/quantity": set(),
     "analysis": {"analysis/quantity"},
-    "config": {"analysis/quantity", "analysis/run_record.hpp"},
+    "config": {"analysis/quantity", "analysis/run_record.hpp", "analysis/circular/circular_setup.hpp"},
     "drivers": {"analysis/quantity", "analysis/run_record.hpp", "config"},
     "acquisition/capture": {"analysis/quantity", "analysis", "config", "drivers"},
     "acquisition/run": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture"},

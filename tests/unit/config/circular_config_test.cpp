@@ -1,0 +1,103 @@
+#include "config/station_config.hpp"
+#include "tests/support/source_dir.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace axiscal {
+namespace {
+
+struct Reading {
+    StationConfig config;
+    std::string told;
+};
+
+/// The example with `bar` below [ballbar] and `circle` below [circular].
+Reading read_with(const std::string& bar, const std::string& circle) {
+    std::ifstream file{test::source_dir() + "/config/station.example.toml"};
+    std::ostringstream example;
+    example << file.rdbuf();
+    std::string text = example.str();
+    for (const auto& [table, lines] : {std::pair{"[ballbar]\n", bar}, {"[circular]\n", circle}}) {
+        const std::string header = table;
+        text.insert(text.find("\n" + header) + 1 + header.size(), lines);
+    }
+    auto document = SettingsDocument::parse(text, "station.toml");
+    EXPECT_TRUE(document) << (document ? "" : document.error().detail);
+    Reading reading;
+    if (!document) return reading;
+    reading.config = read_station(*document);
+    for (Settings& options : reading.config.instrument_options)
+        options.accept_rest();
+    for (const Refusal& refusal : document->finish())
+        reading.told += refusal.describe() + "\n";
+    return reading;
+}
+
+const std::string sensor = "sensor = \"laser/axis 1\"\n";
+const std::string radius = "radius = \"100 mm\"\n", feed = "feed = \"2 m/min\"\n";
+
+TEST(CircularConfig, WithoutARadiusThereIsNoCircularTest) {
+    const Reading reading = read_with("", "");
+    EXPECT_EQ(reading.told, "");
+    EXPECT_FALSE(reading.config.circular);
+}
+
+TEST(CircularConfig, WhatIsLeftOutIsTheUsualCircle) {
+    const Reading reading = read_with(sensor, radius + feed);
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.circular);
+    const CircularPlan& plan = reading.config.circular->setup.plan;
+    EXPECT_NEAR(plan.feed_mm_per_s, 2000.0 / 60, 1e-12);
+    EXPECT_EQ(plan.senses, (std::vector{Sense::ccw, Sense::cw}));
+    EXPECT_EQ(plan.arc_deg, 360);
+    EXPECT_EQ(plan.overshoot_deg, 180);
+    EXPECT_FALSE(reading.config.circular->setup.capture.low_pass_hz);
+    EXPECT_EQ(reading.config.circular->setup.capture.averaged, 1);
+    EXPECT_NEAR(*reading.config.circular->setup.machine_alpha_per_K, 11.5e-6, 1e-18);
+}
+
+TEST(CircularConfig, EveryKeyArrivesInItsUnit) {
+    const Reading reading =
+        read_with(sensor + "sign = -1\nlength = \"150.0123 mm\"\nlength_U = \"0.5 um\"\n"
+                           "expansion = \"0.5 um/(m*K)\"\ntemperature = \"material/contact 2\"\n",
+                  radius + feed +
+                      "plane = \"ZX\"\nsenses = [\"cw\"]\nrepeats = 3\nwarm_up = 1\n"
+                      "start = \"-20 deg\"\narc = \"220 deg\"\novershoot = \"10 deg\"\n"
+                      "feed_in = \"0.8 mm\"\nfeed_in_side = \"inside\"\nlow_pass_hz = 40\n"
+                      "averaged = 4\ncentre = [\"1 mm\", \"2 mm\", \"-3 mm\"]\n");
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.circular);
+    const auto& [setup, bar_temperature] = *reading.config.circular;
+    EXPECT_EQ(setup.bar_sign, -1);
+    EXPECT_NEAR(setup.bar_length_mm, 150.0123, 1e-9);
+    EXPECT_NEAR(*setup.uncertainty.calibration_U_um, 0.5, 1e-12);
+    EXPECT_EQ(*setup.uncertainty.calibration_k, 2);
+    EXPECT_NEAR(*setup.bar_alpha_per_K, 0.5e-6, 1e-18);
+    ASSERT_TRUE(bar_temperature);
+    EXPECT_EQ(bar_temperature->channel, "contact 2");
+    EXPECT_EQ(setup.plan.plane, CircularPlane::zx);
+    EXPECT_EQ(setup.plan.senses, std::vector{Sense::cw});
+    EXPECT_EQ(setup.plan.repeats, 3);
+    EXPECT_EQ(setup.uncertainty.runs, 3);
+    EXPECT_EQ(setup.plan.warm_up, 1);
+    EXPECT_NEAR(setup.plan.start_deg, -20, 1e-12);
+    EXPECT_NEAR(setup.plan.arc_deg, 220, 1e-12);
+    EXPECT_FALSE(setup.plan.feed_in_outside);
+    EXPECT_EQ(*setup.capture.low_pass_hz, 40);
+    EXPECT_EQ(setup.capture.averaged, 4);
+    EXPECT_NEAR(setup.plan.centre_mm[2], -3, 1e-12);
+}
+
+TEST(CircularConfig, WhatIsMissingOrDoubledIsTold) {
+    EXPECT_NE(read_with("", radius + feed).told.find("[ballbar] sensor"), std::string::npos);
+    EXPECT_NE(read_with(sensor, radius).told.find("the angle is counted by it"), std::string::npos);
+    EXPECT_NE(read_with(sensor, radius + feed + "senses = [\"cw\", \"cw\"]\n").told.find("once"),
+              std::string::npos);
+    EXPECT_NE(read_with(sensor, radius + feed + "centre = [\"1 mm\"]\n").told.find("three"),
+              std::string::npos);
+}
+
+} // namespace
+} // namespace axiscal
