@@ -31,6 +31,13 @@ struct StreamBlock {
     std::string packed;        ///< acquisition/journal/stream_packing.hpp
 };
 
+/// The same before it is compressed; `head.packed` is empty.
+struct StreamChunk {
+    StreamBlock head;
+    std::vector<MonotonicTime> at;
+    std::vector<double> value; ///< in the stream's unit
+};
+
 /// A hole before sample `at`.
 struct StreamGap {
     std::size_t at = 0;

@@ -82,6 +82,20 @@ struct Journal::Worker {
         lock.lock();
     }
 
+    /// Puts `put(noted)` in the queue of notes unless that says no.
+    template <class Put> bool queue_with(const Put& put) {
+        {
+            const std::scoped_lock lock{mutex};
+            if (!put(noted)) return false;
+            if (!save_at) save_at = clock.now() + longest_unsaved;
+        }
+        if (thread.joinable())
+            wake.notify_one();
+        else
+            (void)save_notes(); // a failure is remembered and fails the next commit
+        return true;
+    }
+
     RunBatch take_notes() {
         const std::scoped_lock lock{mutex};
         save_at.reset();
@@ -103,8 +117,14 @@ struct Journal::Worker {
         notes.events.insert(notes.events.end(), noted.events.begin(), noted.events.end());
         notes.environment.insert(notes.environment.end(), noted.environment.begin(),
                                  noted.environment.end());
+        notes.chunks.insert(notes.chunks.end(), std::make_move_iterator(noted.chunks.begin()),
+                            std::make_move_iterator(noted.chunks.end()));
         noted.events = std::move(notes.events);
         noted.environment = std::move(notes.environment);
+        noted.chunks = std::move(notes.chunks);
+        if (!notes.circular) return;
+        noted.circular = std::move(notes.circular);
+        noted.streams = std::move(notes.streams);
     }
 
     Result<void> write_with_notes(const RunBatch& batch) {
@@ -114,6 +134,9 @@ struct Journal::Worker {
         // What was noted before comes first: the chain tells the order.
         whole.events.insert(whole.events.begin(), notes.events.begin(), notes.events.end());
         whole.environment = notes.environment;
+        whole.circular = notes.circular;
+        whole.streams = notes.streams;
+        whole.chunks = notes.chunks;
         auto written = write(whole);
         if (!written) put_back(std::move(notes));
         return written;
@@ -321,6 +344,22 @@ void Journal::note(EventRecord event) {
 
 void Journal::note(std::vector<EnvironmentReading> readings) {
     worker_->queue_note(worker_->noted.environment, std::move(readings));
+}
+
+void Journal::note(CircularSetup setup, std::vector<StreamSetup> streams) {
+    worker_->queue_with([&](RunBatch& noted) {
+        noted.circular = std::move(setup);
+        noted.streams = std::move(streams);
+        return true;
+    });
+}
+
+bool Journal::note(StreamChunk chunk) {
+    return worker_->queue_with([&](RunBatch& noted) {
+        if (noted.chunks.size() >= most_chunks) return false;
+        noted.chunks.push_back(std::move(chunk));
+        return true;
+    });
 }
 
 Task<Result<void>> Journal::flush() {

@@ -2,7 +2,9 @@
 // The one writer of an open run: a thread that owns the run file, and the only maker of receipts.
 
 #include "acquisition/journal/journal_clock.hpp"
+#include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/stream_record.hpp"
 #include "drivers/journal_receipt.hpp"
 #include "drivers/scheduler.hpp"
 
@@ -64,6 +66,11 @@ public:
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);
     void note(std::vector<EnvironmentReading> readings);
+    /// Of a circular test, before its first chunk.
+    void note(CircularSetup setup, std::vector<StreamSetup> streams);
+    /// False, and not queued, while `most_chunks` wait for the disk: the caller counts it.
+    bool note(StreamChunk chunk);
+    static constexpr std::size_t most_chunks = 64; ///< 64 s of 1 kHz; 16 MB at most
     /// Makes everything noted durable now.
     Task<Result<void>> flush();
 

@@ -47,6 +47,23 @@ constexpr std::array tables{
           "iiiititiiirrrirtrb"},
     Table{"environment", "channel, at_ns, value", "iir"},
     Table{"event", "kind, at_ns, utc_ns, text, fault, sequence", "tiitti"},
+    Table{"circular",
+          "plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg, "
+          "overshoot_deg, feed_in_mm, feed_in_outside, centre_x_mm, centre_y_mm, centre_z_mm, "
+          "tool_offset, work_offset, sample_rate_hz, low_pass_hz, averaged",
+          "trrtiirrrrirrrttrRi", 3},
+    Table{"circular_bar",
+          "instrument, sign, length_mm, bar_alpha_per_K, machine_alpha_per_K, temperature_channel",
+          "tirRRI", 3},
+    Table{"circular_uncertainty",
+          "device_width_um, calibration_U_um, calibration_k, repeatability_um, eve_um, "
+          "centre_width_um, machine_temperature_width_K, bar_temperature_width_K, "
+          "machine_alpha_width_per_K, bar_alpha_width_per_K, runs",
+          "RRRRRRRRRRi", 3},
+    Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr", 3},
+    Table{"stream_block",
+          "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
+          "iiiiitiirrb", 3},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
 
@@ -57,6 +74,9 @@ template <class Integer> Value whole(Integer number) {
 }
 Value nanoseconds(MonotonicTime at) {
     return nanoseconds_of(at);
+}
+Value optional(const std::optional<double>& number) {
+    return number ? Value{*number} : Value{};
 }
 Value text(std::string_view words) {
     return std::string{words};
@@ -384,19 +404,121 @@ void read_event(RunRecord& run, RowReader& in) {
     run.events.push_back(std::move(event));
 }
 
+void read_circular(RecordedRun& run, RowReader& in) {
+    CircularPlan plan;
+    plan.plane = in.choice({CircularPlane::xy, CircularPlane::yz, CircularPlane::zx});
+    plan.nominal_radius_mm = in.real();
+    plan.feed_mm_per_s = in.real();
+    const std::string senses = in.text();
+    plan.senses.clear();
+    for (std::size_t at = 0; at < senses.size(); at = senses.find(' ', at) + 1) {
+        const std::string word = senses.substr(at, senses.find(' ', at) - at);
+        if (word != "ccw" && word != "cw") in.reject("\"" + word + "\" is no sense");
+        plan.senses.push_back(word == "cw" ? Sense::cw : Sense::ccw);
+        if (senses.find(' ', at) == std::string::npos) break;
+    }
+    plan.repeats = in.number<int>();
+    plan.warm_up = in.number<int>();
+    plan.start_deg = in.real();
+    plan.arc_deg = in.real();
+    plan.overshoot_deg = in.real();
+    plan.feed_in_mm = in.real();
+    plan.feed_in_outside = in.flag();
+    for (double& coordinate : plan.centre_mm)
+        coordinate = in.real();
+    plan.tool_offset = in.text();
+    plan.work_offset = in.text();
+    CircularSetup& setup = run.circular.emplace();
+    setup.plan = std::move(plan);
+    setup.capture.sample_rate_hz = in.real();
+    setup.capture.low_pass_hz = in.optional_real();
+    setup.capture.averaged = in.number<int>();
+}
+
+void read_circular_bar(RecordedRun& run, RowReader& in) {
+    if (!run.circular) run.circular.emplace(); // the writer checks each row by itself
+    CircularSetup& setup = *run.circular;
+    setup.bar_instrument = in.text();
+    setup.bar_sign = in.number<int>();
+    setup.bar_length_mm = in.real();
+    setup.bar_alpha_per_K = in.optional_real();
+    setup.machine_alpha_per_K = in.optional_real();
+    const auto channel = in.optional_integer();
+    if (channel) setup.bar_temperature_channel = static_cast<int>(*channel);
+}
+
+void read_circular_uncertainty(RecordedRun& run, RowReader& in) {
+    if (!run.circular) run.circular.emplace();
+    CircularUncertaintyStatement& statement = run.circular->uncertainty;
+    for (auto* value :
+         {&statement.device_width_um, &statement.calibration_U_um, &statement.calibration_k,
+          &statement.repeatability_um, &statement.eve_um, &statement.centre_width_um,
+          &statement.machine_temperature_width_K, &statement.bar_temperature_width_K,
+          &statement.machine_alpha_width_per_K, &statement.bar_alpha_width_per_K})
+        *value = in.optional_real();
+    statement.runs = in.number<int>();
+}
+
+void read_stream(RecordedRun& run, RowReader& in) {
+    StreamSetup stream;
+    stream.id = in.number<int>();
+    stream.channel = in.number<int>();
+    stream.name = in.text();
+    stream.unit = in.text();
+    stream.nominal_rate_hz = in.real();
+    run.streams.push_back(std::move(stream));
+}
+
+void read_stream_block(RecordedRun& run, RowReader& in) {
+    StreamBlock block;
+    block.stream = in.number<int>();
+    block.index = in.integer();
+    block.first_count = std::bit_cast<std::uint64_t>(in.integer());
+    block.samples = in.number<int>();
+    block.missing = std::bit_cast<std::uint64_t>(in.integer());
+    block.before = in.text();
+    block.begin = in.time();
+    block.end = in.time();
+    block.low = in.real();
+    block.high = in.real();
+    block.packed = in.blob();
+    run.blocks.push_back(std::move(block));
+}
+
 void read_closing(RunRecord& run, RowReader& in) {
     run.complete = in.flag();
     run.closing_reason = in.text();
     run.closed = read_tie(in);
 }
 
-constexpr std::array<void (*)(RunRecord&, RowReader&), tables.size()> readers{
-    read_run,        read_plan,        read_target,
-    read_plan_point, read_laser,       read_material,
-    read_air,        read_uncertainty, read_uncertainty_target,
-    read_statement,  read_instrument,  read_channel,
-    read_datum,      read_point,       read_environment,
-    read_event,      read_closing,
+/// What was measured point by point knows nothing of what came with later formats.
+template <auto read> void measured(RecordedRun& run, RowReader& in) {
+    read(run, in);
+}
+
+constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
+    measured<read_run>,
+    measured<read_plan>,
+    measured<read_target>,
+    measured<read_plan_point>,
+    measured<read_laser>,
+    measured<read_material>,
+    measured<read_air>,
+    measured<read_uncertainty>,
+    measured<read_uncertainty_target>,
+    measured<read_statement>,
+    measured<read_instrument>,
+    measured<read_channel>,
+    measured<read_datum>,
+    measured<read_point>,
+    measured<read_environment>,
+    measured<read_event>,
+    read_circular,
+    read_circular_bar,
+    read_circular_uncertainty,
+    read_stream,
+    read_stream_block,
+    measured<read_closing>,
 };
 
 } // namespace
@@ -474,7 +596,62 @@ ChainedRow row_of(const Closing& closing) {
                                nanoseconds(tie.after)});
 }
 
-Result<void> place_row(RunRecord& run, const Table& table, const Row& row) {
+namespace {
+
+ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capture) {
+    const auto& [plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg,
+                 overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset] =
+        plan;
+    std::string words;
+    for (const Sense sense : senses)
+        words += (words.empty() ? "" : " ") + std::string{name_of(sense)};
+    return chained("circular", {text(name_of(plane)), radius_mm, feed_mm_per_s, words,
+                                whole(repeats), whole(warm_up), start_deg, arc_deg, overshoot_deg,
+                                feed_in_mm, whole(feed_in_outside), centre_mm[0], centre_mm[1],
+                                centre_mm[2], tool_offset, work_offset, capture.sample_rate_hz,
+                                optional(capture.low_pass_hz), whole(capture.averaged)});
+}
+
+ChainedRow row_of_statement(const CircularUncertaintyStatement& statement) {
+    const auto& [device, calibration_U, calibration_k, repeatability, eve, centre, machine_degC,
+                 bar_degC, machine_alpha, bar_alpha, runs] = statement;
+    return chained("circular_uncertainty",
+                   {optional(device), optional(calibration_U), optional(calibration_k),
+                    optional(repeatability), optional(eve), optional(centre),
+                    optional(machine_degC), optional(bar_degC), optional(machine_alpha),
+                    optional(bar_alpha), whole(runs)});
+}
+
+} // namespace
+
+std::vector<ChainedRow> rows_of(const CircularSetup& setup) {
+    const auto& [plan, capture, bar_instrument, bar_sign, bar_length_mm, bar_alpha, machine_alpha,
+                 temperature_channel, uncertainty] = setup;
+    Value channel;
+    if (temperature_channel) channel = whole(*temperature_channel);
+    std::vector<ChainedRow> rows;
+    rows.push_back(row_of_circular(plan, capture));
+    rows.push_back(
+        chained("circular_bar", {bar_instrument, whole(bar_sign), bar_length_mm,
+                                 optional(bar_alpha), optional(machine_alpha), channel}));
+    rows.push_back(row_of_statement(uncertainty));
+    return rows;
+}
+
+ChainedRow row_of(const StreamSetup& stream) {
+    const auto& [id, channel, name, unit, nominal_rate_hz] = stream;
+    return chained("stream", {whole(id), whole(channel), name, unit, nominal_rate_hz});
+}
+
+ChainedRow row_of(const StreamBlock& block) {
+    const auto& [stream, index, first_count, samples, missing, before, begin, end, low, high,
+                 packed] = block;
+    return chained("stream_block",
+                   {whole(stream), whole(index), whole(first_count), whole(samples), whole(missing),
+                    before, nanoseconds(begin), nanoseconds(end), low, high, Blob{packed}});
+}
+
+Result<void> place_row(RecordedRun& run, const Table& table, const Row& row) {
     RowReader in{table, row};
     readers[static_cast<std::size_t>(&table - tables.data())](run, in);
     return in.status();

@@ -3,7 +3,9 @@
 // A field added to a record breaks the structured binding in record_rows.cpp: give it a column.
 
 #include "acquisition/journal/row.hpp"
+#include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/stream_record.hpp"
 
 #include <span>
 
@@ -14,6 +16,13 @@ struct Closing {
     bool complete = false;
     std::string reason;
     ClockTie tie;
+};
+
+/// Everything that rows are placed into.
+struct RecordedRun : RunRecord {
+    std::optional<CircularSetup> circular; ///< of a circular test
+    std::vector<StreamSetup> streams;
+    std::vector<StreamBlock> blocks; ///< as they were written
 };
 
 struct ChainedRow {
@@ -33,9 +42,12 @@ ChainedRow row_of(const PointRecord& point);
 ChainedRow row_of(const EnvironmentReading& reading);
 ChainedRow row_of(const EventRecord& event);
 ChainedRow row_of(const Closing& closing);
+std::vector<ChainedRow> rows_of(const CircularSetup& setup);
+ChainedRow row_of(const StreamSetup& stream);
+ChainedRow row_of(const StreamBlock& block);
 
 /// Puts one checked row into its place in `run`.
 /// @errors Fault::bad_run_file naming table, column and value.
-Result<void> place_row(RunRecord& run, const Table& table, const Row& row);
+Result<void> place_row(RecordedRun& run, const Table& table, const Row& row);
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/schema.hpp"
 #include "acquisition/journal/statement.hpp"
+#include "acquisition/journal/stream_packing.hpp"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -39,11 +40,22 @@ Result<void> sync_with_folder(const std::string& path) {
 
 // What could not be read back is not written: a program error, not one of the disk.
 Result<void> check_before_writing(const ChainedRow& row) {
-    RunRecord scratch;
+    RecordedRun scratch;
     auto readable = check_row(*row.table, row.row);
     if (readable) readable = place_row(scratch, *row.table, row.row);
     if (!readable) return fail(Fault::internal, "not written: " + readable.error().detail);
     return {};
+}
+
+/// What a circular test adds; the chunks are compressed here, on the journal's own thread.
+std::vector<ChainedRow> circular_rows(const RunBatch& batch) {
+    std::vector<ChainedRow> rows;
+    if (batch.circular) rows = rows_of(*batch.circular);
+    for (const auto& stream : batch.streams)
+        rows.push_back(row_of(stream));
+    for (const auto& chunk : batch.chunks)
+        rows.push_back(row_of(packed(chunk)));
+    return rows;
 }
 
 Error as_not_durable(Error error) {
@@ -54,7 +66,8 @@ Error as_not_durable(Error error) {
 } // namespace
 
 bool RunBatch::empty() const {
-    return environment.empty() && events.empty() && !datum && !point;
+    return environment.empty() && events.empty() && !datum && !point && !circular &&
+           streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
@@ -148,7 +161,7 @@ Result<void> RunFileWriter::keep(Result<void> outcome) {
 }
 
 Result<void> RunFileWriter::write(const RunBatch& batch) {
-    std::vector<ChainedRow> rows;
+    std::vector<ChainedRow> rows = circular_rows(batch);
     for (const auto& reading : batch.environment)
         rows.push_back(row_of(reading));
     for (const auto& event : batch.events)

@@ -17,6 +17,8 @@ namespace axiscal {
 class Database;
 
 inline constexpr std::string_view run_file_ending = ".axiscal";
+/// RunPlan::pass of a circular test, whose plan has no targets.
+inline constexpr std::string_view circular_pass = "circular";
 
 /// What becomes durable together.
 struct RunBatch {
@@ -24,6 +26,9 @@ struct RunBatch {
     std::vector<EventRecord> events;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
+    std::optional<CircularSetup> circular; ///< once, before the first block
+    std::vector<StreamSetup> streams;
+    std::vector<StreamChunk> chunks; ///< compressed when they are written
     [[nodiscard]] bool empty() const;
 };
 
@@ -46,7 +51,7 @@ public:
     RunFileWriter& operator=(RunFileWriter&&) noexcept;
     ~RunFileWriter(); ///< leaves the run open, to be resumed
 
-    /// One transaction, in the order environment, events, datum, point.
+    /// One transaction, in the order circular, streams, chunks, environment, events, datum, point.
     Result<void> write(const RunBatch& batch);
     Result<void> append_point(PointRecord point);
     Result<void> append_datum(DatumRecord datum);
@@ -88,6 +93,9 @@ struct StoredResult {
 /// Everything in a run file.
 struct RunFileContents {
     RunRecord run;
+    std::optional<CircularSetup> circular; ///< of a circular test
+    std::vector<StreamSetup> streams;
+    std::vector<StreamBlock> blocks; ///< as they were written
     bool closed = false;
     std::int64_t links = 0;
     Digest chain_head{}; ///< proves every row before it
@@ -117,6 +125,7 @@ Result<std::optional<LastRequest>> last_request_of_closed(const std::string& pat
 
 /// One line of a list of runs, read quickly: the chain is not verified.
 struct RunSummary {
+    bool circular = false; ///< a circular test
     std::string path, run_id, machine, axis, closing_reason;
     std::int64_t opened_utc_ns = 0;
     int points = 0, planned = 0;

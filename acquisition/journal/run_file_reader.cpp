@@ -140,7 +140,10 @@ TableCursor* next_of(std::vector<TableCursor>& cursors) {
     return next;
 }
 
-Result<void> take_link(RunFileContents& into, const TableCursor& at, const std::string& path) {
+Result<void> take_link(RunFileContents& into,
+                       RecordedRun& recorded,
+                       const TableCursor& at,
+                       const std::string& path) {
     const std::string name = "link " + std::to_string(into.links + 1);
     if (at.link != into.links + 1)
         return bad(path, "the row of " + name + " is missing: the file was changed");
@@ -150,7 +153,7 @@ Result<void> take_link(RunFileContents& into, const TableCursor& at, const std::
                             [](char byte) { return static_cast<std::uint8_t>(byte); }))
         return bad(path, "the row of " + name + " (table " + std::string{at.table->name} +
                              ") was changed after it was written");
-    if (auto placed = place_row(into.run, *at.table, at.row); !placed)
+    if (auto placed = place_row(recorded, *at.table, at.row); !placed)
         return bad(path, name + ": " + placed.error().detail);
     into.chain_head = hash;
     into.links = at.link;
@@ -181,11 +184,16 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
     AXISCAL_CHECK(check_header(*database, path));
     AXISCAL_TRY(auto cursors, open_cursors(*database, path, format));
     RunFileContents contents;
+    RecordedRun recorded;
     while (TableCursor* next = next_of(cursors)) {
-        AXISCAL_CHECK(take_link(contents, *next, path));
+        AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
     }
-    put_in_order(contents.run);
+    put_in_order(recorded);
+    contents.circular = std::move(recorded.circular);
+    contents.streams = std::move(recorded.streams);
+    contents.blocks = std::move(recorded.blocks);
+    contents.run = std::move(static_cast<RunRecord&>(recorded));
     return contents;
 }
 
@@ -223,6 +231,8 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
     AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason FROM closing"));
+    AXISCAL_TRY(const std::string pass, text_of("SELECT pass FROM plan"));
+    summary.circular = pass == circular_pass;
     AXISCAL_TRY(summary.opened_utc_ns, database->integer_of("SELECT opened_utc_ns FROM run"));
     AXISCAL_TRY(const auto points, database->integer_of("SELECT count(*) FROM point"));
     AXISCAL_TRY(const auto planned, database->integer_of("SELECT count(*) FROM plan_point"));

@@ -88,7 +88,7 @@ private:
         const Value link = select_.column(0), hash = select_.column(last);
         if (const auto* number = std::get_if<std::int64_t>(&link)) row.link = *number;
         if (const auto* bytes = std::get_if<Blob>(&hash)) row.hash = bytes->bytes;
-        RunRecord scratch;
+        RecordedRun scratch;
         auto readable = check_row(*table_, row.row);
         if (readable) readable = place_row(scratch, *table_, row.row);
         if (!readable) row.misfit = readable.error().detail;

@@ -30,7 +30,7 @@ MAY = {
 }
 # Libraries that may be named only in one room.
 ONLY = {
-    "cairo": {"acquisition/publish"}, "pango": {"acquisition/publish"}, "sqlite3": {"acquisition/journal"},
+    "cairo": {"acquisition/publish"}, "pango": {"acquisition/publish"}, "sqlite3": {"acquisition/journal"}, "zstd": {"acquisition/journal"},
     "libsmbclient": {"acquisition/publish/smb"},  # GPL: docs/dependencies.md
     "toml++": {"config", "tools/axiscal-simulate"}, "modbus": {"drivers", "tools/axiscal-simulate"},
     "libusb": {"drivers"}, "hidapi": {"drivers"},

@@ -96,7 +96,7 @@ TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
     const auto bytes = read_bytes(path);
     EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
     EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
-    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\2", 4})); // user_version
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\3", 4})); // user_version
 }
 
 TEST(RunFile, CanBeReadWhileItIsOpen) {
@@ -232,7 +232,9 @@ TEST(RunFile, OfFormat1IsReadWithoutUncertaintyStatement) {
 
 /// An open file as a version before this one left it.
 void make_format_1(const std::string& path) {
-    run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; PRAGMA user_version=1");
+    run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; DROP TABLE circular; "
+                  "DROP TABLE circular_bar; DROP TABLE circular_uncertainty; DROP TABLE stream; "
+                  "DROP TABLE stream_block; PRAGMA user_version=1");
 }
 
 TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
