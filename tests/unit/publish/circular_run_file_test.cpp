@@ -20,7 +20,10 @@ RunRecord header_of() {
     run.run_id = "bay3-circle";
     run.plan.pass = circular_pass;
     run.plan.approaches = 0;
-    run.instruments.push_back({.name = "ballbar", .serial = "QB-7"});
+    InstrumentRecord bar;
+    bar.name = "ballbar";
+    bar.serial = "QB-7";
+    run.instruments.push_back(bar);
     run.channels.push_back({4, "ballbar", "ballbar", "", ChannelKind::displacement, Medium::none});
     run.channels.push_back({5, "table", "t", "", ChannelKind::temperature, Medium::material});
     run.channels.push_back({6, "bar", "t", "", ChannelKind::temperature, Medium::material});
