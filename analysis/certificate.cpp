@@ -1,5 +1,7 @@
 #include "analysis/certificate.hpp"
 
+#include "analysis/certificate_expiry.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -51,17 +53,6 @@ EnvironmentTrace trace_of(const ChannelRecord& channel,
         trace.values.push_back(reading.value);
     }
     return trace;
-}
-
-/// The same day next year; 28 February stands for 29 February.
-std::string one_year_after(std::int64_t utc_ns) {
-    using namespace std::chrono;
-    const sys_time<nanoseconds> instant{nanoseconds{utc_ns}};
-    const year_month_day day{floor<days>(instant)};
-    year_month_day next = day + years{1};
-    if (!next.ok()) next = next.year() / next.month() / last;
-    const auto ns = duration_cast<nanoseconds>(sys_days{next}.time_since_epoch()).count();
-    return iso8601_utc(ns).substr(0, 10);
 }
 
 std::string list_of_steps(const std::vector<int>& steps) {

@@ -1,8 +1,10 @@
 #pragma once
-// Whether an instrument's certificate was good when a run was made. Pure.
+// Whether an instrument's certificate was good when a run was made, and when the run's own is due.
+// Pure.
 
 #include "analysis/run_record.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace axiscal {
@@ -13,5 +15,8 @@ std::string run_date_of(const RunRecord& run);
 /// A certificate due on `due_on` was no longer good on `date`; the day itself is. Both are ISO
 /// dates; false when no due date is stated.
 bool has_expired(const std::string& due_on, const std::string& date);
+
+/// ISO date of the same day next year; 28 February stands for 29 February.
+std::string one_year_after(std::int64_t utc_ns);
 
 } // namespace axiscal

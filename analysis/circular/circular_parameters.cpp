@@ -23,14 +23,17 @@ constexpr double shortest_arc_deg = 90; ///< for what leans on a least squares c
 /// Readings of one or both traces, as the circle fits take them and as they were.
 struct Path {
     std::vector<double> x, y, cosine, sine, deviation;
+    std::vector<std::pair<Sense, std::size_t>> traces; ///< in their order: sense and readings
     double radius = 0;
     explicit Path(double nominal_radius)
         : radius{nominal_radius} {}
     void add(const Path& other) {
         for (const auto& list : {&Path::x, &Path::y, &Path::cosine, &Path::sine, &Path::deviation})
             (this->*list).insert((this->*list).end(), (other.*list).begin(), (other.*list).end());
+        traces.insert(traces.end(), other.traces.begin(), other.traces.end());
     }
     void add(const CircularTrace& trace) {
+        traces.emplace_back(trace.sense, trace.angle_rad.size());
         for (std::size_t i = 0; i < trace.angle_rad.size(); ++i) {
             const double dr = trace.radial_deviation_mm[i];
             cosine.push_back(std::cos(trace.angle_rad[i]));
@@ -39,6 +42,14 @@ struct Path {
             x.push_back((radius + dr) * cosine.back());
             y.push_back((radius + dr) * sine.back());
         }
+    }
+    [[nodiscard]] RingPoint reading(const ControlPoint& point) const {
+        std::size_t index = point.index;
+        for (const auto& [sense, readings] : traces) {
+            if (index < readings) return {sense, index, point.side};
+            index -= readings;
+        }
+        return {};
     }
 };
 
@@ -78,6 +89,23 @@ struct FittedPath {
     CircularDeviation G;
 };
 
+bool same_reading(const RingPoint& a, const RingPoint& b) {
+    return a.sense == b.sense && a.index == b.index && a.side == b.side;
+}
+
+ZoneRing ring_of(const Path& path, const MinimumZoneCircle& zone, const Extremes& about_center) {
+    ZoneRing ring{zone.x, zone.y, about_center.high, about_center.low, {}, false};
+    ring.beyond_set_up = std::hypot(zone.x, zone.y) > path.radius;
+    for (const ControlPoint& point : zone.control_points) {
+        const RingPoint reading = path.reading(point);
+        const bool known = std::ranges::any_of(ring.control_points, [&](const RingPoint& held) {
+            return same_reading(held, reading);
+        });
+        if (!known) ring.control_points.push_back(reading);
+    }
+    return ring;
+}
+
 Result<FittedPath> fit(const Path& path, const std::string& field) {
     const auto circle = fit_least_squares_circle(path.x, path.y);
     if (!circle) return refuse(Fault::bad_case, field, circle.error().detail);
@@ -87,8 +115,10 @@ Result<FittedPath> fit(const Path& path, const std::string& field) {
     fitted.circle = *circle;
     fitted.about_least_squares = radii_about(path, circle->x, circle->y);
     fitted.about_nominal = radii_about(path, 0, 0);
-    const bool near = std::hypot(zone->x, zone->y) <= path.radius;
-    fitted.G.minimum_zone_mm = near ? radii_about(path, zone->x, zone->y).range() : zone->width;
+    const Extremes about_zone = radii_about(path, zone->x, zone->y);
+    fitted.G.ring = ring_of(path, *zone, about_zone);
+    fitted.G.minimum_zone_mm = fitted.G.ring.beyond_set_up ? zone->width : about_zone.range();
+    fitted.G.fitted = {circle->x, circle->y, fitted.about_least_squares.mean};
     fitted.G.least_squares_mm = fitted.about_least_squares.range();
     fitted.G.gap_mm = zone->gap;
     fitted.G.wide = zone->wide;

@@ -2,11 +2,13 @@
 // ISO 230-4: circular deviations G and G(b), radial deviations F, mean bidirectional radial
 // deviation D. Pure.
 
+#include "analysis/circle/circle_fit.hpp"
 #include "analysis/circular/circular_test.hpp"
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
@@ -30,12 +32,34 @@ struct BarExpansion {
 /// length not above 0.
 Result<double> correction_to_20C_mm(const BarExpansion& bar, double nominal_radius_mm);
 
+/// A reading that a ring touches.
+struct RingPoint {
+    Sense sense = Sense::ccw;
+    std::size_t index = 0; ///< of the reading in its trace, from 0
+    ZoneSide side = ZoneSide::outer;
+};
+
+/// The narrowest ring: centre from the set-up's, radii minus the nominal one.
+struct ZoneRing {
+    double x_mm = 0, y_mm = 0;
+    double outer_mm = 0, inner_mm = 0;
+    std::vector<RingPoint> control_points; ///< what holds it; a reading that stands twice, once
+    bool beyond_set_up = false; ///< its centre lies farther than R from that of the set-up
+};
+
+/// A least squares circle: centre from the set-up's, radius minus the nominal one.
+struct FittedCircle {
+    double x_mm = 0, y_mm = 0, radius_mm = 0;
+};
+
 /// G of one sense, or G(b): width of the narrowest ring that holds the path(s).
 struct CircularDeviation {
     double minimum_zone_mm = 0;
     double least_squares_mm = 0; ///< range of the radii about the least squares centre instead
     double gap_mm = 0;           ///< by how much at most a narrower ring can exist near by
     bool wide = false;           ///< width above 0.1 R: other optima may exist
+    ZoneRing ring;
+    FittedCircle fitted; ///< radius as read, not at 20 degC
 };
 
 struct RadialDeviation {

@@ -1,0 +1,100 @@
+// What a closed run says of its circles, ready to be evaluated.
+
+#include "analysis/certificate_expiry.hpp"
+#include "analysis/circular/circular_certificate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+std::string filter_words(const CircularCapture& capture) {
+    std::string words;
+    std::array<char, 64> text{};
+    if (capture.low_pass_hz) {
+        std::snprintf(text.data(), text.size(), "low pass, cut-off %.6g Hz", *capture.low_pass_hz);
+        words = text.data();
+    }
+    if (capture.averaged > 1) {
+        std::snprintf(text.data(), text.size(), "%d readings averaged into one", capture.averaged);
+        words += (words.empty() ? "" : "; ") + std::string{text.data()};
+    }
+    return words.empty() ? "none" : words;
+}
+
+std::string feed_in_words(const CircularPlan& plan) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "radial, %.6g mm from %s the circle", plan.feed_in_mm,
+                  plan.feed_in_outside ? "outside" : "inside");
+    return text.data();
+}
+
+std::string angle_words(const CircularRun& run) {
+    const bool step = std::ranges::any_of(run.circles, [](const CircleCapture& circle) {
+        return circle.start == StartMethod::feed_step;
+    });
+    const bool trigger = std::ranges::any_of(run.circles, [](const CircleCapture& circle) {
+        return circle.start == StartMethod::trigger;
+    });
+    if (step && trigger) return "constant feed between feed-in and feed-out, or the trigger's word";
+    if (step) return "constant feed between the steps of feed-in and feed-out";
+    return trigger ? "programmed feed since the trigger's word" : "";
+}
+
+CircularConditions conditions_of(const CircularRun& run) {
+    CircularConditions told;
+    told.centre_mm = run.plan.centre_mm;
+    told.tool_offset = run.plan.tool_offset;
+    told.work_offset = run.plan.work_offset;
+    if (run.capture.sample_rate_hz > 0) told.sample_rate_hz = run.capture.sample_rate_hz;
+    told.filter = filter_words(run.capture);
+    told.angle_origin = angle_words(run);
+    told.overshoot_deg = run.plan.overshoot_deg;
+    told.feed_in = feed_in_words(run.plan);
+    told.repeats = run.plan.repeats;
+    told.warm_up = run.plan.warm_up;
+    told.air = run.air_temperature;
+    told.bar = run.bar_temperature;
+    told.machine = run.machine_temperature;
+    return told;
+}
+
+CircularUncertaintyStatement statement_of(const CircularRun& run) {
+    CircularUncertaintyStatement stated = run.uncertainty;
+    if (!stated.calibration_U_um && run.bar.calibration_U_um && run.bar.calibration_k) {
+        stated.calibration_U_um = run.bar.calibration_U_um;
+        stated.calibration_k = run.bar.calibration_k;
+    }
+    stated.runs = std::max(run.plan.repeats, 1);
+    return stated;
+}
+
+} // namespace
+
+Result<CircularMeasurement> measurement_of(CircularRun run) {
+    if (!run.complete)
+        return fail(Fault::incomplete_run,
+                    "the run was not closed as complete" +
+                        (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
+    CircularMeasurement measured;
+    AXISCAL_TRY(measured.test, mean_test(run));
+    for (int repeat = 1; run.plan.repeats > 1 && repeat <= run.plan.repeats; ++repeat) {
+        AXISCAL_TRY(CircularTest alone, test_of_repeat(run, repeat));
+        measured.repeats.push_back(std::move(alone));
+    }
+    measured.axes = axes_of(run.plan.plane);
+    measured.conditions = conditions_of(run);
+    measured.expansion = expansion_of(run);
+    measured.stated = statement_of(run);
+    measured.started_utc = iso8601_utc(run.opened.utc_ns);
+    measured.finished_utc = iso8601_utc(run.closed.utc_ns);
+    measured.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
+                                                        : run.statements.next_due;
+    measured.run = std::move(run);
+    return measured;
+}
+
+} // namespace axiscal
