@@ -1,55 +1,19 @@
 #include "acquisition/publish/certificate_csv.hpp"
 
 #include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/csv_text.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
 #include "analysis/environment_history.hpp"
-
-#include <charconv>
-#include <initializer_list>
 
 namespace axiscal {
 namespace {
 
-constexpr std::string_view line_end = "\r\n";
-
-std::string number(double value) {
-    char text[32];
-    const auto written = std::to_chars(text, text + sizeof text, value);
-    return {text, written.ptr};
-}
-
-std::string number(const std::optional<double>& value) {
-    return value ? number(*value) : std::string{};
-}
-
-/// One field: no line breaks, quoted where a comma or a quote would end it.
-std::string field(std::string_view words) {
-    std::string text;
-    bool quote = false;
-    for (const char c : words) {
-        if (c == '"') text += '"';
-        text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        quote = quote || c == '"' || c == ',';
-    }
-    return quote ? '"' + text + '"' : text;
-}
-
-void append_line(std::string& csv, std::initializer_list<std::string> fields) {
-    bool first = true;
-    for (const std::string& text : fields) {
-        if (!first) csv += ',';
-        csv += text;
-        first = false;
-    }
-    csv += line_end;
-}
-
 void append_head(std::string& csv, const Certificate& certificate) {
     const RunRecord& run = certificate.run;
     const auto line = [&](const char* key, const std::string& value) {
-        append_line(csv, {std::string{"# "} + key, field(value)});
+        append_csv_line(csv, {std::string{"# "} + key, csv_field(value)});
     };
-    append_line(csv, {"# axiscal.certificate-csv/1"});
+    append_csv_line(csv, {"# axiscal.certificate-csv/1"});
     line("run", run.run_id);
     line("certificate_number", run.statements.certificate_number);
     line("machine", run.statements.machine);
@@ -65,28 +29,29 @@ void append_head(std::string& csv, const Certificate& certificate) {
 
 void append_parameters(std::string& csv, const Certificate& certificate) {
     auto document = certificate_to_json(certificate);
-    const std::string unit = field(certificate.result.unit);
+    const std::string unit = csv_field(certificate.result.unit);
     for (const auto& [key, parameter] : document.at("parameters").items()) {
-        const std::string value = number(parameter.at("value").get<double>());
+        const std::string value = csv_number(parameter.at("value").get<double>());
         const auto expanded = parameter.find("expanded_uncertainty");
         if (expanded == parameter.end())
-            append_line(csv, {"# parameter", key, value, unit, "U not evaluated"});
+            append_csv_line(csv, {"# parameter", key, value, unit, "U not evaluated"});
         else
-            append_line(csv, {"# parameter", key, value, unit,
-                              "\u00B1 " + number(expanded->at("value").get<double>()),
-                              "k = " + number(expanded->at("k").get<double>())});
+            append_csv_line(csv, {"# parameter", key, value, unit,
+                                  "\u00B1 " + csv_number(expanded->at("value").get<double>()),
+                                  "k = " + csv_number(expanded->at("k").get<double>())});
         if (const auto target = parameter.find("target_uncertainty"); target != parameter.end())
-            append_line(csv,
-                        {"# target_uncertainty", key, number(target->at("value").get<double>()),
-                         unit, target->at("met").get<bool>() ? "met" : "not met"});
+            append_csv_line(csv, {"# target_uncertainty", key,
+                                  csv_number(target->at("value").get<double>()), unit,
+                                  target->at("met").get<bool>() ? "met" : "not met"});
     }
     for (const auto& [key, parameter] : document.at("parameters").items())
         if (const auto drawn = parameter.find("monte_carlo"); drawn != parameter.end())
-            append_line(csv, {"# simulated", key, number(drawn->at("u").get<double>()), unit,
-                              "95 % from " + number(drawn->at("interval_95")[0].get<double>()),
-                              "to " + number(drawn->at("interval_95")[1].get<double>())});
+            append_csv_line(csv,
+                            {"# simulated", key, csv_number(drawn->at("u").get<double>()), unit,
+                             "95 % from " + csv_number(drawn->at("interval_95")[0].get<double>()),
+                             "to " + csv_number(drawn->at("interval_95")[1].get<double>())});
     for (const auto& [key, reason] : certificate.result.not_evaluated)
-        append_line(csv, {"# not_evaluated", key, field(reason)});
+        append_csv_line(csv, {"# not_evaluated", key, csv_field(reason)});
 }
 
 void append_budget(std::string& csv, const Certificate& certificate) {
@@ -94,14 +59,15 @@ void append_budget(std::string& csv, const Certificate& certificate) {
     const double divisor = budget_units_per(certificate.result.unit);
     if (known.budget)
         for (const Contribution& term : known.budget->contributions)
-            append_line(csv,
-                        {"# budget", std::string{name_of(term.term)}, number(term.u / divisor),
-                         field(certificate.result.unit), field(term.formula), field(term.status)});
+            append_csv_line(csv, {"# budget", std::string{name_of(term.term)},
+                                  csv_number(term.u / divisor), csv_field(certificate.result.unit),
+                                  csv_field(term.formula), csv_field(term.status)});
     if (known.simulation)
-        append_line(csv, {"# simulation", std::to_string(known.simulation->trials) + " sessions",
-                          "seed " + std::to_string(known.simulation->seed)});
+        append_csv_line(csv,
+                        {"# simulation", std::to_string(known.simulation->trials) + " sessions",
+                         "seed " + std::to_string(known.simulation->seed)});
     for (const MissingTerm& term : known.missing)
-        append_line(csv, {"# preliminary", "not stated", field(term.words)});
+        append_csv_line(csv, {"# preliminary", "not stated", csv_field(term.words)});
 }
 
 /// Air and material at one instant; absent where nothing was measured near it.
@@ -136,11 +102,12 @@ void append_points(std::string& csv, const Certificate& certificate) {
         const double deviation = rows.at(i).at(j);
         const MonotonicTime at = point.window_begin + (point.window_end - point.window_begin) / 2;
         const Surroundings around = surroundings_at(history, at);
-        append_line(csv, {std::to_string(j + 1), forward ? "forward" : "backward", number(target),
-                          number(target + deviation), number(deviation * deviation_factor),
-                          number(around.air_degC), number(around.pressure_Pa),
-                          number(around.humidity_percent), number(around.material_degC),
-                          iso8601_utc(run.opened.utc_ns_at(at))});
+        append_csv_line(csv,
+                        {std::to_string(j + 1), forward ? "forward" : "backward",
+                         csv_number(target), csv_number(target + deviation),
+                         csv_number(deviation * deviation_factor), csv_number(around.air_degC),
+                         csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
+                         csv_number(around.material_degC), iso8601_utc(run.opened.utc_ns_at(at))});
     }
 }
 
@@ -152,10 +119,10 @@ std::string certificate_csv(const Certificate& certificate) {
     append_head(csv, certificate);
     append_parameters(csv, certificate);
     append_budget(csv, certificate);
-    append_line(csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
-                      rotary ? "measured_deg" : "measured_mm",
-                      rotary ? "deviation_arcsec" : "deviation_um", "t_air_degC", "p_Pa",
-                      "rh_percent", "t_mat_degC", "time"});
+    append_csv_line(csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
+                          rotary ? "measured_deg" : "measured_mm",
+                          rotary ? "deviation_arcsec" : "deviation_um", "t_air_degC", "p_Pa",
+                          "rh_percent", "t_mat_degC", "time"});
     append_points(csv, certificate);
     return csv;
 }

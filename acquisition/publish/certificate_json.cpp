@@ -1,5 +1,6 @@
 #include "acquisition/publish/certificate_json.hpp"
 
+#include "acquisition/publish/record_json.hpp"
 #include "acquisition/publish/result_json.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
 #include "analysis/certificate_expiry.hpp"
@@ -9,38 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Empty means that nobody said it. Json(x), not Json{x}: braces make an array of one.
-Json stated(const std::string& text) {
-    return text.empty() ? Json{} : Json(text);
-}
-
 template <class T> Json stated(const std::optional<T>& value) {
     return value ? Json(*value) : Json{};
-}
-
-Json statements_of(const Certificate& certificate) {
-    const Statements& said = certificate.run.statements;
-    Json object;
-    object["certificate_number"] = stated(said.certificate_number);
-    object["laboratory"] = stated(said.laboratory);
-    object["customer"] = stated(said.customer);
-    object["place"] = stated(said.place);
-    object["machine"] = stated(said.machine);
-    object["machine_maker"] = stated(said.machine_maker);
-    object["machine_serial"] = stated(said.machine_serial);
-    object["axis"] = stated(said.axis);
-    object["operator"] = stated(said.operator_name);
-    object["approver"] = stated(said.approver);
-    object["procedure"] = stated(said.procedure);
-    object["state"] = stated(said.state);
-    object["control_compensation"] = stated(said.control_compensation);
-    object["feed"] = stated(said.feed);
-    object["dwell"] = stated(said.dwell);
-    object["warm_up"] = stated(said.warm_up);
-    object["offsets"] = stated(said.offsets);
-    object["idle_axes"] = stated(said.idle_axes);
-    object["sensor_note"] = stated(said.sensor_note);
-    return object;
 }
 
 Json plan_of(const Certificate& certificate) {
@@ -49,7 +20,7 @@ Json plan_of(const Certificate& certificate) {
     object["axis_kind"] = name_of(plan.axis_kind);
     object["cycle"] = name_of(plan.cycle);
     object["pass"] = plan.pass;
-    object["remark"] = stated(plan.remark);
+    object["remark"] = stated_json(plan.remark);
     object["targets"] = certificate.deviations.targets();
     object["target_rule"] = plan.seed ? "P_i = (i-1) p + r" : "given list";
     object["interval_mm"] = plan.interval.in(mm);
@@ -95,7 +66,7 @@ Json statement_of(const std::optional<UncertaintySetup>& setup) {
 
 Json setup_of(const RunRecord& run) {
     Json object;
-    object["laser"]["instrument"] = stated(run.laser.instrument);
+    object["laser"]["instrument"] = stated_json(run.laser.instrument);
     object["laser"]["vacuum_wavelength_nm"] = run.laser.vacuum_wavelength.in(nm);
     object["laser"]["optical_fold"] = run.laser.optical_fold;
     object["laser"]["sign"] = run.laser.sign;
@@ -105,32 +76,13 @@ Json setup_of(const RunRecord& run) {
     object["material"]["expansion_per_K"] = run.material.coefficient.si();
     object["material"]["standard_uncertainty_per_K"] =
         run.material.standard_uncertainty ? Json(run.material.standard_uncertainty->si()) : Json{};
-    object["material"]["feedback"] = stated(run.material.feedback);
+    object["material"]["feedback"] = stated_json(run.material.feedback);
     object["material"]["form"] = name_of(run.material.form);
     object["air"]["formula"] = name_of(run.air.formula);
     object["air"]["co2_ppm"] = run.air.co2_ppm;
     object["air"]["oldest_s"] = seconds_of(run.air.oldest);
     object["uncertainty"] = statement_of(run.uncertainty);
     return object;
-}
-
-Json instruments_of(const RunRecord& run) {
-    Json list = Json::array();
-    for (const InstrumentRecord& instrument : run.instruments) {
-        Json object;
-        object["name"] = instrument.name;
-        object["driver"] = stated(instrument.driver);
-        object["maker"] = stated(instrument.maker);
-        object["model"] = stated(instrument.model);
-        object["serial"] = stated(instrument.serial);
-        object["firmware"] = stated(instrument.firmware);
-        object["certificate_number"] = stated(instrument.certificate_number);
-        object["calibrated_on"] = stated(instrument.calibrated_on);
-        object["due_on"] = stated(instrument.due_on);
-        object["expired"] = has_expired(instrument.due_on, run_date_of(run));
-        list.push_back(std::move(object));
-    }
-    return list;
 }
 
 Json datums_of(const RunRecord& run) {
@@ -148,42 +100,29 @@ Json datums_of(const RunRecord& run) {
     return list;
 }
 
-Json events_of(const RunRecord& run) {
-    Json list = Json::array();
-    for (const EventRecord& event : run.events) {
-        Json object;
-        object["kind"] = name_of(event.kind);
-        object["time"] = iso8601_utc(event.utc_ns ? event.utc_ns : run.opened.utc_ns_at(event.at));
-        object["text"] = stated(event.text);
-        if (event.fault != Fault::none) object["fault"] = fault_name(event.fault);
-        list.push_back(std::move(object));
-    }
-    return list;
-}
-
 Json run_of(const Certificate& certificate) {
     const RunRecord& run = certificate.run;
     Json object;
-    object["id"] = stated(run.run_id);
-    object["station"] = stated(run.station);
-    object["started"] = stated(certificate.started_utc);
-    object["finished"] = stated(certificate.finished_utc);
-    object["issued_on"] = stated(certificate.issued_on);
-    object["next_calibration_due"] = stated(certificate.next_due);
-    object["software_version"] = stated(run.software_version);
-    object["run_file_sha256"] = stated(certificate.run_file_sha256);
-    object["config_sha256"] = stated(run.config_hash);
-    object["result_digest"] = stated(certificate.result_digest);
-    object["statements"] = statements_of(certificate);
+    object["id"] = stated_json(run.run_id);
+    object["station"] = stated_json(run.station);
+    object["started"] = stated_json(certificate.started_utc);
+    object["finished"] = stated_json(certificate.finished_utc);
+    object["issued_on"] = stated_json(certificate.issued_on);
+    object["next_calibration_due"] = stated_json(certificate.next_due);
+    object["software_version"] = stated_json(run.software_version);
+    object["run_file_sha256"] = stated_json(certificate.run_file_sha256);
+    object["config_sha256"] = stated_json(run.config_hash);
+    object["result_digest"] = stated_json(certificate.result_digest);
+    object["statements"] = statements_json(certificate.run.statements);
     object["plan"] = plan_of(certificate);
     object.update(setup_of(run));
-    object["instruments"] = instruments_of(run);
+    object["instruments"] = instruments_json(run.instruments, run_date_of(run));
     object["datums"] = datums_of(run);
     object["deviations"]["sign"] = "actual minus target";
     object["deviations"]["forward"] = certificate.deviations.forward();
     if (!certificate.deviations.backward().empty())
         object["deviations"]["backward"] = certificate.deviations.backward();
-    object["events"] = events_of(run);
+    object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;
     return object;
 }
@@ -193,7 +132,7 @@ Json environment_of(const Certificate& certificate) {
     for (const EnvironmentSummary& summary : certificate.environment) {
         Json object;
         object["channel"] = summary.channel;
-        object["place"] = stated(summary.place);
+        object["place"] = stated_json(summary.place);
         object["quantity"] = name_of(summary.kind);
         object["medium"] = name_of(summary.medium);
         object["unit"] = stored_unit_of(summary.kind);

@@ -209,6 +209,18 @@ class Export(Scratch):
         for path in papers.values():
             self.assertTrue(os.path.exists(path), path)
 
+    def test_a_circular_case_becomes_papers(self):
+        case = self.file("circle.json", json.dumps({
+            "analysis": "circular", "nominal_radius_mm": 150, "feed_mm_per_s": 12.5,
+            "traces": [{"sense": "ccw", "angle_rad": [0, 1, 2, 3, 4, 5, 6],
+                        "radial_deviation_mm": [0, 0.001, 0, 0.001, 0, 0.001, 0]}]}))
+        papers = json.loads(self.expect(0, "export", case, "--out", self.folder, "--json").stdout)
+        self.assertEqual(list(papers), ["entry", "json", "csv", "pdf", "case"])
+        with open(papers["json"], encoding="utf-8") as file:
+            certificate = json.load(file)
+        told = json.loads(self.expect(0, "analyze", case).stdout)
+        self.assertEqual(certificate["parameters"], told["parameters"])
+
     def test_what_is_no_run_is_refused_with_a_sentence(self):
         for words in ([], ["--json"]):
             got = self.expect(3, "export", self.file("x.axiscal", "no run"), "--out", self.folder, *words)

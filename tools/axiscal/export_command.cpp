@@ -77,10 +77,10 @@ bool print_papers(const std::string& line) {
 
 } // namespace
 
-int command_export(const std::string& run_file, const std::string& out_directory, bool json) {
+int command_export(const std::string& file, const std::string& out_directory, bool json) {
     const std::string program = sibling_program("axiscal-report");
     std::string said;
-    const int code = run_program({program, run_file, "--to", out_directory}, said);
+    const int code = run_program({program, file, "--to", out_directory}, said);
     if (code != exit_ok) return code;
     if (json) return std::cout << said << std::flush, exit_ok;
     if (print_papers(said)) return exit_ok;

@@ -20,9 +20,10 @@ struct ProgramRequest {
 /// Writes one file a pass and says how to arm it.
 int command_program(const ProgramRequest& request, bool json);
 
-/// certificate.json, .csv and .pdf of a closed run into `out_directory`/<run-id>/, by
-/// axiscal-report; its line of JSON, or the same for people, names the files.
-int command_export(const std::string& run_file, const std::string& out_directory, bool json);
+/// certificate.json, .csv and .pdf of a closed run, or of a circular case, into
+/// `out_directory`/<run-id>/, by axiscal-report; its line of JSON, or the same for people, names
+/// the files.
+int command_export(const std::string& file, const std::string& out_directory, bool json);
 
 /// Holds a run file against its hash chain and its certificate; `certificate` empty: the one beside
 /// it. Exit 8 when a row or a figure is not what was written; each is named.

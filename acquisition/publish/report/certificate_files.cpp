@@ -4,6 +4,9 @@
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/publish/certificate_csv.hpp"
 #include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/circular_certificate_csv.hpp"
+#include "acquisition/publish/circular_certificate_json.hpp"
+#include "acquisition/publish/report/circular_report.hpp"
 #include "acquisition/publish/report/report.hpp"
 
 #include <filesystem>
@@ -23,20 +26,41 @@ copy_verified(const std::string& from, const std::string& to, const std::string&
     return {};
 }
 
+struct Papers {
+    std::string json, csv, pdf;
+};
+
+Result<void> write_all(const Papers& papers,
+                       const std::string& source_file,
+                       const std::string& sha256,
+                       const std::string& folder) {
+    const std::pair<const char*, const std::string*> files[]{{certificate_json_name, &papers.json},
+                                                             {certificate_csv_name, &papers.csv},
+                                                             {certificate_pdf_name, &papers.pdf}};
+    for (const auto& [name, content] : files)
+        AXISCAL_CHECK(write_synced(folder + "/" + name, *content));
+    const std::string name = std::filesystem::path(source_file).filename();
+    return copy_verified(source_file, folder + "/" + name, sha256);
+}
+
 } // namespace
 
 Result<void> write_certificate_files(const Certificate& certificate,
                                      const std::string& run_file,
                                      const std::string& folder) {
-    AXISCAL_TRY(const std::string pdf, render_certificate_pdf(certificate));
-    const std::pair<const char*, std::string> files[]{
-        {certificate_json_name, certificate_json_text(certificate)},
-        {certificate_csv_name, certificate_csv(certificate)},
-        {certificate_pdf_name, pdf}};
-    for (const auto& [name, content] : files)
-        if (auto written = write_synced(folder + "/" + name, content); !written) return written;
-    const std::string name = std::filesystem::path(run_file).filename();
-    return copy_verified(run_file, folder + "/" + name, certificate.run_file_sha256);
+    AXISCAL_TRY(std::string pdf, render_certificate_pdf(certificate));
+    const Papers papers{certificate_json_text(certificate), certificate_csv(certificate),
+                        std::move(pdf)};
+    return write_all(papers, run_file, certificate.run_file_sha256, folder);
+}
+
+Result<void> write_circular_files(const CircularCertificate& certificate,
+                                  const std::string& source_file,
+                                  const std::string& folder) {
+    AXISCAL_TRY(std::string pdf, render_circular_pdf(certificate));
+    const Papers papers{circular_certificate_json_text(certificate),
+                        circular_certificate_csv(certificate), std::move(pdf)};
+    return write_all(papers, source_file, certificate.file_sha256, folder);
 }
 
 } // namespace axiscal

@@ -2,6 +2,7 @@
 // From a closed run file to the files that leave the station.
 
 #include "analysis/certificate.hpp"
+#include "analysis/circular/circular_certificate.hpp"
 
 #include <string>
 
@@ -18,5 +19,11 @@ inline constexpr const char* certificate_pdf_name = "certificate.pdf";
 Result<void> write_certificate_files(const Certificate& certificate,
                                      const std::string& run_file,
                                      const std::string& folder);
+
+/// The same of a circular test; `source_file` is the run file or the case.
+/// @errors Fault::io; Fault::refused when the file changed meanwhile; render_circular_pdf().
+Result<void> write_circular_files(const CircularCertificate& certificate,
+                                  const std::string& source_file,
+                                  const std::string& folder);
 
 } // namespace axiscal

@@ -1,6 +1,7 @@
 #pragma once
 // The pages of a linear positioning certificate, in the order in which they are bound.
 
+#include "acquisition/publish/report/front_parts.hpp"
 #include "acquisition/publish/report/sheet.hpp"
 #include "acquisition/publish/report/wording.hpp"
 
@@ -22,10 +23,5 @@ void draw_condition_pages(Sheet& sheet,
 
 /// The budget: what is stated, each term, each parameter, U against its target.
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
-
-/// Columns and rows of the instrument table. Pure.
-std::vector<TableColumn> instrument_columns();
-/// `run_date` is the ISO date on which the run was opened: a certificate due before it had expired.
-TableRow instrument_row(const InstrumentRecord& instrument, const std::string& run_date);
 
 } // namespace axiscal

@@ -1,3 +1,4 @@
+#include "acquisition/publish/report/back_parts.hpp"
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/plots.hpp"
 #include "analysis/certificate_expiry.hpp"
@@ -209,68 +210,6 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
 }
 
-void draw_instruments(Sheet& sheet, const Certificate& certificate) {
-    std::vector<TableRow> rows;
-    for (const InstrumentRecord& instrument : certificate.run.instruments)
-        rows.push_back(instrument_row(instrument, run_date_of(certificate.run)));
-    sheet.heading("Instruments");
-    sheet.table(instrument_columns(), rows);
-}
-
-bool belongs_on_paper(const EventRecord& event) {
-    switch (event.kind) {
-    case EventKind::refused:
-    case EventKind::skipped:
-    case EventKind::interrupted:
-    case EventKind::resumed:
-    case EventKind::aborted:
-    case EventKind::note:
-    case EventKind::instrument: return true;
-    default: return false;
-    }
-}
-
-void draw_events(Sheet& sheet, const Certificate& certificate) {
-    constexpr std::size_t most = 40;
-    std::vector<TableRow> rows;
-    std::size_t found = 0;
-    for (const EventRecord& event : certificate.run.events) {
-        if (!belongs_on_paper(event) || ++found > most) continue;
-        const std::int64_t utc_ns =
-            event.utc_ns ? event.utc_ns : certificate.run.opened.utc_ns_at(event.at);
-        std::string words = event.text;
-        if (event.fault != Fault::none)
-            words += (words.empty() ? "" : " · ") + std::string{fault_sentence(event.fault)};
-        rows.push_back({readable_instant(iso8601_utc(utc_ns)), std::string{name_of(event.kind)},
-                        stated(words)});
-    }
-    if (rows.empty()) return;
-    sheet.heading("Events");
-    sheet.table({{"Time", "", Align::left},
-                 {"Kind", "", Align::left},
-                 {"What happened", "", Align::left, true}},
-                rows, 7);
-    if (found > most)
-        sheet.text(std::to_string(found - most) + " more events: see the run file.", {7});
-}
-
-void draw_remarks(Sheet& sheet,
-                  const Certificate& certificate,
-                  const std::vector<StatedField>& shortened) {
-    sheet.heading("Remarks", 30);
-    bool any = false;
-    for (const std::string& remark : certificate.remarks) {
-        sheet.text("• " + remark, {7.5});
-        any = true;
-    }
-    for (const StatedField& field : shortened) {
-        if (field.value.empty()) continue;
-        sheet.text("• " + field.key + " in full: " + field.value, {7.5});
-        any = true;
-    }
-    if (!any) sheet.text("None.", {7.5});
-}
-
 } // namespace
 
 void draw_condition_pages(Sheet& sheet,
@@ -286,9 +225,9 @@ void draw_condition_pages(Sheet& sheet,
     draw_uncertainty(sheet, certificate);
     draw_cycle(sheet, certificate);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
-        draw_instruments(sheet, certificate);
-    draw_remarks(sheet, certificate, shortened);
-    draw_events(sheet, certificate);
+        draw_instruments(sheet, certificate.run.instruments, run_date_of(certificate.run));
+    draw_remarks(sheet, certificate.remarks, shortened);
+    draw_events(sheet, certificate.run.events, certificate.run.opened);
 }
 
 } // namespace axiscal

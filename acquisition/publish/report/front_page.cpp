@@ -7,43 +7,19 @@
 namespace axiscal {
 namespace {
 
-constexpr std::size_t instruments_on_front = 5;
-constexpr double signature_height = 112;
-
 void draw_title(Sheet& sheet, const Certificate& certificate) {
-    Canvas& canvas = sheet.canvas();
-    const Statements& said = certificate.run.statements;
-    const std::string state = "State: " + stated(said.state);
-    constexpr TextStyle state_style{9, true};
-    constexpr double state_room = Sheet::width * 0.4;
-    const double box_width = std::min(state_room, canvas.width_of(state, state_style) + 14);
-    const PageBox box{Sheet::right - box_width, sheet.y() + 1, box_width, 17};
-    canvas.box(box, {ink, 0.8});
-    canvas.paragraph({box.x + 7, box.y + 3}, box.width - 13, state, state_style, 1);
-    canvas.text({Sheet::left, sheet.y() + 15}, "Calibration certificate", {16, true});
-    sheet.advance(22);
     const bool bidirectional = !certificate.deviations.backward().empty();
     const RunPlan& plan = certificate.run.plan;
-    sheet.text((plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
-                   std::string{" positioning, "} + certificate.result.standard +
-                   ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
-                   std::string{name_of(plan.cycle)} + " cycle, " +
-                   std::to_string(certificate.deviations.targets().size()) +
-                   " targets, n = " + std::to_string(certificate.result.approaches) +
-                   (certificate.result.approaches == 1 ? " approach" : " approaches") +
-                   (bidirectional ? " in each direction" : " in the forward direction only"),
-               {8});
-    sheet.advance(2);
-    sheet.rule();
-}
-
-std::string measured_span(const Certificate& certificate) {
-    const std::string begin = readable_instant(certificate.started_utc),
-                      end = readable_instant(certificate.finished_utc);
-    const bool one_day = begin.size() == 23 && end.size() == 23 && // "2026-01-02 08:15:03 UTC"
-                         begin.substr(0, 10) == end.substr(0, 10);
-    return one_day ? begin.substr(0, 16) + " to " + end.substr(11, 5) + " UTC"
-                   : begin + " to " + end;
+    draw_front_title(
+        sheet, {"Calibration certificate", certificate.run.statements.state,
+                (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
+                    std::string{" positioning, "} + certificate.result.standard +
+                    ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
+                    std::string{name_of(plan.cycle)} + " cycle, " +
+                    std::to_string(certificate.deviations.targets().size()) +
+                    " targets, n = " + std::to_string(certificate.result.approaches) +
+                    (certificate.result.approaches == 1 ? " approach" : " approaches") +
+                    (bidirectional ? " in each direction" : " in the forward direction only")});
 }
 
 std::string axis_words(const Certificate& certificate) {
@@ -59,7 +35,7 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certific
         {"Laboratory", stated(said.laboratory)},
         {"Certificate number", stated(said.certificate_number)},
         {"Customer", stated(said.customer)},
-        {"Measured", measured_span(certificate)},
+        {"Measured", measured_span(certificate.started_utc, certificate.finished_utc)},
         {"Place", stated(said.place)},
         {"Issued on", stated(certificate.issued_on)},
         {"Machine", stated(said.machine)},
@@ -73,25 +49,6 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certific
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
-}
-
-/// The first few; the rest, or all when a text had to be shortened, follows on a later page.
-void draw_instruments(Sheet& sheet,
-                      const Certificate& certificate,
-                      std::vector<StatedField>& shortened) {
-    const auto& instruments = certificate.run.instruments;
-    std::vector<TableRow> rows;
-    for (std::size_t i = 0; i < std::min(instruments.size(), instruments_on_front); ++i)
-        rows.push_back(instrument_row(instruments[i], run_date_of(certificate.run)));
-    if (rows.empty()) sheet.text("Instruments: not stated", {7.5});
-    const bool cut = sheet.table(instrument_columns(), rows, 7.5, 2);
-    sheet.advance(-2);
-    const bool more = instruments.size() > instruments_on_front;
-    if (more)
-        sheet.text(std::to_string(instruments.size() - instruments_on_front) +
-                       " more instruments: see \"Instruments\" on the last pages.",
-                   {7, false, grey});
-    if (more || cut) shortened.push_back({"Instruments", ""});
 }
 
 std::vector<ParameterLine> evaluated(std::vector<ParameterLine> lines) {
@@ -187,63 +144,13 @@ void draw_sign_rule(Sheet& sheet, const Certificate& certificate) {
     sheet.text(words, {7, false, grey});
 }
 
-void draw_signature(Canvas& canvas, PageBox box, const char* role, const std::string& name) {
-    canvas.text({box.x, box.y + 9}, role, {7.5, false, grey});
-    canvas.paragraph({box.x + 46, box.y + 1.6}, box.width - 46, stated(name), {7.5}, 1);
-    const double line = box.y + 38;
-    canvas.line({box.x, line}, {box.x + box.width * 0.62, line});
-    canvas.line({box.x + box.width * 0.68, line}, {box.right(), line});
-    canvas.text({box.x, line + 9}, "signature", {6.5, false, grey});
-    canvas.text({box.x + box.width * 0.68, line + 9}, "date", {6.5, false, grey});
-}
-
-void draw_signatures(Sheet& sheet, const Certificate& certificate, double y) {
-    Canvas& canvas = sheet.canvas();
-    const Statements& said = certificate.run.statements;
-    canvas.line({Sheet::left, y}, {Sheet::right, y}, {pale, 0.6});
-    constexpr double column = (Sheet::width - 24) / 2;
-    draw_signature(canvas, {Sheet::left, y + 4, column, 50}, "Operator", said.operator_name);
-    draw_signature(canvas, {Sheet::left + column + 24, y + 4, column, 50}, "Approver",
-                   said.approver);
-    double line = y + 66;
-    const auto evidence = [&](const char* key, const std::string& value) {
-        canvas.text({Sheet::left, line}, key, {7, false, grey});
-        canvas.paragraph({Sheet::left + 88, line - 6.6}, Sheet::width - 88, value, {7}, 1);
-        line += 10;
-    };
-    evidence("Run", stated(certificate.run.run_id));
-    evidence("Run file SHA-256", stated(certificate.run_file_sha256));
-    evidence("Result SHA-256", stated(certificate.result_digest));
-    evidence("Software", "axiscal, version " + stated(certificate.run.software_version));
-    canvas.text({Sheet::left, line},
-                "Traceability: through the certificates of the instruments named above.",
-                {7, false, grey});
-}
-
 } // namespace
-
-std::vector<TableColumn> instrument_columns() {
-    return {{"Instrument", "", Align::left, true},
-            {"Serial", "", Align::left, true},
-            {"Certificate", "", Align::left, true},
-            {"Calibrated", "", Align::left, true},
-            {"Due", "", Align::left, true}};
-}
-
-TableRow instrument_row(const InstrumentRecord& instrument, const std::string& run_date) {
-    std::string model = instrument.maker;
-    if (!model.empty() && !instrument.model.empty()) model += " ";
-    model += instrument.model;
-    return {instrument.name + ": " + stated(model), stated(instrument.serial),
-            stated(instrument.certificate_number), stated(instrument.calibrated_on),
-            stated(instrument.due_on) +
-                (has_expired(instrument.due_on, run_date) ? ", expired" : "")};
-}
 
 std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certificate) {
     draw_title(sheet, certificate);
     auto shortened = draw_identity(sheet, certificate);
-    draw_instruments(sheet, certificate, shortened);
+    draw_front_instruments(sheet, certificate.run.instruments, run_date_of(certificate.run),
+                           shortened);
     draw_parameters(sheet, certificate);
     draw_sign_rule(sheet, certificate);
     constexpr double largest_plot = 340;
@@ -251,7 +158,11 @@ std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certif
     const double room = sheet.remaining() - signature_height - 4;
     const PageBox plot{Sheet::left, sheet.y(), Sheet::width, std::min(room, largest_plot)};
     draw_deviation_plot(sheet.canvas(), plot, certificate);
-    draw_signatures(sheet, certificate, sheet.y() + sheet.remaining() - signature_height);
+    draw_signatures(sheet, certificate.run.statements,
+                    {{"Run", stated(certificate.run.run_id)},
+                     {"Run file SHA-256", stated(certificate.run_file_sha256)},
+                     {"Result SHA-256", stated(certificate.result_digest)},
+                     {"Software", "axiscal, version " + stated(certificate.run.software_version)}});
     return shortened;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cairo-pdf.h>
+#include <cmath>
 #include <numbers>
 #include <pango/pangocairo.h>
 
@@ -166,6 +167,26 @@ void Canvas::dot(PagePoint centre, double radius, Colour colour, double opacity)
     cairo_new_path(cr_);
     cairo_arc(cr_, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
     source(colour, opacity);
+    cairo_fill(cr_);
+}
+
+void Canvas::ring(PagePoint centre, double radius, Stroke stroke) {
+    cairo_new_path(cr_);
+    cairo_arc(cr_, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+    cairo_close_path(cr_);
+    source(stroke.colour);
+    cairo_set_line_width(cr_, stroke.width);
+    cairo_stroke(cr_);
+}
+
+void Canvas::pointer(PagePoint centre, double angle_rad, Colour colour, double size) {
+    const double along_x = std::cos(angle_rad) * size, along_y = -std::sin(angle_rad) * size;
+    cairo_new_path(cr_);
+    cairo_move_to(cr_, centre.x + 1.2 * along_x, centre.y + 1.2 * along_y);
+    cairo_line_to(cr_, centre.x - 0.8 * along_x - along_y, centre.y - 0.8 * along_y + along_x);
+    cairo_line_to(cr_, centre.x - 0.8 * along_x + along_y, centre.y - 0.8 * along_y - along_x);
+    cairo_close_path(cr_);
+    source(colour);
     cairo_fill(cr_);
 }
 

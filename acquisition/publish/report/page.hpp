@@ -81,8 +81,12 @@ public:
     void box(PageBox box, Stroke stroke = {});
     void fill(PageBox box, Colour colour);
     void dot(PagePoint centre, double radius, Colour colour, double opacity = 1);
+    /// A solid circle.
+    void ring(PagePoint centre, double radius, Stroke stroke = {});
     /// Filled triangle pointing right (+1) or left (-1). Drawn, not typed.
     void arrow(PagePoint centre, double direction, Colour colour, double size = 2.6);
+    /// Filled triangle whose tip shows along `angle_rad`: 0 to the right, counter-clockwise.
+    void pointer(PagePoint centre, double angle_rad, Colour colour, double size = 2.6);
 
     /// The first text that the face cannot show; empty while all is well.
     [[nodiscard]] const std::string& unprintable() const { return unprintable_; }

@@ -230,5 +230,30 @@ TEST(CircularCase, NumbersInNumbersOut) {
     test::expect_numbers_in_numbers_out(one_sense(made_case(5e-5, 1e-4, 10, 50, 10), 1));
 }
 
+TEST(CircularCase, WordsForPaperChangeNoFigure) {
+    const json request = made_case(2e-5, 1e-4);
+    json worded = request;
+    worded["report"] = {{"customer", "Example customer"},
+                        {"centre_mm", {1, 2, 3}},
+                        {"air_degC", 21.5},
+                        {"instruments", {{{"name", "ballbar"}, {"serial", "B-1"}}}}};
+    EXPECT_EQ(answer_to(worded), answer_to(request));
+}
+
+TEST(CircularCase, RefusesWordsForPaperOfAWrongKind) {
+    const json request = made_case(2e-5, 1e-4);
+    const auto refused = [&](const json& report) {
+        json worded = request;
+        worded["report"] = report;
+        return refused_field(worded);
+    };
+    EXPECT_EQ(refused({{"customre", "x"}}), "report.customre");
+    EXPECT_EQ(refused({{"customer", 7}}), "report.customer");
+    EXPECT_EQ(refused({{"air_degC", 1000}}), "report.air_degC");
+    EXPECT_EQ(refused({{"centre_mm", {1, 2}}}), "report.centre_mm");
+    EXPECT_EQ(refused({{"instruments", {{{"model", 5}}}}}), "report.instruments[0].model");
+    EXPECT_EQ(refused(json::array()), "report");
+}
+
 } // namespace
 } // namespace axiscal

@@ -85,5 +85,33 @@ TEST_F(ReportProgram, RefusesWhatIsNoRunFileAndAWrongCommandLine) {
     EXPECT_EQ(start(folder_.file("x.axiscal")), 2) << "no place named";
 }
 
+const char* const circular_case =
+    R"({"analysis":"circular","id":"hall 3/left","nominal_radius_mm":150,"feed_mm_per_s":12.5,
+"report":{"customer":"Example customer","date":"2026-01-01"},"traces":[{"sense":"ccw",
+"angle_rad":[0,0.785,1.571,2.356,3.142,3.927,4.712,5.498],
+"radial_deviation_mm":[0.002,-0.001,0.002,0.005,0.002,-0.001,0.002,0.005]}]})";
+
+TEST_F(ReportProgram, DrawsTheCertificateOfACircularCase) {
+    testing::write_bytes(folder_.file("mine.json"), circular_case);
+    ASSERT_EQ(start(folder_.file("mine.json") + " --to " + folder_.file("out-folder")), 0) << err_;
+    const auto line = nlohmann::json::parse(out_);
+    EXPECT_EQ(line.at("entry"), folder_.file("out-folder/hall-3-left"));
+    const auto document = nlohmann::json::parse(read_bytes(line.at("json")));
+    EXPECT_EQ(document.at("run").at("case_sha256"),
+              sha256_of_file(folder_.file("mine.json")).value());
+    EXPECT_EQ(read_bytes(line.at("case")), circular_case);
+    const std::string words = test::text_of(line.at("pdf"));
+    EXPECT_NE(words.find("Example customer"), std::string::npos);
+}
+
+TEST_F(ReportProgram, RefusesACaseThatIsNotCircularOrGoesIntoTheOutbox) {
+    testing::write_bytes(folder_.file("other.json"), R"({"analysis":"drift"})");
+    EXPECT_EQ(start(folder_.file("other.json") + " --to " + folder_.file("a")), 3);
+    EXPECT_NE(err_.find("analysis: "), std::string::npos) << err_;
+    testing::write_bytes(folder_.file("mine.json"), circular_case);
+    EXPECT_EQ(start(folder_.file("mine.json") + " --outbox " + folder_.file("a")), 3);
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("a/hall-3-left")));
+}
+
 } // namespace
 } // namespace axiscal

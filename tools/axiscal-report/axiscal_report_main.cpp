@@ -1,16 +1,20 @@
 // axiscal-report RUN.axiscal --outbox DIR | --to DIR
+// axiscal-report CASE.json --to DIR
 // Short-lived, started by the daemon when a run is closed (and by `axiscal export`): draws the
-// certificate and stages it. stdout: one line of JSON with the paths; stderr: one sentence.
-// Exit 0 done, 1 file or program, 2 usage, 3 the run file is refused or the run is incomplete.
+// certificate and stages it; of a circular case, too. stdout: one line of JSON with the paths;
+// stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
+// refused or the run is incomplete.
 
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
 #include "acquisition/publish/run_certificate.hpp"
+#include "tools/axiscal/circular_case_certificate.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -47,13 +51,43 @@ Result<std::string> stage(const Options& options) {
     return finish_entry(folder, run.run_id);
 }
 
-std::string paths_line(const std::string& entry, const std::string& run_file) {
+/// The same for a case: into any folder, never into the outbox, for no run stands behind it.
+Result<std::string> stage_case(const Options& options) {
+    if (options.to.empty())
+        return fail(Fault::refused, "is no run file: a case goes into a folder by --to");
+    AXISCAL_TRY(const CircularCertificate certificate,
+                circular_certificate_of_case(options.run_file));
+    const std::string& name = certificate.measured.run.run_id;
+    AXISCAL_TRY(const std::string temporary, begin_entry(options.to, name));
+    if (auto written = write_circular_files(certificate, options.run_file, temporary); !written) {
+        std::error_code ignored; // the first error is the one to tell
+        std::filesystem::remove_all(temporary, ignored);
+        return tl::unexpected<Error>(std::move(written).error());
+    }
+    return finish_entry(options.to, name);
+}
+
+bool is_run_file(const std::string& path) {
+    constexpr std::string_view magic{"SQLite format 3\0", 16};
+    std::ifstream file{path, std::ios::binary};
+    std::string head(magic.size(), '\0');
+    return file.read(head.data(), static_cast<std::streamsize>(head.size())) && head == magic;
+}
+
+/// What a person calls a case ends in .json; all else is taken for a run file, whose reader says
+/// what is wrong with it.
+bool is_case(const std::string& path) {
+    return !is_run_file(path) && std::filesystem::path(path).extension() == ".json";
+}
+
+std::string paths_line(const std::string& entry, const std::string& run_file, bool of_case) {
     nlohmann::ordered_json line;
     line["entry"] = entry;
     line["json"] = entry + "/" + certificate_json_name;
     line["csv"] = entry + "/" + certificate_csv_name;
     line["pdf"] = entry + "/" + certificate_pdf_name;
-    line["run_file"] = entry + "/" + std::filesystem::path(run_file).filename().string();
+    line[of_case ? "case" : "run_file"] =
+        entry + "/" + std::filesystem::path(run_file).filename().string();
     return line.dump();
 }
 
@@ -67,20 +101,24 @@ bool is_refusal(Fault fault) {
 }
 
 int report(const Options& options) {
-    const auto entry = stage(options);
+    const bool of_case = is_case(options.run_file);
+    const auto entry = of_case ? stage_case(options) : stage(options);
     if (!entry) {
-        std::cerr << options.run_file << ": " << describe(entry.error()) << "\n";
+        const std::string& field = entry.error().field;
+        std::cerr << options.run_file << ": " << (field.empty() ? "" : field + ": ")
+                  << describe(entry.error()) << "\n";
         return is_refusal(entry.error().fault) ? exit_refused : exit_failed;
     }
-    std::cout << paths_line(*entry, options.run_file) << std::endl;
+    std::cout << paths_line(*entry, options.run_file, of_case) << std::endl;
     return exit_ok;
 }
 
 int run(int argc, char** argv) {
-    CLI::App app{"axiscal-report: certificate.json, .csv and .pdf of a closed run",
-                 "axiscal-report"};
+    CLI::App app{
+        "axiscal-report: certificate.json, .csv and .pdf of a closed run or of a circular case",
+        "axiscal-report"};
     Options options;
-    app.add_option("RUN", options.run_file, "run file")->required();
+    app.add_option("RUN", options.run_file, "run file, or the JSON of a circular case")->required();
     auto* places = app.add_option_group("place", "where the folder <run-id> is made");
     places->add_option("--outbox", options.outbox, "the station's outbox");
     places->add_option("--to", options.to, "any folder");

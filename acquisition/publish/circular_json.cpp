@@ -1,4 +1,4 @@
-#include "tools/axiscal/cases/circular_json.hpp"
+#include "acquisition/publish/circular_json.hpp"
 
 #include <string>
 #include <utility>
@@ -8,12 +8,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using circular::Cause;
-
-/// G_ccw of feedback signals is called G_f_ccw.
-std::string label_of(const std::string& key, SignalSource source) {
-    if (source == SignalSource::external || !key.starts_with('G')) return key;
-    return "G_f" + key.substr(1);
-}
 
 Json deviation_json(const CircularDeviation& deviation) {
     Json object;
@@ -42,7 +36,7 @@ void add_uncertainty(Json& parameters,
         object["k"] = budget->coverage;
         if (figure.monte_carlo_u_mm)
             object["monte_carlo"] = budget->coverage * *figure.monte_carlo_u_mm;
-        parameters[label_of(figure.key, source)]["expanded_uncertainty"] = std::move(object);
+        parameters[circular_label(figure.key, source)]["expanded_uncertainty"] = std::move(object);
     }
 }
 
@@ -50,9 +44,9 @@ Json parameters_json(const CircularAnswer& answer) {
     const CircularParameters& from = answer.parameters;
     const SignalSource source = answer.test.source;
     Json object = Json::object();
-    if (from.ccw) object[label_of("G_ccw", source)] = deviation_json(from.ccw->G);
-    if (from.cw) object[label_of("G_cw", source)] = deviation_json(from.cw->G);
-    if (from.G_b) object[label_of("G_b", source)] = deviation_json(*from.G_b);
+    if (from.ccw) object[circular_label("G_ccw", source)] = deviation_json(from.ccw->G);
+    if (from.cw) object[circular_label("G_cw", source)] = deviation_json(from.cw->G);
+    if (from.G_b) object[circular_label("G_b", source)] = deviation_json(*from.G_b);
     for (const Sense sense : {Sense::ccw, Sense::cw}) {
         const auto& seen = from.of(sense);
         const std::string suffix = "_" + std::string{name_of(sense)};
@@ -235,6 +229,11 @@ Json budget_json(const CircularBudget& budget) {
 
 } // namespace
 
+std::string circular_label(const std::string& key, SignalSource source) {
+    if (source == SignalSource::external || !key.starts_with('G')) return key;
+    return "G_f" + key.substr(1);
+}
+
 Json circular_to_json(const CircularAnswer& answer) {
     Json document;
     document["format"] = "axiscal.result/1";
@@ -252,7 +251,7 @@ Json circular_to_json(const CircularAnswer& answer) {
     if (!answer.parameters.not_evaluated.empty()) {
         document["not_evaluated"] = Json::object();
         for (const auto& [key, reason] : answer.parameters.not_evaluated)
-            document["not_evaluated"][label_of(key, answer.test.source)] = reason;
+            document["not_evaluated"][circular_label(key, answer.test.source)] = reason;
     }
     return document;
 }

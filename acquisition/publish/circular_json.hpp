@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 namespace axiscal {
 
@@ -16,6 +17,9 @@ struct CircularAnswer {
     const CircleDiagnosis& diagnosis;
     const std::optional<CircularBudget>& budget;
 };
+
+/// G_ccw of feedback signals is called G_f_ccw.
+std::string circular_label(const std::string& key, SignalSource source);
 
 /// "axiscal.result/1" with the contract's keys; feedback signals are named G_f throughout.
 nlohmann::ordered_json circular_to_json(const CircularAnswer& answer);

@@ -1,0 +1,23 @@
+#pragma once
+// What certificates of every kind say of who, with what and what happened. Pure.
+
+#include "analysis/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// The text; null when nobody said it.
+nlohmann::ordered_json stated_json(const std::string& text);
+
+nlohmann::ordered_json statements_json(const Statements& said);
+
+/// `date`: ISO date of the run; a certificate due before it had expired.
+nlohmann::ordered_json instruments_json(const std::vector<InstrumentRecord>& instruments,
+                                        const std::string& date);
+
+nlohmann::ordered_json events_json(const std::vector<EventRecord>& events, const ClockTie& opened);
+
+} // namespace axiscal

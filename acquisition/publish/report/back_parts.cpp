@@ -1,0 +1,74 @@
+#include "acquisition/publish/report/back_parts.hpp"
+
+#include "acquisition/publish/report/front_parts.hpp"
+#include "acquisition/publish/report/wording.hpp"
+
+namespace axiscal {
+namespace {
+
+bool belongs_on_paper(const EventRecord& event) {
+    switch (event.kind) {
+    case EventKind::refused:
+    case EventKind::skipped:
+    case EventKind::interrupted:
+    case EventKind::resumed:
+    case EventKind::aborted:
+    case EventKind::note:
+    case EventKind::instrument: return true;
+    default: return false;
+    }
+}
+
+} // namespace
+
+void draw_instruments(Sheet& sheet,
+                      const std::vector<InstrumentRecord>& instruments,
+                      const std::string& run_date) {
+    std::vector<TableRow> rows;
+    for (const InstrumentRecord& instrument : instruments)
+        rows.push_back(instrument_row(instrument, run_date));
+    sheet.heading("Instruments");
+    sheet.table(instrument_columns(), rows);
+}
+
+void draw_remarks(Sheet& sheet,
+                  const std::vector<std::string>& remarks,
+                  const std::vector<StatedField>& shortened) {
+    sheet.heading("Remarks", 30);
+    bool any = false;
+    for (const std::string& remark : remarks) {
+        sheet.text("• " + remark, {7.5});
+        any = true;
+    }
+    for (const StatedField& field : shortened) {
+        if (field.value.empty()) continue;
+        sheet.text("• " + field.key + " in full: " + field.value, {7.5});
+        any = true;
+    }
+    if (!any) sheet.text("None.", {7.5});
+}
+
+void draw_events(Sheet& sheet, const std::vector<EventRecord>& events, const ClockTie& opened) {
+    constexpr std::size_t most = 40;
+    std::vector<TableRow> rows;
+    std::size_t found = 0;
+    for (const EventRecord& event : events) {
+        if (!belongs_on_paper(event) || ++found > most) continue;
+        const std::int64_t utc_ns = event.utc_ns ? event.utc_ns : opened.utc_ns_at(event.at);
+        std::string words = event.text;
+        if (event.fault != Fault::none)
+            words += (words.empty() ? "" : " · ") + std::string{fault_sentence(event.fault)};
+        rows.push_back({readable_instant(iso8601_utc(utc_ns)), std::string{name_of(event.kind)},
+                        stated(words)});
+    }
+    if (rows.empty()) return;
+    sheet.heading("Events");
+    sheet.table({{"Time", "", Align::left},
+                 {"Kind", "", Align::left},
+                 {"What happened", "", Align::left, true}},
+                rows, 7);
+    if (found > most)
+        sheet.text(std::to_string(found - most) + " more events: see the run file.", {7});
+}
+
+} // namespace axiscal

@@ -1,0 +1,103 @@
+// The uncertainty budget of a circular test as a reader checks it. Micrometres.
+
+#include "acquisition/publish/report/circular_pages.hpp"
+#include "acquisition/publish/report/circular_wording.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace axiscal {
+namespace {
+
+constexpr TextStyle note{7, false, grey};
+constexpr double um_per_mm = 1e3;
+constexpr int decimals_of_u = 3;
+
+std::string of_u(double u_mm) {
+    return fixed(u_mm * um_per_mm, decimals_of_u);
+}
+
+struct TermOnPaper {
+    const char *term, *name, *counts;
+};
+constexpr std::array terms{
+    TermOnPaper{"device", "Transducer over the range of one test", "G, F"},
+    TermOnPaper{"repeatability", "Repeatability", "G, F, D"},
+    TermOnPaper{"environment", "Drift E_VE", "G, F, D"},
+    TermOnPaper{"calibration", "Calibration of the bar's length", "F, D"},
+    TermOnPaper{"machine_temperature", "Temperature of the machine", "F, D"},
+    TermOnPaper{"bar_temperature", "Temperature of the bar", "F, D"},
+    TermOnPaper{"machine_expansion", "Expansion coefficient of the machine", "F, D"},
+    TermOnPaper{"bar_expansion", "Expansion coefficient of the bar", "F, D"},
+    TermOnPaper{"centre", "Set-up centre", "F about it"}};
+
+void draw_terms(Sheet& sheet, const CircularCertificate& certificate) {
+    const CircularBudget& budget = *certificate.budget;
+    std::vector<TableRow> rows;
+    for (const TermOnPaper& term : terms) {
+        const auto known =
+            std::ranges::find(budget.contributions, term.term, &CircularContribution::term);
+        if (known == budget.contributions.end())
+            rows.push_back({term.name, certificate.needs(term.term) ? "not stated" : "not needed",
+                            "–", term.counts, "–"});
+        else
+            rows.push_back({term.name, of_u(known->u_mm), formula_on_paper(known->formula),
+                            term.counts, known->status});
+    }
+    sheet.table({{"Term", "", Align::left},
+                 {"u", "µm"},
+                 {"Formula", "", Align::left, true},
+                 {"Counts in", "", Align::left},
+                 {"Mark", "", Align::left}},
+                rows, 7);
+}
+
+void draw_figure_uncertainties(Sheet& sheet, const CircularCertificate& certificate) {
+    std::vector<TableRow> rows;
+    for (const CircularFigureLine& line : figure_lines(certificate)) {
+        const CircularFigureUncertainty* known = certificate.uncertainty_of(line.key);
+        if (!known) {
+            rows.push_back({line.symbol + " " + line.index, "not evaluated", "–", "–"});
+            continue;
+        }
+        rows.push_back({line.symbol + " " + line.index, of_u(known->u_mm),
+                        known->monte_carlo_u_mm ? of_u(*known->monte_carlo_u_mm) : "–",
+                        of_u(known->expanded_mm)});
+    }
+    sheet.table({{"Figure", "", Align::left},
+                 {"u by formula", "µm"},
+                 {"u simulated", "µm"},
+                 {"U = " + compact_number(certificate.budget->coverage) + " u", "µm"}},
+                rows, 7);
+}
+
+} // namespace
+
+void draw_circular_uncertainty(Sheet& sheet, const CircularCertificate& certificate) {
+    const auto& budget = certificate.budget;
+    sheet.heading("Measurement uncertainty", budget ? 150 : 30);
+    if (!budget) {
+        std::string missing;
+        for (const MissingTerm& term : certificate.missing)
+            missing += (missing.empty() ? "" : "; ") + term.words;
+        sheet.text("Not evaluated: the budget lacks " + missing + ".", {7.5});
+        return;
+    }
+    sheet.text("n = " + std::to_string(budget->runs) +
+                   (budget->runs == 1 ? " circle" : " circles") +
+                   " of each sense. u(G) = √(u² transducer + (u² repeatability + u² drift) / n); "
+                   "u(D) adds calibration, temperatures and expansion and leaves the transducer "
+                   "out; u(F) is both together, about the set-up centre with its own u.",
+               {7.5});
+    draw_terms(sheet, certificate);
+    draw_figure_uncertainties(sheet, certificate);
+    std::string words = "The terms above hold 1/√n already. S: stands in a source document; R: "
+                        "reconstructed from its structure. U is rounded up on page 1.";
+    if (budget->trials > 0)
+        words += " u simulated: " + std::to_string(budget->trials) +
+                 " trials that disturb every reading and evaluate anew (JCGM 101); drift runs "
+                 "along the trace there and comes out smaller.";
+    sheet.text(words, note);
+}
+
+} // namespace axiscal

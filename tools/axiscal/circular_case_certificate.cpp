@@ -1,0 +1,67 @@
+#include "tools/axiscal/circular_case_certificate.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/publish/result_digest.hpp"
+#include "tools/axiscal/case_text.hpp"
+#include "tools/axiscal/cases/case_reader.hpp"
+#include "tools/axiscal/cases/circular_input.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+Result<std::string> whole_file(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
+    return std::string{std::istreambuf_iterator<char>{file}, {}};
+}
+
+/// A folder's name: never empty, never beginning with a dot.
+std::string folder_name(const std::string& words) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+    constexpr std::size_t longest = 100;
+    std::string name = words.substr(0, longest);
+    for (char& c : name)
+        if (allowed.find(c) == std::string_view::npos) c = '-';
+    if (name.empty() || name.front() == '.') name.insert(0, "case-");
+    return name;
+}
+
+Result<CircularInput> input_of(const std::string& text) {
+    AXISCAL_TRY(const CaseText read, read_case_text(text));
+    if (read.document.is_array())
+        return refuse(Fault::bad_case, "case", "must be one circular case, not an array of cases");
+    if (!read.repeated_keys.empty())
+        return refuse(Fault::bad_case, printable(read.repeated_keys.begin()->second),
+                      "stands twice in one object");
+    if (!read.document.is_object()) return refuse(Fault::bad_case, "case", "must be an object");
+    AXISCAL_TRY(const std::string name, text_of(read.document, "analysis", "analysis"));
+    if (name != "circular")
+        return refuse(Fault::bad_case, "analysis",
+                      "only \"circular\" cases have a certificate; other results: axiscal analyze");
+    return read_circular_case(read.document);
+}
+
+} // namespace
+
+Result<CircularCertificate> circular_certificate_of_case(const std::string& case_file) {
+    AXISCAL_TRY(std::string sha256, sha256_of_file(case_file));
+    AXISCAL_TRY(const std::string text, whole_file(case_file));
+    AXISCAL_TRY(CircularInput input, input_of(text));
+    CircularMeasurement measured = measurement_of(std::move(input));
+    const std::string& id = measured.run.run_id;
+    measured.run.run_id =
+        folder_name(id.empty() ? std::filesystem::path(case_file).stem().string() : id);
+    measured.run.software_version = AXISCAL_VERSION;
+    AXISCAL_TRY(CircularCertificate certificate,
+                evaluate_measurement(std::move(measured), std::move(sha256)));
+    certificate.result_digest = result_digest(certificate.parameters);
+    return certificate;
+}
+
+} // namespace axiscal
