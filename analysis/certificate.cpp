@@ -103,9 +103,77 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
     return remarks;
 }
 
+std::string place_of(const PlannedPoint& point) {
+    return "P" + std::to_string(point.target_index + 1) +
+           (point.direction == Direction::positive ? " ↑ " : " ↓ ") +
+           std::to_string(point.approach + 1);
+}
+
+/// "3 readings were replaced ... (P2 ↑ 1, P3 ↑ 1: reason; ...)".
+std::string listed(const std::vector<SetAside>& set_aside, bool superseded) {
+    std::string text, places, reason;
+    const auto flush = [&] {
+        if (!places.empty()) text += (text.empty() ? "" : "; ") + places + ": " + reason;
+        places.clear();
+    };
+    for (const SetAside& reading : set_aside) {
+        if (reading.superseded != superseded) continue;
+        if (reading.reason != reason) flush();
+        reason = reading.reason;
+        places += (places.empty() ? "" : ", ") + place_of(reading.planned);
+    }
+    flush();
+    return text;
+}
+
+std::ptrdiff_t excluded_readings(const std::vector<SetAside>& set_aside) {
+    return std::ranges::count(set_aside, false, &SetAside::superseded);
+}
+
+void remark_on_number_of_readings(const Certificate& certificate,
+                                  std::vector<std::string>& remarks) {
+    constexpr std::size_t asked = 5; // ISO 230-2:2014, 4.3.3, axes up to 2000 mm
+    const bool excluded = excluded_readings(certificate.set_aside) > 0;
+    std::size_t fewest = asked;
+    for (const auto* side : {&certificate.deviations.forward(), &certificate.deviations.backward()})
+        for (const auto& row : *side)
+            fewest = std::min(fewest, row.size());
+    if (!excluded || fewest >= asked) return;
+    remarks.push_back("At one target and direction " + std::to_string(fewest) +
+                      " readings remain. ISO 230-2 asks for five: the figures that use it are not "
+                      "a complete test by this standard.");
+}
+
+void remark_on_revisions(const Certificate& certificate, std::vector<std::string>& remarks) {
+    const auto& set_aside = certificate.set_aside;
+    const auto excluded = excluded_readings(set_aside);
+    const auto replaced = std::ssize(set_aside) - excluded;
+    if (replaced > 0)
+        remarks.push_back("Readings replaced by new ones: " + std::to_string(replaced) + " (" +
+                          listed(set_aside, true) +
+                          "). The replaced ones stay in the run file and are drawn as crosses; no "
+                          "figure uses them.");
+    if (excluded > 0)
+        remarks.push_back(
+            "Readings excluded: " + std::to_string(excluded) + " (" + listed(set_aside, false) +
+            "). Rule: an excluded reading is drawn and counted and enters no figure; "
+            "mean and s of its target and direction are of the n readings that "
+            "remain (s with n - 1), at least two. The simulated uncertainty is left out.");
+    remark_on_number_of_readings(certificate, remarks);
+}
+
+void remark_on_preflight(const RunRevisions& revisions, std::vector<std::string>& remarks) {
+    for (const PreflightRecord& check : revisions.preflight)
+        if (!check.passed)
+            remarks.push_back("Armed although the pre-flight check \"" + check.name +
+                              "\" failed: " + check.verdict +
+                              " Reason given: " + check.override_reason + ".");
+}
+
 void fill_environment(Certificate& certificate) {
     const RunRecord& run = certificate.run;
-    const MonotonicTime origin = run.points.front().window_begin;
+    const MonotonicTime origin =
+        std::ranges::min_element(run.points, {}, &PointRecord::window_begin)->window_begin;
     for (const ChannelRecord& channel : run.channels) {
         if (!is_environment(channel)) continue;
         const auto readings = readings_of(run, channel.id);
@@ -149,11 +217,16 @@ private:
 } // namespace
 
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256) {
+    return make_certificate(std::move(run), {}, std::move(run_file_sha256));
+}
+
+Result<Certificate>
+make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256) {
     if (!run.complete)
         return fail(Fault::incomplete_run,
                     "the run was not closed as complete" +
                         (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
-    AXISCAL_TRY(Compensated compensated, compensate_to_20C(run));
+    AXISCAL_TRY(Compensated compensated, compensate_to_20C(run, revisions));
     PositioningResult result = evaluate_positioning(compensated.deviations);
     Certificate certificate{std::move(run),
                             std::move(result),
@@ -169,13 +242,18 @@ Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256)
                             {},
                             true,
                             {},
-                            {}};
+                            {},
+                            std::move(revisions),
+                            std::move(compensated.set_aside)};
     fill_environment(certificate);
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
+    remark_on_revisions(certificate, certificate.remarks);
+    remark_on_preflight(certificate.revisions, certificate.remarks);
     certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor);
-    simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
-                 certificate.result);
+    if (excluded_readings(certificate.set_aside) == 0) // the simulation draws n of each
+        simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
+                     certificate.result);
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);

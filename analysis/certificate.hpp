@@ -4,6 +4,7 @@
 
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 #include "analysis/thermal_compensation.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
@@ -46,12 +47,16 @@ struct Certificate {
     bool preliminary = true; ///< `uncertainty.missing` is not empty: printed on each page
     std::vector<std::string> remarks;
     RunUncertainty uncertainty;
+    RunRevisions revisions;
+    std::vector<SetAside> set_aside; ///< drawn, listed and counted; in no figure
 };
 
 /// The whole road from a closed run to its certificate.
 /// @errors Fault::incomplete_run (also when the run was not closed as complete), and those of
 /// compensate_to_20C().
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256);
+Result<Certificate>
+make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256);
 
 /// Every figure of the result in one fixed order, so that equal figures give equal bytes anywhere:
 /// the text "axiscal.canonical/1"; k and n; A, A_forward, A_backward, E, E_forward, E_backward, M,

@@ -55,7 +55,8 @@ PositionRow make_row(double target,
         row.mean = (row.mean_forward + *row.mean_backward) / 2;
         row.reversal = row.mean_forward - *row.mean_backward;
     }
-    if (forward.size() >= 2) add_spread(row, forward, backward, k);
+    const bool repeated = forward.size() >= 2 && (backward == nullptr || backward->size() >= 2);
+    if (repeated) add_spread(row, forward, backward, k);
     return row;
 }
 
@@ -123,6 +124,18 @@ std::map<std::string, std::string> reasons_of_absence(bool bidirectional, int ap
     return reasons;
 }
 
+/// Fewest and most readings of a target and direction: they differ where some were excluded. Each
+/// mean and each s is then of the n_ij readings that remain.
+std::pair<std::size_t, std::size_t> numbers_of_readings(const RunAt20C& run) {
+    std::size_t fewest = run.forward().front().size(), most = fewest;
+    for (const auto* side : {&run.forward(), &run.backward()})
+        for (const auto& row : *side) {
+            fewest = std::min(fewest, row.size());
+            most = std::max(most, row.size());
+        }
+    return {fewest, most};
+}
+
 } // namespace
 
 PositioningResult
@@ -133,14 +146,15 @@ evaluate_positioning(const RunAt20C& run, std::string standard, double cover_fac
     result.unit = run.unit();
     result.provenance = run.provenance();
     result.cover_factor = cover_factor;
-    result.approaches = static_cast<int>(run.forward().front().size());
+    const auto [fewest, most] = numbers_of_readings(run);
+    result.approaches = static_cast<int>(most);
     for (std::size_t i = 0; i < run.targets().size(); ++i)
         result.positions.push_back(make_row(run.targets()[i], run.forward()[i],
                                             bidirectional ? &run.backward()[i] : nullptr,
                                             cover_factor));
     evaluate_means(result.positions, result.parameters);
-    if (result.approaches >= 2) evaluate_spread(result.positions, cover_factor, result.parameters);
-    result.not_evaluated = reasons_of_absence(bidirectional, result.approaches);
+    if (fewest >= 2) evaluate_spread(result.positions, cover_factor, result.parameters);
+    result.not_evaluated = reasons_of_absence(bidirectional, static_cast<int>(fewest));
     return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -187,6 +188,41 @@ void place(DeviationTable& table, const PlannedPoint& planned, double deviation)
         [static_cast<std::size_t>(planned.approach)] = deviation;
 }
 
+std::vector<std::vector<double>>& side_of(DeviationTable& table, Direction direction) {
+    return direction == Direction::positive ? table.forward : table.backward;
+}
+
+/// Why a reading was replaced: the first retake after it that names its point.
+std::string reason_of_retake(const RunRevisions& revisions, const PointRecord& point) {
+    for (const RetakeRecord& retake : revisions.retakes)
+        for (const RetakePoint& wanted : retake.points)
+            if (wanted.planned_step == point.planned.step && wanted.step > point.step)
+                return retake.reason;
+    return "taken again";
+}
+
+const ExclusionRecord* exclusion_of(const RunRevisions& revisions, const PointRecord& point) {
+    const auto found = std::ranges::find(revisions.exclusions, point.step, &ExclusionRecord::step);
+    return found == revisions.exclusions.end() ? nullptr : &*found;
+}
+
+/// Takes excluded readings out of their rows, the last approach of a row first.
+Result<void> leave_out(DeviationTable& table, const std::vector<SetAside>& set_aside) {
+    std::vector<PlannedPoint> excluded;
+    for (const SetAside& reading : set_aside)
+        if (!reading.superseded) excluded.push_back(reading.planned);
+    std::ranges::sort(excluded, std::greater{}, &PlannedPoint::approach);
+    for (const PlannedPoint& point : excluded) {
+        auto& row = side_of(table, point.direction)[static_cast<std::size_t>(point.target_index)];
+        row.erase(row.begin() + point.approach);
+        if (row.empty())
+            return fail(Fault::incomplete_run,
+                        "every reading of target " + std::to_string(point.target_index + 1) + ", " +
+                            std::string{name_of(point.direction)} + " direction, is excluded");
+    }
+    return {};
+}
+
 } // namespace
 
 Length displacement_in_air(Length vacuum_displacement,
@@ -212,20 +248,38 @@ Length displacement_at_20C(Length displacement,
 }
 
 Result<Compensated> compensate_to_20C(const RunRecord& run) {
+    return compensate_to_20C(run, {});
+}
+
+Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& revisions) {
     AXISCAL_TRY(const DatumRecord* datum, checked_datum_of(run));
     Compensation compensation{run, *datum};
     if (auto tied = compensation.tie_datum(); !tied) return tl::unexpected(tied.error());
     CompensationSummary summary = summary_of_setup(run);
     DeviationTable table = empty_table_of(run.plan);
+    std::vector<SetAside> set_aside;
     for (const PointRecord& point : run.points) {
         AXISCAL_TRY(const CompensatedPoint compensated, compensation.apply(point));
         const auto index = static_cast<std::size_t>(point.planned.target_index);
         add_to_summary(summary, compensated, run.plan.targets[index]);
         place(table, point.planned, summary.after.back());
+        if (const ExclusionRecord* exclusion = exclusion_of(revisions, point))
+            set_aside.push_back(
+                {point.planned, point.step, summary.after.back(), false, exclusion->reason});
     }
+    for (const PointRecord& point : revisions.superseded) {
+        AXISCAL_TRY(const CompensatedPoint compensated, compensation.apply(point));
+        const auto index = static_cast<std::size_t>(point.planned.target_index);
+        set_aside.push_back({point.planned, point.step,
+                             (compensated.at_20C - run.plan.targets[index]).in(mm), true,
+                             reason_of_retake(revisions, point)});
+    }
+    std::ranges::stable_sort(set_aside, {},
+                             [](const SetAside& reading) { return reading.planned.step; });
+    AXISCAL_CHECK(leave_out(table, set_aside));
     summary.remarks = compensation.remarks();
     return Compensated{RunAt20CMaker::make(std::move(table), "compensated_to_20C"),
-                       std::move(summary)};
+                       std::move(summary), std::move(set_aside)};
 }
 
 } // namespace axiscal

@@ -7,6 +7,7 @@
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ Length displacement_at_20C(Length displacement,
 struct Compensated {
     RunAt20C deviations; ///< mm
     CompensationSummary summary;
+    std::vector<SetAside> set_aside; ///< superseded and excluded readings, by plan order
 };
 
 /// Position = datum coordinate + sign * displacement at 20 degC since the datum; deviation =
@@ -65,5 +67,9 @@ struct Compensated {
 /// channel; bad_run_file for values that cannot be; refused for a rotary axis, which has no
 /// length to compensate.
 Result<Compensated> compensate_to_20C(const RunRecord& run);
+/// Excluded readings enter no row: rows then hold the readings that remain, in the order of their
+/// approaches. @errors also Fault::incomplete_run when no reading of a target and direction
+/// remains.
+Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& revisions);
 
 } // namespace axiscal

@@ -128,6 +128,7 @@ StationConfig read_station(SettingsDocument& document) {
     read_circular(root, config);
     read_cycle(root.table("cycle"), units, config.cycle);
     read_capture(root.table("capture"), units, config.cycle, config.capture);
+    config.preflight = read_preflight(root.table("preflight"));
     read_trigger(root.table("trigger"), units, config.cycle, config.trigger);
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));

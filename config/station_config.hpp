@@ -5,6 +5,7 @@
 #include "analysis/run_record.hpp"
 #include "config/address_range.hpp"
 #include "config/instrument_config.hpp"
+#include "config/preflight_config.hpp"
 #include "config/settings.hpp"
 
 #include <optional>
@@ -135,6 +136,7 @@ struct StationConfig {
     std::optional<CircularConfig> circular; ///< absent: no circular test
     CycleConfig cycle;
     CaptureConfig capture;
+    PreflightConfig preflight;
     TriggerConfig trigger;
     ConsoleConfig console;
     PublishConfig publish;

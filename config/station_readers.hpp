@@ -53,6 +53,7 @@ void read_capture(Settings capture,
                   AxisUnits units,
                   const CycleConfig& cycle,
                   CaptureConfig& config);
+PreflightConfig read_preflight(Settings preflight);
 /// After the cycle, whose overrun a dwell trigger must be able to see.
 void read_trigger(Settings trigger,
                   AxisUnits units,

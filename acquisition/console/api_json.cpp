@@ -63,6 +63,9 @@ Json to_json(const RunStatus& run) {
             {"step", run.step},
             {"steps", run.steps},
             {"done", run.done},
+            {"retakes_asked", run.retakes_asked},
+            {"retakes_left", run.retakes_left},
+            {"excluded", run.excluded},
             {"next", std::move(next)},
             {"seconds_left", or_null(run.seconds_left)},
             {"last_deviation_um", or_null(run.last_deviation_um)},
@@ -104,6 +107,26 @@ nlohmann::ordered_json to_json(const InstrumentView& view) {
             {"fault", fault_name(view.last_fault)},
             {"note", view.last_note},
             {"repeats", view.repeats}};
+}
+
+nlohmann::ordered_json to_json(const std::vector<PreflightRecord>& checks) {
+    Json list = Json::array();
+    for (const PreflightRecord& check : checks)
+        list.push_back({{"name", check.name},
+                        {"passed", check.passed},
+                        {"verdict", check.verdict},
+                        {"override", check.override_reason}});
+    return list;
+}
+
+nlohmann::ordered_json to_json(const RetakeAnswer& answer) {
+    Json points = Json::array();
+    for (const RetakeAnswer::Point& point : answer.points)
+        points.push_back({{"step", point.step},
+                          {"target", point.planned.target_index},
+                          {"direction", name_of(point.planned.direction)},
+                          {"approach", point.planned.approach}});
+    return {{"points", std::move(points)}, {"last_request", answer.last_request}};
 }
 
 nlohmann::ordered_json to_json(const Error& error) {

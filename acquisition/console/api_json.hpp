@@ -15,6 +15,11 @@ nlohmann::ordered_json to_json(const Error& error);
 
 /// @errors Fault::bad_request naming the field: unknown keys and wrong types are refused.
 Result<ArmRequest> arm_request_from_json(const std::string& body);
+nlohmann::ordered_json to_json(const std::vector<PreflightRecord>& checks);
+nlohmann::ordered_json to_json(const RetakeAnswer& answer);
+/// {"target":3,"direction":"positive","cycle":2,"reason":"..."}; target and cycle count from 0, as
+/// everywhere in this interface. @errors Fault::bad_request naming the field.
+Result<RevisionRequest> revision_request_from_json(const std::string& body);
 /// The optional {"reason": "..."} of an abort.
 Result<std::string> abort_reason_from_json(const std::string& body);
 

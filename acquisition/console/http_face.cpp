@@ -76,6 +76,15 @@ Response answer(const Request& request, const Error& error) {
     return answer(request, status_of(error.fault), to_json(error));
 }
 
+/// Arming met checks that do not hold: all of them at once.
+Response answer_with_checks(const Request& request,
+                            const Error& error,
+                            const Result<std::vector<PreflightRecord>>& checks) {
+    auto body = to_json(error);
+    if (checks) body["checks"] = to_json(*checks);
+    return answer(request, http::status::conflict, body);
+}
+
 nlohmann::ordered_json sentence(unsigned status, const std::string& text) {
     return {{"error",
              {{"fault", status == 404 || status == 405 ? "not_found" : "refused"},
@@ -105,6 +114,7 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
     template <class Socket> Task<void> serve(Socket socket, Door door);
     Task<Response> respond(Request request, Door door);
     Task<Response> change(Request request);
+    Task<Response> revise(Request request);
 
     Scheduler& scheduler;
     StationFace& station;
@@ -219,9 +229,16 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
         co_return answer(request, http::status::ok, to_json(status));
     if (request.target() == "/v1/instruments")
         co_return answer(request, http::status::ok, to_json(status)["instruments"]);
+    if (request.target() == "/v1/preflight") {
+        const auto checks = station.preflight({});
+        if (!checks) co_return answer(request, checks.error());
+        co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
+    }
     co_return answer(request, http::status::not_found,
-                     sentence(404, "known are GET /v1/status, GET /v1/instruments, POST /v1/run, "
-                                   "POST /v1/run/trigger, POST /v1/run/abort"));
+                     sentence(404, "known are GET /v1/status, GET /v1/instruments, GET "
+                                   "/v1/preflight, POST /v1/run, POST /v1/run/trigger, POST "
+                                   "/v1/run/abort, POST /v1/run/retake, POST /v1/run/exclude, POST "
+                                   "/v1/preflight"));
 }
 
 Task<Response> HttpFace::Impl::change(Request request) {
@@ -230,10 +247,22 @@ Task<Response> HttpFace::Impl::change(Request request) {
         auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
         ArmRequest order = *std::move(wanted);
-        const auto run = co_await station.arm(std::move(order));
+        ArmRequest asked = order;
+        const auto run = co_await station.arm(std::move(asked));
+        if (!run && run.error().field == "preflight")
+            co_return answer_with_checks(request, run.error(), station.preflight(order));
         if (!run) co_return answer(request, run.error());
         co_return answer(request, http::status::created, {{"run", *run}});
     }
+    if (target == "/v1/preflight") {
+        const auto wanted = arm_request_from_json(request.body());
+        if (!wanted) co_return answer(request, wanted.error());
+        const auto checks = station.preflight(*wanted);
+        if (!checks) co_return answer(request, checks.error());
+        co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
+    }
+    if (target == "/v1/run/retake" || target == "/v1/run/exclude")
+        co_return co_await revise(std::move(request));
     if (target == "/v1/run/trigger") {
         const auto done = station.trigger();
         if (!done) co_return answer(request, done.error());
@@ -247,7 +276,22 @@ Task<Response> HttpFace::Impl::change(Request request) {
         co_return answer(request, http::status::ok, {{"run", "aborted"}});
     }
     co_return answer(request, http::status::not_found,
-                     sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/abort"));
+                     sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/abort, "
+                                   "/v1/run/retake, /v1/run/exclude, /v1/preflight"));
+}
+
+Task<Response> HttpFace::Impl::revise(Request request) {
+    auto wanted = revision_request_from_json(request.body());
+    if (!wanted) co_return answer(request, wanted.error());
+    RevisionRequest order = *std::move(wanted);
+    if (request.target() == "/v1/run/retake") {
+        const auto retake = co_await station.retake(std::move(order));
+        if (!retake) co_return answer(request, retake.error());
+        co_return answer(request, http::status::ok, to_json(*retake));
+    }
+    const auto excluded = co_await station.exclude(std::move(order));
+    if (!excluded) co_return answer(request, excluded.error());
+    co_return answer(request, http::status::ok, {{"excluded", *excluded}});
 }
 
 HttpFace::HttpFace(Scheduler& scheduler,

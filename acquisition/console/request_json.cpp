@@ -38,6 +38,17 @@ Result<void> read_statements(const Json& given, ArmRequest& request) {
     return {};
 }
 
+Result<void> read_overrides(const Json& given, ArmRequest& request) {
+    if (!given.is_object())
+        return refuse(Fault::bad_request, "overrides", "must be an object of reasons by check");
+    for (const auto& [name, reason] : given.items()) {
+        if (!reason.is_string())
+            return refuse(Fault::bad_request, "overrides." + name, "must be a text");
+        request.overrides[name] = reason.get<std::string>();
+    }
+    return {};
+}
+
 Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
     if (key == "datum_mm" && value.is_number())
         return request.datum_mm = value.get<double>(), Result<void>{};
@@ -48,10 +59,12 @@ Result<void> read_arm_field(const std::string& key, const Json& value, ArmReques
     if (key == "datum_by_cnc" && value.is_boolean())
         return request.datum_by_cnc = value.get<bool>(), Result<void>{};
     if (key == "statements") return read_statements(value, request);
+    if (key == "overrides") return read_overrides(value, request);
     const bool known = key == "datum_mm" || key == "pass" || key == "seed" || key == "datum_by_cnc";
     return refuse(Fault::bad_request, key,
                   known ? "has the wrong type"
-                        : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements");
+                        : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
+                          "overrides");
 }
 
 Result<Json> parse_object(const std::string& body) {
@@ -68,6 +81,42 @@ Result<ArmRequest> arm_request_from_json(const std::string& body) {
     ArmRequest request;
     for (const auto& [key, value] : parsed.items())
         AXISCAL_CHECK(read_arm_field(key, value, request));
+    return request;
+}
+
+namespace {
+
+Result<void>
+read_revision_field(const std::string& key, const Json& value, RevisionRequest& request) {
+    constexpr std::int64_t most = 100'000;
+    const bool index = value.is_number_integer() && value.get<std::int64_t>() >= 0 &&
+                       value.get<std::int64_t>() <= most;
+    if (key == "target" && index)
+        return request.selection.target = value.get<int>(), Result<void>{};
+    if (key == "cycle" && index)
+        return request.selection.approach = value.get<int>(), Result<void>{};
+    if (key == "direction" && (value == "positive" || value == "negative")) {
+        request.selection.direction =
+            value == "positive" ? Direction::positive : Direction::negative;
+        return {};
+    }
+    if (key == "reason" && value.is_string())
+        return request.reason = value.get<std::string>(), Result<void>{};
+    const bool known = key == "target" || key == "cycle" || key == "direction" || key == "reason";
+    return refuse(Fault::bad_request, key,
+                  known ? "has the wrong type or range"
+                        : "is unknown; known are target, direction, cycle, reason");
+}
+
+} // namespace
+
+Result<RevisionRequest> revision_request_from_json(const std::string& body) {
+    AXISCAL_TRY(const Json parsed, parse_object(body));
+    RevisionRequest request;
+    for (const auto& [key, value] : parsed.items())
+        AXISCAL_CHECK(read_revision_field(key, value, request));
+    if (request.reason.find_first_not_of(" \t\r\n") == std::string::npos)
+        return refuse(Fault::bad_request, "reason", "is missing: it is printed on the certificate");
     return request;
 }
 

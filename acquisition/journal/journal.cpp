@@ -112,8 +112,12 @@ struct Journal::Worker {
     }
 
     /// What could not be written waits for a disk. If it is there after all it stands there twice.
+    /// An order of a person does not wait: who gave it is told that it was not kept.
     void put_back(RunBatch notes) {
         const std::scoped_lock lock{mutex};
+        notes.preflight.insert(notes.preflight.end(), noted.preflight.begin(),
+                               noted.preflight.end());
+        noted.preflight = std::move(notes.preflight);
         notes.events.insert(notes.events.end(), noted.events.begin(), noted.events.end());
         notes.environment.insert(notes.environment.end(), noted.environment.begin(),
                                  noted.environment.end());
@@ -137,6 +141,9 @@ struct Journal::Worker {
         whole.circular = notes.circular;
         whole.streams = notes.streams;
         whole.chunks = notes.chunks;
+        whole.preflight = notes.preflight;
+        whole.retakes = notes.retakes;
+        whole.exclusions = notes.exclusions;
         auto written = write(whole);
         if (!written) put_back(std::move(notes));
         return written;
@@ -261,6 +268,20 @@ Task<Result<void>> Journal::reopen(std::string path) {
     co_return co_await perform<Worker, void>(worker, std::move(work));
 }
 
+Task<Result<void>> Journal::reopen_closed(std::string path,
+                                          std::optional<RetakeRecord> retake,
+                                          std::vector<ExclusionRecord> exclusions) {
+    Worker* worker = worker_.get();
+    auto first = std::make_shared<RunBatch>();
+    if (retake) first->retakes.push_back(*std::move(retake));
+    first->exclusions = std::move(exclusions);
+    std::function<Result<void>()> work = [worker, path, first]() -> Result<void> {
+        AXISCAL_CHECK(worker->may_open());
+        return worker->take(RunFileWriter::reopen_closed(path, *first));
+    };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
+}
+
 Task<Result<JournalReceipt>> Journal::commit(RunBatch batch, std::uint16_t sequence, int step) {
     Worker* worker = worker_.get();
     auto shared = std::make_shared<RunBatch>(std::move(batch));
@@ -360,6 +381,20 @@ bool Journal::note(StreamChunk chunk) {
         noted.chunks.push_back(std::move(chunk));
         return true;
     });
+}
+
+void Journal::note(std::vector<PreflightRecord> checks) {
+    worker_->queue_note(worker_->noted.preflight, std::move(checks));
+}
+
+void Journal::note(RetakeRecord retake) {
+    std::vector<RetakeRecord> one_retake;
+    one_retake.push_back(std::move(retake));
+    worker_->queue_note(worker_->noted.retakes, std::move(one_retake));
+}
+
+void Journal::note(std::vector<ExclusionRecord> exclusions) {
+    worker_->queue_note(worker_->noted.exclusions, std::move(exclusions));
 }
 
 Task<Result<void>> Journal::flush() {

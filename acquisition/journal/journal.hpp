@@ -4,6 +4,7 @@
 #include "acquisition/journal/journal_clock.hpp"
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 #include "analysis/stream_record.hpp"
 #include "drivers/journal_receipt.hpp"
 #include "drivers/scheduler.hpp"
@@ -45,6 +46,11 @@ public:
     Task<Result<void>> open(std::string path, RunRecord header);
     /// Goes on with a run file that was left open. @errors as RunFileWriter::reopen.
     Task<Result<void>> reopen(std::string path);
+    /// Goes on with a closed run: `retake` or `exclusions` are its first new rows, on disk when
+    /// this returns. @errors as RunFileWriter::reopen_closed.
+    Task<Result<void>> reopen_closed(std::string path,
+                                     std::optional<RetakeRecord> retake,
+                                     std::vector<ExclusionRecord> exclusions);
 
     /// Durable, with everything noted before, when the receipt comes.
     /// @errors Fault::not_durable; Fault::no_run_armed when no run is open.
@@ -71,6 +77,9 @@ public:
     /// False, and not queued, while `most_chunks` wait for the disk: the caller counts it.
     bool note(StreamChunk chunk);
     static constexpr std::size_t most_chunks = 64; ///< 64 s of 1 kHz; 16 MB at most
+    void note(std::vector<PreflightRecord> checks);
+    void note(RetakeRecord retake);
+    void note(std::vector<ExclusionRecord> exclusions);
     /// Makes everything noted durable now.
     Task<Result<void>> flush();
 

@@ -64,6 +64,10 @@ constexpr std::array tables{
     Table{"stream_block",
           "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
           "iiiiitiirrb", 3},
+    Table{"preflight", "name, passed, verdict, override_reason", "titt", 3},
+    Table{"retake", "number, at_ns, utc_ns, reason", "iiit", 3},
+    Table{"retake_point", "step, planned_step", "ii", 3},
+    Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit", 3},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
 
@@ -485,7 +489,44 @@ void read_stream_block(RecordedRun& run, RowReader& in) {
     run.blocks.push_back(std::move(block));
 }
 
-void read_closing(RunRecord& run, RowReader& in) {
+void read_preflight(RecordedRun& run, RowReader& in) {
+    PreflightRecord check;
+    check.name = in.text();
+    check.passed = in.flag();
+    check.verdict = in.text();
+    check.override_reason = in.text();
+    run.revisions.preflight.push_back(std::move(check));
+}
+
+void read_retake(RecordedRun& run, RowReader& in) {
+    RetakeRecord retake;
+    retake.number = in.number<int>();
+    retake.at = in.time();
+    retake.utc_ns = in.integer();
+    retake.reason = in.text();
+    run.revisions.retakes.push_back(std::move(retake));
+}
+
+void read_retake_point(RecordedRun& run, RowReader& in) {
+    RetakePoint point;
+    point.step = in.number<int>();
+    point.planned_step = in.number<int>();
+    auto& retakes = run.revisions.retakes;
+    if (retakes.empty()) retakes.emplace_back(); // the writer checks each row by itself
+    retakes.back().points.push_back(point);
+}
+
+void read_exclusion(RecordedRun& run, RowReader& in) {
+    ExclusionRecord exclusion;
+    exclusion.step = in.number<int>();
+    exclusion.at = in.time();
+    exclusion.utc_ns = in.integer();
+    exclusion.reason = in.text();
+    run.revisions.exclusions.push_back(std::move(exclusion));
+}
+
+void read_closing(RecordedRun& run, RowReader& in) {
+    ++run.revisions.closings;
     run.complete = in.flag();
     run.closing_reason = in.text();
     run.closed = read_tie(in);
@@ -518,7 +559,11 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_circular_uncertainty,
     read_stream,
     read_stream_block,
-    measured<read_closing>,
+    read_preflight,
+    read_retake,
+    read_retake_point,
+    read_exclusion,
+    read_closing,
 };
 
 } // namespace
@@ -649,6 +694,30 @@ ChainedRow row_of(const StreamBlock& block) {
     return chained("stream_block",
                    {whole(stream), whole(index), whole(first_count), whole(samples), whole(missing),
                     before, nanoseconds(begin), nanoseconds(end), low, high, Blob{packed}});
+}
+
+ChainedRow row_of(const PreflightRecord& check) {
+    const auto& [name, passed, verdict, override_reason] = check;
+    return chained("preflight", {name, whole(passed), verdict, override_reason});
+}
+
+ChainedRow row_of(const ExclusionRecord& exclusion) {
+    const auto& [step, at, utc_ns, reason] = exclusion;
+    return chained("exclusion", {whole(step), nanoseconds(at), utc_ns, reason});
+}
+
+std::vector<ChainedRow> rows_of(const RetakeRecord& retake) {
+    const auto& [number, at, utc_ns, reason, points] = retake;
+    std::vector<ChainedRow> rows;
+    rows.reserve(points.size() + 1);
+    rows.push_back(chained("retake", {whole(number), nanoseconds(at), utc_ns, reason}));
+    for (const auto& [step, planned_step] : points)
+        rows.push_back(chained("retake_point", {whole(step), whole(planned_step)}));
+    return rows;
+}
+
+bool reopens(const Table& table) {
+    return table.name == "retake" || table.name == "exclusion";
 }
 
 Result<void> place_row(RecordedRun& run, const Table& table, const Row& row) {

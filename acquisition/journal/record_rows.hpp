@@ -5,6 +5,7 @@
 #include "acquisition/journal/row.hpp"
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 #include "analysis/stream_record.hpp"
 
 #include <span>
@@ -23,6 +24,7 @@ struct RecordedRun : RunRecord {
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
+    RunRevisions revisions;
 };
 
 struct ChainedRow {
@@ -45,6 +47,12 @@ ChainedRow row_of(const Closing& closing);
 std::vector<ChainedRow> rows_of(const CircularSetup& setup);
 ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
+ChainedRow row_of(const PreflightRecord& check);
+ChainedRow row_of(const ExclusionRecord& exclusion);
+/// The order, then its points.
+std::vector<ChainedRow> rows_of(const RetakeRecord& retake);
+/// A row that may stand after a closing row: the run is open again from there on.
+bool reopens(const Table& table);
 
 /// Puts one checked row into its place in `run`.
 /// @errors Fault::bad_run_file naming table, column and value.

@@ -5,8 +5,10 @@
 #include "acquisition/journal/statement.hpp"
 #include "acquisition/journal/stream_packing.hpp"
 
+#include <algorithm>
 #include <fcntl.h>
 #include <filesystem>
+#include <iterator>
 #include <unistd.h>
 
 namespace axiscal {
@@ -66,8 +68,8 @@ Error as_not_durable(Error error) {
 } // namespace
 
 bool RunBatch::empty() const {
-    return environment.empty() && events.empty() && !datum && !point && !circular &&
-           streams.empty() && chunks.empty();
+    return environment.empty() && events.empty() && preflight.empty() && retakes.empty() &&
+           exclusions.empty() && !datum && !point && !circular && streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
@@ -112,6 +114,24 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRe
 Result<RunFileWriter> RunFileWriter::reopen(const std::string& path) {
     AXISCAL_TRY(const auto contents, read_run_file_contents(path));
     if (contents.closed) return fail(Fault::refused, path + " is closed: nothing can be added");
+    return go_on(path, contents);
+}
+
+Result<RunFileWriter> RunFileWriter::reopen_closed(const std::string& path, const RunBatch& first) {
+    if ((first.retakes.empty() && first.exclusions.empty()) || !first.preflight.empty())
+        return fail(Fault::internal, path + " may be reopened by a retake or an exclusion only");
+    AXISCAL_TRY(const auto contents, read_run_file_contents(path));
+    if (!contents.closed) return fail(Fault::refused, path + " is open already");
+    if (contents.format < 3)
+        return fail(Fault::refused, path + " has format " + std::to_string(contents.format) +
+                                        ", which ends with its closing: arm a new run");
+    AXISCAL_TRY(auto writer, go_on(path, contents));
+    AXISCAL_CHECK(writer.write(first));
+    return writer;
+}
+
+Result<RunFileWriter> RunFileWriter::go_on(const std::string& path,
+                                           const RunFileContents& contents) {
     AXISCAL_TRY(auto writer, attach(path));
     AXISCAL_TRY(const auto mode, writer.database_->value_of("PRAGMA journal_mode=WAL"));
     if (mode != Value{std::string{"wal"}})
@@ -121,6 +141,7 @@ Result<RunFileWriter> RunFileWriter::reopen(const std::string& path) {
     AXISCAL_CHECK(writer.database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"));
     writer.links_ = contents.links;
     writer.head_ = contents.chain_head;
+    writer.format_ = contents.format;
     return writer;
 }
 
@@ -161,7 +182,19 @@ Result<void> RunFileWriter::keep(Result<void> outcome) {
 }
 
 Result<void> RunFileWriter::write(const RunBatch& batch) {
-    std::vector<ChainedRow> rows = circular_rows(batch);
+    const bool decided =
+        !batch.preflight.empty() || !batch.retakes.empty() || !batch.exclusions.empty();
+    if (decided && format_ < 3)
+        return fail(Fault::refused, path_ + " has format " + std::to_string(format_) +
+                                        ", which keeps no retakes, exclusions or checks");
+    std::vector<ChainedRow> rows;
+    for (const auto& check : batch.preflight)
+        rows.push_back(row_of(check));
+    for (const auto& retake : batch.retakes)
+        std::ranges::move(rows_of(retake), std::back_inserter(rows));
+    for (const auto& exclusion : batch.exclusions)
+        rows.push_back(row_of(exclusion));
+    std::ranges::move(circular_rows(batch), std::back_inserter(rows));
     for (const auto& reading : batch.environment)
         rows.push_back(row_of(reading));
     for (const auto& event : batch.events)
@@ -265,8 +298,8 @@ Result<void> tidy_run_files(const std::string& folder) {
                                std::filesystem::exists(path.string() + "-journal", error);
         if (!side_file) continue;
         AXISCAL_TRY(auto database, Database::open(path, Database::Access::read_write, Fault::io));
-        AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
-        if (closed == 0) continue;
+        AXISCAL_TRY(const bool closed, is_run_closed(*database));
+        if (!closed) continue;
         AXISCAL_CHECK(fold_into_one_file(*database, path));
         database.reset();
         AXISCAL_CHECK(sync_with_folder(path));

@@ -5,6 +5,7 @@
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/record_rows.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 namespace axiscal {
 
 class Database;
+struct RunFileContents;
 
 inline constexpr std::string_view run_file_ending = ".axiscal";
 /// RunPlan::pass of a circular test, whose plan has no targets.
@@ -24,6 +26,9 @@ inline constexpr std::string_view circular_pass = "circular";
 struct RunBatch {
     std::vector<EnvironmentReading> environment;
     std::vector<EventRecord> events;
+    std::vector<PreflightRecord> preflight;
+    std::vector<RetakeRecord> retakes;
+    std::vector<ExclusionRecord> exclusions;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
     std::optional<CircularSetup> circular; ///< once, before the first block
@@ -45,13 +50,20 @@ public:
     /// Goes on with an open file; all that it holds is verified and synced first.
     /// @errors Fault::refused when the run is closed; Fault::bad_run_file.
     static Result<RunFileWriter> reopen(const std::string& path);
+    /// Goes on with a closed file, for points that are taken again or readings that are left out;
+    /// `first` must hold one of these, and no checks; it is written at once.
+    /// @errors Fault::refused for an open file, or one of a format before 3; Fault::internal for
+    /// another `first`.
+    static Result<RunFileWriter> reopen_closed(const std::string& path, const RunBatch& first);
     RunFileWriter(const RunFileWriter&) = delete;
     RunFileWriter& operator=(const RunFileWriter&) = delete;
     RunFileWriter(RunFileWriter&&) noexcept;
     RunFileWriter& operator=(RunFileWriter&&) noexcept;
     ~RunFileWriter(); ///< leaves the run open, to be resumed
 
-    /// One transaction, in the order circular, streams, chunks, environment, events, datum, point.
+    /// One transaction, in the order preflight, retakes, exclusions, circular, streams, chunks,
+    /// environment, events, datum, point. @errors Fault::refused, unwritten, for the first three in
+    /// a file of a format before 3.
     Result<void> write(const RunBatch& batch);
     Result<void> append_point(PointRecord point);
     Result<void> append_datum(DatumRecord datum);
@@ -73,6 +85,7 @@ public:
 private:
     RunFileWriter(std::string path, std::unique_ptr<Database> database);
     static Result<RunFileWriter> attach(const std::string& path);
+    static Result<RunFileWriter> go_on(const std::string& path, const RunFileContents& contents);
     Result<void> append(const ChainedRow& row);
     /// `before`: SQL of the same transaction that comes first.
     Result<void> transact(const std::vector<ChainedRow>& rows, const std::string& before = {});
@@ -82,6 +95,7 @@ private:
     std::unique_ptr<Database> database_;
     std::int64_t links_ = 0; ///< in the chain so far
     Digest head_{};          ///< hash of the last link; zeros before the first
+    int format_ = 0;         ///< set by create and reopen
     std::optional<Error> broken_;
 };
 
@@ -92,7 +106,9 @@ struct StoredResult {
 
 /// Everything in a run file.
 struct RunFileContents {
-    RunRecord run;
+    RunRecord run; ///< of points that were taken again, the last ones
+    RunRevisions revisions;
+    int format = 0, results = 0;           ///< results stored so far
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
@@ -123,16 +139,22 @@ struct LastRequest {
 /// Empty when a person did everything. @errors Fault::refused while the run is open.
 Result<std::optional<LastRequest>> last_request_of_closed(const std::string& path);
 
+/// The last row is a closing row: nothing reopened the run since.
+Result<bool> is_run_closed(const Database& database);
+
 /// One line of a list of runs, read quickly: the chain is not verified.
 struct RunSummary {
     bool circular = false; ///< a circular test
     std::string path, run_id, machine, axis, closing_reason;
     std::int64_t opened_utc_ns = 0;
-    int points = 0, planned = 0;
+    int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;
-    bool evaluated = false; ///< a result is stored
+    bool evaluated = false; ///< a result is stored since the last closing
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
+/// Folder of its certificate. A run that was added to after its first one gets another: nothing
+/// that was issued is replaced.
+std::string certificate_name(const RunSummary& run);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
 std::vector<RunSummary> list_run_files(const std::string& folder);
 /// Paths of those that are still open, to be resumed or closed.

@@ -147,7 +147,8 @@ Result<void> take_link(RunFileContents& into,
     const std::string name = "link " + std::to_string(into.links + 1);
     if (at.link != into.links + 1)
         return bad(path, "the row of " + name + " is missing: the file was changed");
-    if (into.closed) return bad(path, name + " stands after the end of the run");
+    if (into.closed && !reopens(*at.table))
+        return bad(path, name + " stands after the end of the run");
     const Digest hash = sha256_link(into.chain_head, canonical_bytes(*at.table, at.row));
     if (!std::ranges::equal(hash, at.hash, {}, {},
                             [](char byte) { return static_cast<std::uint8_t>(byte); }))
@@ -169,8 +170,36 @@ Result<void> check_header(const Database& database, const std::string& path) {
     return {};
 }
 
+bool was_ordered(const RunRevisions& revisions, const PointRecord& point) {
+    return std::ranges::any_of(revisions.retakes, [&](const RetakeRecord& retake) {
+        return std::ranges::any_of(retake.points, [&](const RetakePoint& wanted) {
+            return wanted.step == point.step && wanted.planned_step == point.planned.step;
+        });
+    });
+}
+
+/// Of readings of the same planned point the last one counts, if it was ordered.
+Result<void> set_superseded_aside(RecordedRun& run, const std::string& path) {
+    std::ranges::stable_sort(run.points, [](const PointRecord& a, const PointRecord& b) {
+        return std::pair{a.planned.step, a.step} < std::pair{b.planned.step, b.step};
+    });
+    std::vector<PointRecord> last;
+    last.reserve(run.points.size());
+    for (PointRecord& point : run.points) {
+        if (point.step != point.planned.step && !was_ordered(run.revisions, point))
+            return bad(path, "point " + std::to_string(point.step) +
+                                 " stands for another planned point, and no retake asked for it");
+        if (!last.empty() && last.back().planned.step == point.planned.step) {
+            run.revisions.superseded.push_back(std::move(last.back()));
+            last.pop_back();
+        }
+        last.push_back(std::move(point));
+    }
+    run.points = std::move(last);
+    return {};
+}
+
 void put_in_order(RunRecord& run) {
-    std::ranges::stable_sort(run.points, {}, &PointRecord::step);
     std::ranges::stable_sort(run.environment, {}, &EnvironmentReading::at);
 }
 
@@ -189,7 +218,12 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
     }
+    AXISCAL_CHECK(set_superseded_aside(recorded, path));
     put_in_order(recorded);
+    contents.format = format;
+    AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));
+    contents.results = static_cast<int>(results);
+    contents.revisions = std::move(recorded.revisions);
     contents.circular = std::move(recorded.circular);
     contents.streams = std::move(recorded.streams);
     contents.blocks = std::move(recorded.blocks);
@@ -200,6 +234,17 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
 Result<RunRecord> read_run_file(const std::string& path) {
     AXISCAL_TRY(auto contents, read_run_file_contents(path));
     return std::move(contents.run);
+}
+
+Result<bool> is_run_closed(const Database& database) {
+    AXISCAL_TRY(const auto closed, database.integer_of("SELECT max(link) FROM closing"));
+    if (closed == 0) return false;
+    AXISCAL_TRY(const auto format, database.integer_of("PRAGMA user_version"));
+    if (format < 3) return true;
+    AXISCAL_TRY(const auto reopened,
+                database.integer_of("SELECT max(link) FROM (SELECT link FROM retake UNION ALL "
+                                    "SELECT link FROM exclusion)"));
+    return closed > reopened;
 }
 
 Result<StoredResult> read_stored_result(const std::string& path) {
@@ -230,27 +275,31 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(summary.run_id, text_of("SELECT run_id FROM run"));
     AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
-    AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason FROM closing"));
+    const std::string last_closing = " FROM closing ORDER BY link DESC LIMIT 1";
+    AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason" + last_closing));
     AXISCAL_TRY(const std::string pass, text_of("SELECT pass FROM plan"));
     summary.circular = pass == circular_pass;
     AXISCAL_TRY(summary.opened_utc_ns, database->integer_of("SELECT opened_utc_ns FROM run"));
-    AXISCAL_TRY(const auto points, database->integer_of("SELECT count(*) FROM point"));
+    AXISCAL_TRY(const auto points,
+                database->integer_of("SELECT count(DISTINCT planned_step) FROM point"));
     AXISCAL_TRY(const auto planned, database->integer_of("SELECT count(*) FROM plan_point"));
-    AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
-    AXISCAL_TRY(const auto complete, database->integer_of("SELECT complete FROM closing"));
+    AXISCAL_TRY(summary.closed, is_run_closed(*database));
+    AXISCAL_TRY(const auto complete, database->integer_of("SELECT complete" + last_closing));
     summary.points = static_cast<int>(points);
     summary.planned = static_cast<int>(planned);
-    summary.closed = closed != 0;
-    summary.complete = complete != 0;
+    summary.complete = summary.closed && complete != 0;
+    // A run that was opened again is evaluated once more after its last closing.
     AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));
-    summary.evaluated = results != 0;
+    AXISCAL_TRY(const auto closings, database->integer_of("SELECT count(*) FROM closing"));
+    summary.evaluated = results != 0 && results >= closings;
+    summary.closings = static_cast<int>(closings);
     return summary;
 }
 
 Result<std::optional<LastRequest>> last_request_of_closed(const std::string& path) {
     AXISCAL_TRY(const auto database, open_checked(path));
-    AXISCAL_TRY(const auto closed, database->integer_of("SELECT count(*) FROM closing"));
-    if (closed == 0) return fail(Fault::refused, path + " is still open");
+    AXISCAL_TRY(const bool closed, is_run_closed(*database));
+    if (!closed) return fail(Fault::refused, path + " is still open");
     AXISCAL_TRY(const auto rows,
                 rows_of(*database,
                         "SELECT sequence, step, link FROM point UNION ALL "
@@ -263,6 +312,10 @@ Result<std::optional<LastRequest>> last_request_of_closed(const std::string& pat
     if (sequence == nullptr || step == nullptr) return bad(path, "a request has another type");
     return std::optional{
         LastRequest{static_cast<std::uint16_t>(*sequence), static_cast<int>(*step)}};
+}
+
+std::string certificate_name(const RunSummary& run) {
+    return run.run_id + (run.closings > 1 ? "-r" + std::to_string(run.closings) : "");
 }
 
 std::vector<RunSummary> list_run_files(const std::string& folder) {

@@ -116,7 +116,7 @@ public:
             if (row != kept) added(*row, "bears the number of another row");
         if (kept->link < 1)
             added(*kept, "bears a number that no row has");
-        else if (report_.closed)
+        else if (report_.closed && !reopens(*kept->table))
             added(*kept, "stands after the end of the run");
         else
             follow(*kept);
@@ -179,6 +179,7 @@ private:
         previous_ = StoredRow{row.table, row.link, {row.row.begin(), row.row.begin() + 1}, {}, {}};
         if (row.table->since <= 1 && row.table->name == "datum") ran_ = true;
         if (row.table->name == "event" || row.table->name == "point") ran_ = true;
+        if (reopens(*row.table)) report_.closed = report_.complete = false;
         if (row.table->name != "closing") return;
         report_.closed = true;
         report_.complete = row.row[0] == Value{std::int64_t{1}};

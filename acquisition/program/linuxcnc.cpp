@@ -5,6 +5,7 @@
 #include "acquisition/program/part_program.hpp"
 
 #include <cstdio>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -20,13 +21,14 @@ public:
 
     std::string write() {
         head();
-        std::uint16_t sequence = 0;
+        std::uint16_t sequence = order_.last_request;
+        bool begun = false;
         for (const ProgramMove& move : moves_of(order_.plan)) {
             if (move.point) announce(++sequence == 0 ? ++sequence : sequence, move);
             line("G1 " + coordinate_word(order_.axis, move.coordinate_mm));
             if (move.point)
                 capture(sequence, move);
-            else if (sequence == 0)
+            else if (!std::exchange(begun, true))
                 begin();
         }
         line("(end of cycle)");
@@ -47,17 +49,24 @@ private:
 
     void head() {
         line("(axiscal " + program_id(order_.plan) + ")");
-        line("(first the axis goes to its datum and waits there: run 'axiscal arm' then)");
+        if (order_.retakes)
+            line("(points taken again: the station is armed; requests count on from " +
+                 std::to_string(order_.last_request) + ")");
+        else
+            line("(first the axis goes to its datum and waits there: run 'axiscal arm' then)");
         line("G21 G90 G94 G17 G61 G40 G49 G80");
         line(format("F%.1f", order_.feed.in(mm_per_minute)));
         if (coil()) line("M65 P0");
     }
-    /// Writes 0 and waits until the station shows done = 0: it is armed then.
+    /// Writes 0 and waits until the station shows done = 0: it is armed then. Of points taken
+    /// again: the last durable request, which the station answers by publishing its done once more.
     void begin() {
         if (!handshake()) return dwell(seconds_of(order_.dwell));
-        line("M68 E0 Q0");
+        line("M68 E0 Q" + std::to_string(order_.last_request));
         dwell(comparison_s);
-        wait(coil() ? "P1 L3" : "P0 L3", arming_limit_s, "the station was not armed");
+        wait(coil() ? "P1 L3" : "P0 L3", arming_limit_s,
+             order_.retakes ? "the station's last request is another one"
+                            : "the station was not armed");
     }
     /// Words that the station may check against its plan; all before the sequence number.
     void announce(std::uint16_t sequence, const ProgramMove& move) {

@@ -18,6 +18,10 @@ struct ProgramOrder {
     Duration dwell{};
     TriggerShape shape = TriggerShape::sequence_block;
     Duration answer_limit = std::chrono::seconds{10}; ///< longest wait for `done`
+    /// Points taken again in a run that is armed: the program begins at the last durable request
+    /// instead of 0 and counts on.
+    bool retakes = false;
+    std::uint16_t last_request = 0;
     Duration least_halt{}; ///< dwell trigger: minimum halt + window; a shorter dwell is refused
 };
 
@@ -43,7 +47,8 @@ std::span<const ProgramDialect> program_dialects();
 Result<ProgramDialect> find_dialect(std::string_view name);
 
 /// "seed=42 pass=whole targets=11 n=5 check=1A2B": what ties a program to its plan; the check is
-/// CRC-16/XMODEM over the targets in 0.1 um ("348900;1393570;..."), so that a wrong pair of program and job is seen.
+/// CRC-16/XMODEM over the targets in 0.1 um ("348900;1393570;..."), so that a wrong pair of program
+/// and job is seen.
 std::string program_id(const RunPlan& plan);
 /// Coordinates are written with four decimals (0.1 um) and always a decimal point.
 std::string coordinate_word(const std::string& axis, double coordinate_mm);

@@ -5,6 +5,8 @@
 #include "acquisition/publish/uncertainty_json.hpp"
 #include "analysis/environment_history.hpp"
 
+#include <algorithm>
+
 namespace axiscal {
 namespace {
 
@@ -87,19 +89,42 @@ Surroundings surroundings_at(const EnvironmentHistory& history, MonotonicTime at
     return found;
 }
 
+bool is_excluded(const Certificate& certificate, const PointRecord& point) {
+    return std::ranges::any_of(certificate.set_aside, [&](const SetAside& reading) {
+        return !reading.superseded && reading.step == point.step;
+    });
+}
+
+/// Readings that no figure uses: as comments, so that no reader takes them for data.
+void append_set_aside(std::string& csv, const Certificate& certificate) {
+    const double factor = certificate.run.plan.axis_kind == AxisKind::rotary ? 3600 : 1000;
+    for (const SetAside& reading : certificate.set_aside)
+        append_csv_line(csv,
+                        {reading.superseded ? "# superseded" : "# excluded",
+                         std::to_string(reading.planned.approach + 1),
+                         reading.planned.direction == Direction::positive ? "forward" : "backward",
+                         csv_number(certificate.deviations.targets().at(
+                             static_cast<std::size_t>(reading.planned.target_index))),
+                         csv_number(reading.deviation * factor), csv_field(reading.reason)});
+    for (const PreflightRecord& check : certificate.revisions.preflight)
+        if (!check.passed)
+            append_csv_line(csv, {"# preflight overridden", csv_field(check.name),
+                                  csv_field(check.verdict), csv_field(check.override_reason)});
+}
+
 void append_points(std::string& csv, const Certificate& certificate) {
     const RunRecord& run = certificate.run;
     const bool rotary = run.plan.axis_kind == AxisKind::rotary;
     const double deviation_factor = rotary ? 3600 : 1000;
     const EnvironmentHistory history{run};
-    for (const PointRecord& point : run.points) {
+    for (std::size_t k = 0; k < run.points.size(); ++k) {
+        const PointRecord& point = run.points[k];
         const bool forward = point.planned.direction == Direction::positive;
         const auto i = static_cast<std::size_t>(point.planned.target_index);
         const auto j = static_cast<std::size_t>(point.planned.approach);
-        const auto& rows =
-            forward ? certificate.deviations.forward() : certificate.deviations.backward();
+        if (is_excluded(certificate, point)) continue; // stands among those set aside
         const double target = certificate.deviations.targets().at(i);
-        const double deviation = rows.at(i).at(j);
+        const double deviation = certificate.compensation.after.at(k);
         const MonotonicTime at = point.window_begin + (point.window_end - point.window_begin) / 2;
         const Surroundings around = surroundings_at(history, at);
         append_csv_line(csv,
@@ -119,6 +144,7 @@ std::string certificate_csv(const Certificate& certificate) {
     append_head(csv, certificate);
     append_parameters(csv, certificate);
     append_budget(csv, certificate);
+    append_set_aside(csv, certificate);
     append_csv_line(csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
                           rotary ? "measured_deg" : "measured_mm",
                           rotary ? "deviation_arcsec" : "deviation_um", "t_air_degC", "p_Pa",

@@ -100,6 +100,41 @@ Json datums_of(const RunRecord& run) {
     return list;
 }
 
+Json preflight_of(const RunRevisions& revisions) {
+    Json list = Json::array();
+    for (const PreflightRecord& check : revisions.preflight)
+        list.push_back({{"name", check.name},
+                        {"passed", check.passed},
+                        {"verdict", check.verdict},
+                        {"override", stated_json(check.override_reason)}});
+    return list;
+}
+
+Json retakes_of(const RunRecord& run, const RunRevisions& revisions) {
+    Json list = Json::array();
+    for (const RetakeRecord& retake : revisions.retakes)
+        list.push_back(
+            {{"number", retake.number},
+             {"time", iso8601_utc(retake.utc_ns ? retake.utc_ns : run.opened.utc_ns_at(retake.at))},
+             {"reason", retake.reason},
+             {"points", retake.points.size()}});
+    return list;
+}
+
+/// Readings that no figure uses, in the result's unit.
+Json set_aside_of(const Certificate& certificate) {
+    Json list = Json::array();
+    for (const SetAside& reading : certificate.set_aside)
+        list.push_back({{"target", reading.planned.target_index},
+                        {"direction", name_of(reading.planned.direction)},
+                        {"approach", reading.planned.approach},
+                        {"step", reading.step},
+                        {"deviation", reading.deviation},
+                        {"why", reading.superseded ? "superseded" : "excluded"},
+                        {"reason", reading.reason}});
+    return list;
+}
+
 Json run_of(const Certificate& certificate) {
     const RunRecord& run = certificate.run;
     Json object;
@@ -122,6 +157,9 @@ Json run_of(const Certificate& certificate) {
     object["deviations"]["forward"] = certificate.deviations.forward();
     if (!certificate.deviations.backward().empty())
         object["deviations"]["backward"] = certificate.deviations.backward();
+    object["preflight"] = preflight_of(certificate.revisions);
+    object["retakes"] = retakes_of(run, certificate.revisions);
+    object["set_aside"] = set_aside_of(certificate);
     object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;
     return object;

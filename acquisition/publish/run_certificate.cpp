@@ -15,8 +15,11 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     if (!contents.closed)
         return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
     AXISCAL_TRY(Certificate certificate,
-                make_certificate(std::move(contents.run), std::move(sha256)));
+                make_certificate(std::move(contents.run), std::move(contents.revisions),
+                                 std::move(sha256)));
     certificate.result_digest = result_digest(certificate.result);
+    // A run that was added to is evaluated anew: the stored result is of what it held before.
+    if (contents.results < certificate.revisions.closings) return certificate;
     const auto stored = read_stored_result(run_file);
     if (!stored && stored.error().fault != Fault::not_found)
         return tl::unexpected<Error>(stored.error());
@@ -30,7 +33,8 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
 }
 
 Result<void> seal_result(const std::string& run_file) {
-    if (read_stored_result(run_file)) return {};
+    AXISCAL_TRY(const RunFileContents contents, read_run_file_contents(run_file));
+    if (contents.closed && contents.results >= contents.revisions.closings) return {};
     AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(run_file));
     return store_result(run_file,
                         {certificate.result_digest, result_to_json(certificate.result).dump()});

@@ -72,14 +72,13 @@ std::string skip_text(int step) {
     return std::string{skip_words} + std::to_string(step);
 }
 
-std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event) {
+std::optional<int> skipped_step(const EventRecord& event) {
     if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words))
         return std::nullopt;
     const std::string_view digits = std::string_view{event.text}.substr(skip_words.size());
     int step = -1; // stays where no number stands
     std::from_chars(digits.data(), digits.data() + digits.size(), step);
-    const bool planned = step >= 0 && step < static_cast<int>(run.plan.points.size());
-    return planned ? std::optional{step} : std::nullopt;
+    return step >= 0 ? std::optional{step} : std::nullopt;
 }
 
 std::optional<CounterSighting> last_sighting(const RunRecord& run) {
@@ -166,7 +165,7 @@ DurableRequest last_durable_request(const RunRecord& run) {
     for (const auto& datum : run.datums)
         consider(datum.at, {datum.sequence, -1});
     for (const auto& event : run.events)
-        if (const auto step = skipped_step(run, event)) consider(event.at, {event.sequence, *step});
+        if (const auto step = skipped_step(event)) consider(event.at, {event.sequence, *step});
     for (const auto& point : run.points)
         consider(point.window_end, {point.sequence, point.step});
     return last;

@@ -91,7 +91,7 @@ DurableRequest last_durable_request(const RunRecord& run);
 
 /// A skipped step lives in the run file as an event with this text.
 std::string skip_text(int step);
-std::optional<int> skipped_step(const RunRecord& run, const EventRecord& event);
+std::optional<int> skipped_step(const EventRecord& event);
 
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);

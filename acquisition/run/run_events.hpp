@@ -4,6 +4,7 @@
 
 #include "acquisition/capture/capture.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 #include "drivers/trigger_port.hpp"
 
 #include <cstdint>
@@ -62,6 +63,24 @@ struct Abort {
     std::string reason;
     MonotonicTime at;
 };
+/// Which points of the plan a person means: all that fit what is given.
+struct PointSelection {
+    std::optional<int> target; ///< 0-based index
+    std::optional<Direction> direction;
+    std::optional<int> approach; ///< 0-based: the cycle
+};
+/// A person wants points taken again. They follow the plan's own, in its order.
+struct Retake {
+    PointSelection selection;
+    std::string reason;
+    MonotonicTime at;
+};
+/// A person wants readings left out of every figure; they stay in the file.
+struct Exclude {
+    PointSelection selection;
+    std::string reason;
+    MonotonicTime at;
+};
 struct Tick {
     MonotonicTime now;
 };
@@ -75,6 +94,8 @@ using RunInput = std::variant<Arm,
                               EnvironmentNow,
                               LaserFault,
                               Abort,
+                              Retake,
+                              Exclude,
                               Tick>;
 
 // --- actions, to be carried out in order
@@ -128,6 +149,15 @@ struct Refuse {
 struct RecordEvent {
     EventRecord event;
 };
+/// The order is to be durable before anything else of the run. `reopens`: the run was closed.
+struct RecordRetake {
+    RetakeRecord retake;
+    bool reopens = false;
+};
+struct RecordExclusion {
+    std::vector<ExclusionRecord> exclusions;
+    bool reopens = false;
+};
 struct SetState {
     PortState state = PortState::idle;
 };
@@ -148,6 +178,8 @@ using RunAction = std::variant<PublishArmed,
                                RepublishDone,
                                Refuse,
                                RecordEvent,
+                               RecordRetake,
+                               RecordExclusion,
                                SetState,
                                Close>;
 using RunActions = std::vector<RunAction>;

@@ -22,7 +22,14 @@ int count_of(const std::vector<bool>& flags) {
 RunMachine::RunMachine(RunSetup setup)
     : setup_{std::move(setup)}
     , done_(setup_.plan.points.size())
-    , skipped_(setup_.plan.points.size()) {}
+    , skipped_(setup_.plan.points.size())
+    , last_reading_(setup_.plan.points.size(), -1) {
+    for (const RetakeRecord& retake : setup_.revisions.retakes)
+        append_retakes(retake.points);
+    retakes_ = static_cast<int>(setup_.revisions.retakes.size());
+    for (const ExclusionRecord& exclusion : setup_.revisions.exclusions)
+        excluded_.push_back(exclusion.step);
+}
 
 RunMachine::RunMachine(RunSetup setup,
                        const RunRecord& open_run,
@@ -34,11 +41,19 @@ RunMachine::RunMachine(RunSetup setup,
     const auto durable = last_durable_request(open_run);
     last_durable_ = durable.sequence;
     last_durable_step_ = durable.step;
-    for (const auto& point : open_run.points)
-        if (const auto step = static_cast<std::size_t>(point.step); step < done_.size())
-            done_[step] = true;
+    using Readings = std::vector<PointRecord>;
+    const Readings& superseded = setup_.revisions.superseded;
+    for (const Readings* readings : {&superseded, &open_run.points})
+        for (const auto& point : *readings) {
+            if (const auto step = static_cast<std::size_t>(point.step); step < done_.size())
+                done_[step] = true;
+            if (const auto of = static_cast<std::size_t>(point.planned.step);
+                of < last_reading_.size())
+                last_reading_[of] = point.step;
+        }
     for (const auto& event : open_run.events)
-        if (const auto step = skipped_step(open_run, event))
+        if (const auto step = skipped_step(event);
+            step && static_cast<std::size_t>(*step) < skipped_.size())
             skipped_[static_cast<std::size_t>(*step)] = true;
     if (!open_run.datums.empty()) {
         datum_ = open_run.datums.back();
@@ -95,7 +110,7 @@ void RunMachine::on(const Committed& committed, RunActions& out) {
     }
     settle_commit(settled, out);
     if (closed_) return;
-    const bool all_settled = !next_point();
+    const bool all_settled = !next_step();
     if (all_settled && count_of(skipped_) == 0)
         close(true, "Every planned point is durable.", Fault::none, out);
     else if (all_settled)
@@ -120,6 +135,7 @@ void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
         return set_state(PortState::armed, out);
     case Purpose::point:
         done_[static_cast<std::size_t>(settled.step)] = true;
+        last_reading_[static_cast<std::size_t>(settled.point.planned.step)] = settled.step;
         approach_since_ = settled.point.window_end;
         approach_unseen_ = false;
         return set_state(PortState::captured, out);
@@ -199,7 +215,7 @@ void RunMachine::on(const Abort& abort, RunActions& out) {
 
 void RunMachine::on(const Tick& tick, RunActions& out) {
     if (closed_) return;
-    if (!pending_ && armed_ && !next_point() && !setup_.plan.points.empty()) {
+    if (!pending_ && armed_ && !next_step() && !setup_.plan.points.empty()) {
         // Died between the last commit and the closing.
         const int skipped = count_of(skipped_);
         close(skipped == 0,
@@ -227,6 +243,10 @@ void RunMachine::close_when_idle(Close wanted, MonotonicTime at, RunActions& out
 
 void RunMachine::close(bool complete, std::string reason, Fault fault, RunActions& out) {
     if (closed_) return;
+    if (!complete && !retaken_.empty() && plan_is_done()) { // what was measured before still stands
+        complete = true;
+        reason = "Every planned point is durable; not every retake was done: " + reason;
+    }
     closed_ = true;
     complete_ = complete;
     set_state(fault == Fault::none ? PortState::idle : PortState::error, out);
@@ -266,9 +286,9 @@ void RunMachine::set_state(PortState state, RunActions& out) {
     if (std::exchange(state_, state) != state) out.push_back(SetState{state});
 }
 
-std::optional<PlannedPoint> RunMachine::next_point() const {
+std::optional<int> RunMachine::next_step() const {
     for (std::size_t step = 0; step < done_.size(); ++step)
-        if (!done_[step] && !skipped_[step]) return setup_.plan.points[step];
+        if (!done_[step] && !skipped_[step]) return static_cast<int>(step);
     return std::nullopt;
 }
 
@@ -279,7 +299,11 @@ RunView RunMachine::view() const {
     view.complete = complete_;
     view.stopped = stopped_;
     view.last_durable = last_durable_;
-    view.next = next_point();
+    if (const auto next = next_step()) view.next = planned_at(*next);
+    view.retakes_asked = static_cast<int>(retaken_.size());
+    for (std::size_t step = setup_.plan.points.size(); step < done_.size(); ++step)
+        if (!done_[step] && !skipped_[step]) ++view.retakes_left;
+    view.excluded = static_cast<int>(excluded_.size());
     view.done = count_of(done_);
     view.skipped = count_of(skipped_);
     view.total = static_cast<int>(done_.size());

@@ -17,6 +17,7 @@ struct RunSetup {
     LaserSetup laser;
     std::string laser_serial; ///< for datum ids
     Duration capture_timeout = std::chrono::seconds{10};
+    RunRevisions revisions{}; ///< of an open run that goes on
 };
 
 /// Counted, never silent.
@@ -32,8 +33,9 @@ struct RunView {
     PortState state = PortState::idle;
     bool closed = false, complete = false, stopped = false;
     std::uint16_t last_durable = 0;
-    std::optional<PlannedPoint> next; ///< none when every point is done or skipped
-    int done = 0, skipped = 0, total = 0;
+    std::optional<PlannedPoint> next;     ///< none when every point is done or skipped
+    int done = 0, skipped = 0, total = 0; ///< points that are taken again included
+    int retakes_asked = 0, retakes_left = 0, excluded = 0;
     std::optional<DatumRecord> datum;
     std::uint32_t datum_epoch = 0; ///< of the laser's counter now, while the datum holds
     std::optional<Length> last_position, last_deviation; ///< of the last accepted point, live
@@ -41,8 +43,9 @@ struct RunView {
 };
 
 /// Pure. Guarantees, whatever comes in: Acknowledge follows only a Committed that answers the
-/// outstanding commit, once; every planned point is committed at most once; after Close nothing is
-/// committed or acknowledged.
+/// outstanding commit, once; every planned point is committed at most once, and once more for each
+/// retake that names it; after Close nothing is committed or acknowledged until a retake reopens
+/// the run.
 class RunMachine {
 public:
     /// A new run; it takes triggers after Arm.
@@ -83,6 +86,19 @@ private:
     void on(const Abort& abort, RunActions& out);
     void on(const Tick& tick, RunActions& out);
 
+    // run_machine_retake.cpp: points taken again, readings left out
+    void on(const Retake& retake, RunActions& out);
+    void on(const Exclude& exclude, RunActions& out);
+    /// What a person's selection names; the sentence says why none of it can be meant.
+    [[nodiscard]] Result<std::vector<int>> chosen(const PointSelection& selection) const;
+    [[nodiscard]] std::optional<Error> objection_to_retake(const Retake& retake) const;
+    [[nodiscard]] bool is_left_out(int planned_step) const;
+    [[nodiscard]] bool leaves_enough(const std::vector<int>& planned_steps) const;
+    [[nodiscard]] bool awaits_retake(int planned_step) const;
+    [[nodiscard]] PlannedPoint planned_at(int step) const;
+    [[nodiscard]] bool plan_is_done() const;
+    void append_retakes(const std::vector<RetakePoint>& points);
+
     // run_machine.cpp: order of requests, commits, closing
     bool answered_by_order(const TriggerEvent& event, RunActions& out);
     bool answered_after_resume(const TriggerEvent& event, RunActions& out);
@@ -104,13 +120,14 @@ private:
                 std::uint16_t sequence,
                 RunActions& out);
     void set_state(PortState state, RunActions& out);
-    [[nodiscard]] std::optional<PlannedPoint> next_point() const;
+    /// The first step that is neither taken nor skipped.
+    [[nodiscard]] std::optional<int> next_step() const;
 
     // run_machine_capture.cpp: what a request must fit, what a window must show
     void start_datum(const TriggerEvent& event, RunActions& out);
     void start_point(const TriggerEvent& event, RunActions& out);
     [[nodiscard]] std::optional<Error> objection_to_claim(const TriggerEvent& event,
-                                                          const PlannedPoint& point) const;
+                                                          int step) const;
     void open_window(Pending pending,
                      std::optional<ApproachClaim> approach,
                      Length expected,
@@ -128,7 +145,11 @@ private:
     bool first_request_after_resume_ = false, approach_unseen_ = false, any_accepted_ = false;
     std::uint16_t last_durable_ = 0;
     int last_durable_step_ = -1;
-    std::vector<bool> done_, skipped_; ///< by step
+    std::vector<bool> done_, skipped_; ///< by step; those of retakes follow the plan's
+    std::vector<int> retaken_;         ///< by step beyond the plan: the plan's step
+    std::vector<int> last_reading_; ///< by the plan's step: step of the reading that counts, or -1
+    std::vector<int> excluded_;     ///< steps
+    int retakes_ = 0;               ///< orders
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0;
     bool datum_broken_ = false; ///< counting was interrupted since: the next capture ends the run

@@ -18,11 +18,12 @@ double counts_per_mm(AxisKind kind) {
     return kind == AxisKind::rotary ? 1e5 : 1e4;
 }
 
-std::string in_words(const RunPlan& plan, const PlannedPoint& point) {
+std::string in_words(const RunPlan& plan, const PlannedPoint& point, bool again) {
     return "target index " + std::to_string(point.target_index) + " at " +
            in_mm(plan.targets[static_cast<std::size_t>(point.target_index)]) + " from the " +
            std::string{name_of(point.direction)} + " direction (point " +
-           std::to_string(point.step + 1) + " of " + std::to_string(plan.points.size()) + ")";
+           std::to_string(point.step + 1) + " of " + std::to_string(plan.points.size()) +
+           (again ? ", to be taken again)" : ")");
 }
 
 Error datum_lost_error(const std::string& why) {
@@ -68,10 +69,11 @@ void RunMachine::start_datum(const TriggerEvent& event, RunActions& out) {
 }
 
 /// Index, direction and nominal position as far as the CNC's shape carries them.
-std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event,
-                                                    const PlannedPoint& point) const {
+std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, int step) const {
     const auto& plan = setup_.plan;
-    const std::string next = "; the plan's next point is " + in_words(plan, point) + ".";
+    const PlannedPoint point = planned_at(step);
+    const std::string next =
+        "; the plan's next point is " + in_words(plan, point, step != point.step) + ".";
     if (event.target_index && *event.target_index != point.target_index)
         return Error{Fault::wrong_target,
                      "The CNC claims target index " + std::to_string(*event.target_index) + next,
@@ -96,8 +98,8 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event,
 }
 
 void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
-    const auto point = next_point();
-    if (!point) return refuse(event, {Fault::bad_command, "No point is left.", {}, {}}, out);
+    const auto step = next_step();
+    if (!step) return refuse(event, {Fault::bad_command, "No point is left.", {}, {}}, out);
     if (!datum_)
         return refuse(
             event,
@@ -112,18 +114,19 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
         return close(false, "The laser's counting was interrupted since the datum.",
                      Fault::datum_lost, out);
     }
-    if (const auto objection = objection_to_claim(event, *point))
+    if (const auto objection = objection_to_claim(event, *step))
         return refuse(event, *objection, out);
     if (!scale_minus_1_) return refuse(event, scale_minus_1_.error(), out);
     Pending pending;
     pending.origin = event.origin;
     pending.sequence = event.sequence;
-    pending.step = point->step;
+    pending.step = *step;
     pending.triggered_at = event.at;
-    const ApproachClaim approach{point->direction, setup_.laser.sign, setup_.plan.overrun,
+    const PlannedPoint point = planned_at(*step);
+    const ApproachClaim approach{point.direction, setup_.laser.sign, setup_.plan.overrun,
                                  approach_since_};
     open_window(std::move(pending), approach,
-                setup_.plan.targets[static_cast<std::size_t>(point->target_index)], out);
+                setup_.plan.targets[static_cast<std::size_t>(point.target_index)], out);
 }
 
 void RunMachine::on(const WindowResult& result, RunActions& out) {
@@ -194,7 +197,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
                      out);
     }
     if (!scale_minus_1_) return refuse_pending(scale_minus_1_.error(), capture.end, out);
-    const auto planned = setup_.plan.points[static_cast<std::size_t>(pending_->step)];
+    const auto planned = planned_at(pending_->step);
     const auto target = setup_.plan.targets[static_cast<std::size_t>(planned.target_index)];
     const auto position = live_position(setup_.laser, *datum_, capture.mean, *scale_minus_1_);
     if (const auto objection = objection_to_place(position, target))
@@ -209,7 +212,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
                Fault::none, pending_->sequence, out);
     if (first_claims_.size() < diagnosed_targets) first_claims_.push_back({target, position});
     auto& point = pending_->point;
-    point.step = planned.step;
+    point.step = pending_->step;
     point.sequence = pending_->sequence;
     point.planned = planned;
     point.origin = pending_->origin;

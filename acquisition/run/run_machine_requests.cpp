@@ -106,16 +106,16 @@ void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunAct
     pending.origin = event.origin;
     pending.sequence = event.sequence;
     pending.committing = true;
-    const auto next = next_point();
+    const auto next = next_step();
     EventRecord note;
     note.at = event.at;
     note.sequence = event.sequence;
     if (purpose == Purpose::skip) {
         if (!next)
             return refuse(event, {Fault::bad_command, "Nothing is left to skip.", {}, {}}, out);
-        pending.step = next->step;
+        pending.step = *next;
         note.kind = EventKind::skipped;
-        note.text = skip_text(next->step);
+        note.text = skip_text(*next);
     } else {
         note.kind = EventKind::aborted;
         note.text = event.command == TriggerCommand::end

@@ -7,6 +7,7 @@
 #include <boost/asio/bind_cancellation_slot.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace axiscal {
@@ -41,6 +42,19 @@ SampleHistory::Limits history_limits(const CaptureConfig& config) {
     return limits;
 }
 
+/// A little more than the checks look back.
+std::vector<SensorLog> sensor_logs(const std::vector<StationChannel>& channels,
+                                   const PreflightConfig& config) {
+    constexpr Duration shortest = std::chrono::minutes{1};
+    const Duration depth = std::max<Duration>(config.soak_window * 5 / 4, shortest);
+    std::vector<SensorLog> logs;
+    logs.reserve(channels.size());
+    for (const StationChannel& channel : channels)
+        logs.emplace_back(depth, channel.kind == ChannelKind::strength ? SensorLog::Keep::lowest
+                                                                       : SensorLog::Keep::newest);
+    return logs;
+}
+
 /// The supervisor with every instrument seated; in a function so that the member can be
 /// const-built.
 void seat_all(Supervisor& supervisor,
@@ -67,6 +81,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
               watched(roles_, supervisor_.channels()))}
     , latest_(supervisor_.channels().size())
     , logged_(supervisor_.channels().size())
+    , sensor_logs_{sensor_logs(supervisor_.channels(), config_.preflight)}
     , outbox_watch_{config_.state_directory, config_.publish} {}
 
 Station::~Station() = default;
@@ -152,6 +167,7 @@ void Station::judge_outbox() {
 void Station::on_sample(const Sample& sample) {
     latest_[static_cast<std::size_t>(sample.channel)] = sample;
     if (sample.channel == roles_.laser) return take_reading(sample);
+    log_sensor(sample);
     const std::vector<int> environment = roles_.environment();
     for (std::size_t i = 0; i < environment.size(); ++i)
         if (environment[i] == sample.channel) {
@@ -162,6 +178,7 @@ void Station::on_sample(const Sample& sample) {
 
 void Station::take_reading(const Sample& sample) {
     history_.push(sample);
+    watch_set_up(sample);
     if (!datum_ || !recording()) return;
     if (sample.epoch != datum_epoch_) {
         if (!std::exchange(datum_lost_told_, true))

@@ -9,6 +9,7 @@
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/run_machine.hpp"
+#include "acquisition/station/preflight.hpp"
 #include "acquisition/station/roles.hpp"
 #include "acquisition/station/station_face.hpp"
 #include "acquisition/station/supervisor.hpp"
@@ -52,6 +53,10 @@ public:
     Task<Result<std::string>> arm(ArmRequest request) override;
     Result<void> trigger() override;
     Result<void> abort(std::string reason) override;
+    [[nodiscard]] Result<std::vector<PreflightRecord>>
+    preflight(const ArmRequest& request) const override;
+    Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
+    Task<Result<int>> exclude(RevisionRequest request) override;
 
 private:
     /// The run that is open, or the last one.
@@ -93,6 +98,8 @@ private:
     void perform(RepublishDone action);
     void perform(const Refuse& action);
     void perform(RecordEvent action);
+    void perform(RecordRetake action);
+    void perform(RecordExclusion action);
     void perform(SetState action);
     void perform(Close action);
     Task<void> watch_window(OpenWindow window);
@@ -121,15 +128,29 @@ private:
     [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> ready_to_measure() const;
+
+    // station_preflight.cpp
+    void log_sensor(const Sample& sample);
+    [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
+    [[nodiscard]] SensorFacts sensor_facts(int channel) const;
+
+    // station_retake.cpp: points taken again and readings left out, also after the run was closed
+    [[nodiscard]] Result<void> run_may_be_revised() const;
+    [[nodiscard]] Result<void> set_up_stands() const;
+    void watch_set_up(const Sample& sample);
+    Task<Result<void>> keep_revision(RunMachine before);
+    Task<Result<void>> close_again();
+
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
     Task<Result<void>> await_datum();
     [[nodiscard]] bool instruments_returned() const;
     Task<Result<void>> resume_or_close(std::string path);
     Task<double> laser_rate_hz(MonotonicTime limit);
-    Task<Result<void>> resume(std::string path, RunRecord run, std::string proof);
+    Task<Result<void>>
+    resume(std::string path, RunRecord run, RunRevisions revisions, std::string proof);
     Task<Result<void>> publish_last_done(RunRecord run);
     Task<void> publish_done_of_closed(const std::vector<RunSummary>& stored);
-    Task<void> close_left_over(std::string path, std::string reason, Fault fault);
+    Task<void> close_left_over(std::string path, std::string reason, Fault fault, bool whole);
     [[nodiscard]] std::string laser_serial() const;
     [[nodiscard]] const StationChannel& channel_of(int id) const;
 
@@ -164,6 +185,7 @@ private:
     EnvironmentWatch watch_;
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
+    std::vector<SensorLog> sensor_logs_;               ///< by channel; the laser's stays empty
     mutable OutboxWatch outbox_watch_; ///< remembers what it read; a look changes nothing else
     std::string outbox_alarm_;         ///< as told in the notes
     std::optional<RunMachine> machine_;
@@ -173,7 +195,11 @@ private:
     std::optional<JournalReceipt> last_receipt_;
     std::uint64_t open_window_ = 0;
     PortState port_state_ = PortState::idle;
-    std::optional<Error> manual_refusal_;  ///< of a person's own request
+    std::optional<Error> manual_refusal_;          ///< of a person's own request
+    std::optional<RecordRetake> new_retake_;       ///< decided, not yet kept
+    std::optional<RecordExclusion> new_exclusion_; ///< decided, not yet kept
+    std::string set_up_lost_; ///< why nothing can be taken again since the run was closed
+    std::optional<Sample> last_reading_;   ///< since then
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
@@ -183,6 +209,7 @@ private:
     boost::asio::cancellation_signal end_port_;
     bool waiting_for_disk_ = false; ///< the run file could not be written
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
+    bool revising_ = false; ///< a retake or an exclusion is being kept
 };
 
 } // namespace axiscal

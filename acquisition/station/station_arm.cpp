@@ -63,7 +63,7 @@ std::string Station::laser_serial() const {
 }
 
 RunSetup Station::setup_of(const RunRecord& header) const {
-    return {header.plan, header.laser, laser_serial(), config_.capture.timeout};
+    return {header.plan, header.laser, laser_serial(), config_.capture.timeout, {}};
 }
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
@@ -76,6 +76,9 @@ Task<Result<std::string>> Station::arm(ArmRequest request) {
 
 Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(RunPlan plan, plan_for(request));
+    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, preflight(request));
+    if (const std::string objections = open_objections(checks); !objections.empty())
+        co_return refuse(Fault::refused, "preflight", objections);
     const RunHeaderParts parts{
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
@@ -90,6 +93,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     }
     RunMachine machine{setup_of(header)};
     begin_run(std::move(header), std::move(path), std::move(machine));
+    journal_.note(std::move(checks));
     manual_refusal_.reset();
     feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
     if (request.datum_by_cnc) co_return run_->header.run_id;
@@ -157,10 +161,13 @@ bool Station::instruments_returned() const {
 }
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
-    AXISCAL_CO_TRY(RunRecord run, read_run_file(path));
+    AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
+    RunRecord run = std::move(contents.run);
+    // Reopened for points to be taken again: what was measured before still makes a whole run.
+    const bool whole = contents.revisions.closings > 0 && check_complete(run);
     if (run_open()) {
-        co_await close_left_over(path, "Another run was open too; only one can go on.",
-                                 Fault::busy);
+        co_await close_left_over(path, "Another run was open too; only one can go on.", Fault::busy,
+                                 whole);
         co_return Result<void>{};
     }
     // A request may stand in the CNC already: it must not meet sensors that have not spoken yet.
@@ -179,10 +186,11 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
     const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
     if (verdict.decision != ResumeDecision::wait_for_request) {
-        co_await close_left_over(path, verdict.sentence, verdict.fault);
+        co_await close_left_over(path, verdict.sentence, verdict.fault, whole);
         co_return Result<void>{};
     }
-    co_return co_await resume(path, std::move(run), verdict.sentence);
+    co_return co_await resume(path, std::move(run), std::move(contents.revisions),
+                              verdict.sentence);
 }
 
 /// For a run too young to tell. The first second may hold readings that waited in a buffer.
@@ -199,13 +207,16 @@ Task<double> Station::laser_rate_hz(MonotonicTime limit) {
     co_return 0;
 }
 
-Task<Result<void>> Station::resume(std::string path, RunRecord run, std::string proof) {
+Task<Result<void>>
+Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::string proof) {
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
     const std::uint32_t epoch = history_.newest() ? history_.newest()->epoch : 0;
     RunRecord header = run;
     header.points.clear();
-    RunMachine machine{setup_of(run), run, epoch, scheduler_.now()};
+    RunSetup setup = setup_of(run);
+    setup.revisions = std::move(revisions);
+    RunMachine machine{std::move(setup), run, epoch, scheduler_.now()};
     begin_run(std::move(header), path, std::move(machine));
     const std::string away = run.boot_id == boot_id_
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
@@ -248,16 +259,19 @@ Task<void> Station::publish_done_of_closed(const std::vector<RunSummary>& stored
     port_->acknowledge(*receipt);
 }
 
-Task<void> Station::close_left_over(std::string path, std::string reason, Fault fault) {
+Task<void> Station::close_left_over(std::string path, std::string reason, Fault fault, bool whole) {
     if (auto reopened = co_await journal_.reopen(path); !reopened) {
         note("The open run " + path + " cannot be closed: " + describe(reopened.error()));
         co_return;
     }
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
-    const auto closed = co_await journal_.close(false, reason);
-    note(closed ? "The open run " + path + " is closed as incomplete: " + reason
+    if (whole) reason = "Every planned point is durable; not every retake was done: " + reason;
+    const auto closed = co_await journal_.close(whole, reason);
+    const std::string how = whole ? " is closed again: " : " is closed as incomplete: ";
+    note(closed ? "The open run " + path + how + reason
                 : "The open run " + path + " cannot be closed: " + describe(closed.error()));
     left_over_fault_ = Error{fault, reason, {}, {}};
+    if (whole && closed) note("'axiscal export " + path + "' writes its certificate anew.");
 }
 
 } // namespace axiscal

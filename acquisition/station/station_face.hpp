@@ -1,9 +1,11 @@
 #pragma once
 // What the station shows and takes: the only thing the console knows of it.
 
+#include "acquisition/run/run_events.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 #include "drivers/sample.hpp"
 #include "drivers/scheduler.hpp"
 #include "drivers/trigger_port.hpp"
@@ -47,7 +49,8 @@ struct RunStatus {
     std::optional<int> next_target; ///< 0-based
     std::optional<double> next_nominal_mm;
     std::optional<Direction> next_direction;
-    std::optional<int> next_approach; ///< 0-based
+    std::optional<int> next_approach;                      ///< 0-based
+    int retakes_asked = 0, retakes_left = 0, excluded = 0; ///< points
     std::optional<double> seconds_left;
     std::optional<double> last_deviation_um;
     std::string last_fault, last_sentence; ///< empty when all is well
@@ -75,6 +78,23 @@ struct ArmRequest {
     std::optional<std::uint64_t> seed;
     bool datum_by_cnc = false;                     ///< wait for the CNC's prepare command instead
     std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...
+    std::map<std::string, std::string> overrides;  ///< reason by name of a pre-flight check
+};
+
+/// What a person wants taken again, or left out.
+struct RevisionRequest {
+    PointSelection selection;
+    std::string reason;
+};
+
+/// What will be taken again.
+struct RetakeAnswer {
+    struct Point {
+        int step = 0; ///< 0-based, behind the plan's
+        PlannedPoint planned;
+    };
+    std::vector<Point> points;
+    std::uint16_t last_request = 0; ///< the first of these bears the number after it
 };
 
 /// Answers of the state-changing calls. Loop-bound.
@@ -87,6 +107,14 @@ public:
     /// The technician's own capture of the next point, marked manual.
     virtual Result<void> trigger() = 0;
     virtual Result<void> abort(std::string reason) = 0;
+    /// What arming would meet now. @errors Fault::bad_request for an override that is none.
+    [[nodiscard]] virtual Result<std::vector<PreflightRecord>>
+    preflight(const ArmRequest& request) const = 0;
+    /// Points of the open run, or of the last one while its set-up stands. Durable on return.
+    /// @errors the reason why not.
+    virtual Task<Result<RetakeAnswer>> retake(RevisionRequest request) = 0;
+    /// @returns how many readings were left out. Durable on return.
+    virtual Task<Result<int>> exclude(RevisionRequest request) = 0;
 };
 
 } // namespace axiscal

@@ -133,6 +133,17 @@ void Station::perform(RecordEvent action) {
     journal_.note(std::move(action.event));
 }
 
+void Station::perform(RecordRetake action) {
+    action.retake.utc_ns = scheduler_.clock_tie().utc_ns;
+    new_retake_ = std::move(action);
+}
+
+void Station::perform(RecordExclusion action) {
+    for (ExclusionRecord& exclusion : action.exclusions)
+        exclusion.utc_ns = scheduler_.clock_tie().utc_ns;
+    new_exclusion_ = std::move(action);
+}
+
 void Station::perform(SetState action) {
     port_state_ = action.state;
     publish_to_port();
@@ -153,6 +164,8 @@ Task<void> Station::close_run(Close action) {
     run_->closed = true;
     run_->closing = false;
     run_->shut = closed.has_value();
+    set_up_lost_.clear();
+    last_reading_.reset();
     if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
 }
 
@@ -162,8 +175,8 @@ bool Station::lacks_certificate(const RunSummary& run) const {
     std::error_code error;
     return run.complete &&
            (!run.evaluated ||
-            std::filesystem::exists(config_.state_directory + "/outbox/." + run.run_id + ".staging",
-                                    error));
+            std::filesystem::exists(
+                config_.state_directory + "/outbox/." + certificate_name(run) + ".staging", error));
 }
 
 Task<void> Station::certify_left_over(std::vector<RunSummary> runs) {

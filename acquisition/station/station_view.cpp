@@ -99,6 +99,9 @@ RunStatus Station::run_status() const {
         run.next_direction = view.next->direction;
         run.next_approach = view.next->approach;
     }
+    run.retakes_asked = view.retakes_asked;
+    run.retakes_left = view.retakes_left;
+    run.excluded = view.excluded;
     run.seconds_left = seconds_left(view);
     const auto tell = [&run](Fault fault, std::string sentence) {
         if (fault != Fault::none) run.last_fault = fault_name(fault);

@@ -24,9 +24,11 @@ import unittest
 BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 EXAMPLE = os.path.join(SOURCE, "config", "station.example.toml")
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
-COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", "--pass"],
+COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
+            "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
+            "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
-            "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out"],
+            "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "selftest": ["--state-directory", "--port", "--count"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}

@@ -41,14 +41,15 @@ Result<void> draw(const Options& options, const std::string& folder) {
 Result<std::string> stage(const Options& options) {
     AXISCAL_TRY(const RunSummary run, summarize_run_file(options.run_file));
     const std::string& folder = options.to.empty() ? options.outbox : options.to;
-    AXISCAL_TRY(const std::string temporary, begin_entry(folder, run.run_id));
+    const std::string name = certificate_name(run);
+    AXISCAL_TRY(const std::string temporary, begin_entry(folder, name));
     AXISCAL_CHECK(sync_folder(folder));
     if (auto drawn = draw(options, temporary); !drawn) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(drawn).error());
     }
-    return finish_entry(folder, run.run_id);
+    return finish_entry(folder, name);
 }
 
 /// The same for a case: into any folder, never into the outbox, for no run stands behind it.

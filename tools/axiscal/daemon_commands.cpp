@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
@@ -28,14 +29,43 @@ int no_contact(const Error& error) {
     return exit_no_contact;
 }
 
+std::string checks_text(const Json& checks) {
+    std::string text;
+    for (const Json& check : checks) {
+        const bool passed = check.at("passed") == true;
+        const std::string reason = check.at("override").get<std::string>();
+        const std::string word = passed           ? "ok        "
+                                 : reason.empty() ? "FAILS     "
+                                                  : "overridden";
+        std::string name = check.at("name").get<std::string>();
+        name.resize(std::max<std::size_t>(name.size(), 13), ' ');
+        text += "  " + word + "  " + name + " " + check.at("verdict").get<std::string>() + "\n";
+        if (!passed && !reason.empty()) text += "              because: " + reason + "\n";
+    }
+    return text;
+}
+
 /// Prints the station's own sentence for a refused call.
 int refused(const Reply& reply) {
     const Json body = Json::parse(reply.body, nullptr, false);
+    if (body.is_object() && body.contains("checks")) {
+        std::cerr << "Not armed: not every pre-flight check holds.\n"
+                  << checks_text(body["checks"])
+                  << "Mend what fails, or arm with --override NAME=\"reason\": the certificate "
+                     "prints it.\n";
+        return exit_forbidden;
+    }
     const bool known = body.is_object() && body.contains("error");
     std::cerr << (known ? body["error"].value("sentence", "")
                         : "the station answered " + std::to_string(reply.status))
               << "\n";
     return exit_forbidden;
+}
+
+bool all_hold(const Json& checks) {
+    for (const Json& check : checks)
+        if (check.at("passed") == false && check.at("override") == "") return false;
+    return true;
 }
 
 /// Asks, prints, and turns the answer into an exit code.
@@ -165,6 +195,7 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
     Json body{{"pass", order.pass},
               {"datum_by_cnc", order.datum_by_cnc},
               {"statements", order.statements}};
+    if (!order.overrides.empty()) body["overrides"] = order.overrides;
     if (order.datum_mm) body["datum_mm"] = *order.datum_mm;
     if (!order.program.empty())
         if (const auto read = read_program_header(order.program, body); !read)
@@ -173,6 +204,50 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
     return ask(client.post("/v1/run", body.dump()), json, [](const Json& reply) {
         return "Armed: run " + reply.at("run").get<std::string>() +
                ". Start the part program; 'axiscal watch' shows the progress.\n";
+    });
+}
+
+int command_preflight(const StationClient& client, const ArmOrder& order, bool json) {
+    const Json body{{"statements", order.statements}, {"overrides", order.overrides}};
+    const auto reply = client.post("/v1/preflight", body.dump());
+    bool holds = true;
+    const int code =
+        ask(reply, json, [](const Json& answer) { return checks_text(answer.at("checks")); });
+    if (code == exit_ok) holds = all_hold(Json::parse(reply->body).at("checks"));
+    return code != exit_ok || holds ? code : static_cast<int>(exit_forbidden);
+}
+
+namespace {
+
+Json body_of(const RevisionOrder& order) {
+    Json body{{"reason", order.reason}};
+    if (order.target) body["target"] = *order.target - 1;
+    if (order.cycle) body["cycle"] = *order.cycle - 1;
+    if (!order.direction.empty())
+        body["direction"] = order.direction == "up" ? "positive" : "negative";
+    return body;
+}
+
+std::string retake_text(const Json& answer) {
+    std::string text = "To be taken again, after the points that are left:\n";
+    for (const Json& point : answer.at("points"))
+        text += "  P" + std::to_string(point.at("target").get<int>() + 1) +
+                (point.at("direction") == "positive" ? " up" : " down") + ", cycle " +
+                std::to_string(point.at("approach").get<int>() + 1) + "\n";
+    return text + "The requests count on from the last one. 'axiscal program --retake RUN.axiscal' "
+                  "writes the part program.\n";
+}
+
+} // namespace
+
+int command_retake(const StationClient& client, const RevisionOrder& order, bool json) {
+    return ask(client.post("/v1/run/retake", body_of(order).dump()), json, retake_text);
+}
+
+int command_exclude(const StationClient& client, const RevisionOrder& order, bool json) {
+    return ask(client.post("/v1/run/exclude", body_of(order).dump()), json, [](const Json& answer) {
+        return answer.at("excluded").dump() +
+               " readings are left out of every figure; they stay in the file and are drawn.\n";
     });
 }
 

@@ -22,9 +22,19 @@ struct ArmOrder {
     std::string pass = "whole";
     std::string program; ///< file whose header names seed and pass
     bool datum_by_cnc = false;
-    std::map<std::string, std::string> statements;
+    std::map<std::string, std::string> statements, overrides;
 };
 int command_arm(const StationClient& client, const ArmOrder& order, bool json);
+/// Every check before arming with its verdict; 4 when one of them fails.
+int command_preflight(const StationClient& client, const ArmOrder& order, bool json);
+
+struct RevisionOrder {
+    std::optional<int> target, cycle; ///< counted from 1
+    std::string direction;            ///< "up" | "down" | empty: both
+    std::string reason;
+};
+int command_retake(const StationClient& client, const RevisionOrder& order, bool json);
+int command_exclude(const StationClient& client, const RevisionOrder& order, bool json);
 int command_trigger(const StationClient& client, bool json);
 int command_abort(const StationClient& client, const std::string& reason, bool json);
 

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <map>
 
 namespace axiscal {
 namespace {
@@ -21,6 +22,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
   axiscal devices                                    are laser and sensors there?
   axiscal program --config station.toml --out .      part program for the CNC; load and start it:
                                                      the axis goes to its datum and waits
+  axiscal preflight                                  is all as it must be? axiscal arm asks the same
   axiscal arm --program X-whole.ngc                  tie the reading there; the CNC goes on by itself
   axiscal watch                                      next target, reading, temperatures, time left
 
@@ -37,7 +39,9 @@ struct Options {
     std::string file, out = ".", reason, certificate;
     bool until_published = false, drivers = false;
     ArmOrder arm;
-    std::vector<std::string> statements;
+    std::vector<std::string> statements, overrides;
+    RevisionOrder revision;
+    bool exclude_instead = false;
     ProgramRequest program;
     ConformanceOrder conformance;
     SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
@@ -65,19 +69,72 @@ void daemon_options(CLI::App& command, Options& options) {
                        "file with the bearer token (in the state directory)");
 }
 
-int split_statements(Options& options) {
-    for (const std::string& statement : options.statements) {
-        const auto equals = statement.find('=');
-        if (equals == std::string::npos) {
-            std::cerr << "--state-that needs KEY=TEXT, as in operator=\"Shift 2\"\n";
-            return exit_usage;
-        }
-        options.arm.statements[statement.substr(0, equals)] = statement.substr(equals + 1);
+bool split_at_equals(const std::vector<std::string>& given,
+                     std::map<std::string, std::string>& into) {
+    for (const std::string& word : given) {
+        const auto equals = word.find('=');
+        if (equals == std::string::npos) return false;
+        into[word.substr(0, equals)] = word.substr(equals + 1);
     }
-    return exit_ok;
+    return true;
+}
+
+int split_statements(Options& options) {
+    if (!split_at_equals(options.statements, options.arm.statements)) {
+        std::cerr << "--state-that needs KEY=TEXT, as in operator=\"Shift 2\"\n";
+        return exit_usage;
+    }
+    if (split_at_equals(options.overrides, options.arm.overrides)) return exit_ok;
+    std::cerr << "--override needs NAME=REASON, as in soak=\"the customer waits\"\n";
+    return exit_usage;
+}
+
+void arming_options(CLI::App& command, Options& options) {
+    command.add_option(
+        "--state-that", options.statements,
+        "KEY=TEXT for the certificate: operator, state (as found, raw, as left), customer, ...");
+    command.add_option("--override", options.overrides,
+                       "NAME=REASON: arm although this pre-flight check fails; the certificate "
+                       "prints the reason");
+}
+
+void revision_options(CLI::App& command, Options& options) {
+    command.add_option("--target", options.revision.target, "target, from 1; left out: every one")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--direction", options.revision.direction, "up or down; left out: both")
+        ->check(CLI::IsMember({"up", "down"}));
+    command.add_option("--cycle", options.revision.cycle, "approach, from 1; left out: every one")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--reason", options.revision.reason, "stands on the certificate")
+        ->required();
 }
 
 using Command = std::function<int()>;
+
+void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* retake = app.add_subcommand(
+        "retake", "Take points again: a target, a direction, a cycle, or several of them together; "
+                  "in the open run, or in the last one while its set-up stands");
+    revision_options(*retake, options);
+    retake->add_flag("--exclude", options.exclude_instead, "leave them out instead, as 'exclude'");
+    retake->callback([&] {
+        chosen = [&] {
+            return options.exclude_instead
+                       ? command_exclude(client_of(options), options.revision, options.json)
+                       : command_retake(client_of(options), options.revision, options.json);
+        };
+    });
+    auto* exclude = app.add_subcommand(
+        "exclude",
+        "Leave readings out of every figure, with a reason; they stay in the run file and "
+        "are drawn and counted on the certificate");
+    revision_options(*exclude, options);
+    exclude->callback([&] {
+        chosen = [&] {
+            return command_exclude(client_of(options), options.revision, options.json);
+        };
+    });
+}
 
 void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* devices =
@@ -104,9 +161,7 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
         ->capture_default_str();
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");
-    arm->add_option(
-        "--state-that", options.statements,
-        "KEY=TEXT for the certificate: operator, state (as found, raw, as left), customer, ...");
+    arming_options(*arm, options);
     arm->callback([&] {
         chosen = [&] {
             const int usage = split_statements(options);
@@ -114,6 +169,19 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
                                     : command_arm(client_of(options), options.arm, options.json);
         };
     });
+
+    auto* preflight = app.add_subcommand(
+        "preflight", "Every check before arming with its verdict, without arming; 4: one fails");
+    arming_options(*preflight, options);
+    preflight->callback([&] {
+        chosen = [&] {
+            const int usage = split_statements(options);
+            return usage != exit_ok
+                       ? usage
+                       : command_preflight(client_of(options), options.arm, options.json);
+        };
+    });
+    add_revision_commands(app, options, chosen);
 
     app.add_subcommand("status", "The station now: run, axis, channels, instruments")
         ->callback(
@@ -136,7 +204,8 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
     abort->callback([&] {
         chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
     });
-    for (const char* name : {"devices", "arm", "status", "watch", "trigger", "abort"})
+    for (const char* name : {"devices", "arm", "preflight", "retake", "exclude", "status", "watch",
+                             "trigger", "abort"})
         daemon_options(*app.get_subcommand(name), options);
 }
 
@@ -182,6 +251,10 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     program->add_option(
         "--seed", options.program.seed,
         "seed of the targets' random parts; default: the station file's, or a new one");
+    program
+        ->add_option("--retake", options.program.run_file,
+                     "run file: write the program of the points that are to be taken again")
+        ->check(CLI::ExistingFile);
     program->callback([&] {
         chosen = [&] {
             options.program.station_file = options.config;

@@ -1,9 +1,12 @@
 #include "tools/axiscal/offline_commands.hpp"
 
+#include "acquisition/journal/run_file.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/run/resume.hpp"
+#include "acquisition/run/retake_plan.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/certificate_dates.hpp"
 #include "tools/axiscal/analyze_case.hpp"
@@ -98,6 +101,42 @@ Result<std::string> write_program(const StationConfig& config,
     return path;
 }
 
+/// The points that are left to be taken again; requests count on from the run's last one.
+int write_retake_program(const ProgramRequest& request, const StationConfig& config, bool json) {
+    auto contents = read_run_file_contents(request.run_file);
+    if (!contents) return complain(contents.error());
+    auto left = points_to_take_again(contents->run, contents->revisions);
+    if (left.empty())
+        return std::cerr << request.run_file
+                         << ": nothing is to be taken again; 'axiscal retake' asks for it\n",
+               exit_refused;
+    const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
+    if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
+    ProgramOrder order = order_of(config, contents->run.plan);
+    order.plan.points = std::move(left);
+    order.last_request = last_durable_request(contents->run).sequence;
+    order.retakes = true;
+    const auto text = dialect->write(order);
+    if (!text) return complain(text.error());
+    const std::string path = request.out_directory + "/" + config.axis.program_axis + "-retake-" +
+                             std::to_string(contents->revisions.retakes.back().number) +
+                             std::string{dialect->extension};
+    std::ofstream file{path, std::ios::binary | std::ios::trunc};
+    if (!(file << *text << std::flush))
+        return complain({Fault::io, "cannot write " + path, {}, {}});
+    if (json)
+        std::cout << Json{{"programs",
+                           {{{"file", path},
+                             {"points", order.plan.points.size()},
+                             {"last_request", order.last_request}}}}}
+                         .dump()
+                  << "\n";
+    else
+        std::cout << path << ": " << order.plan.points.size()
+                  << " points to be taken again; load and start it, the station is armed\n";
+    return exit_ok;
+}
+
 Json plan_json(const RunPlan& plan, const std::string& path) {
     Json targets = Json::array();
     for (const Length target : plan.targets)
@@ -127,6 +166,7 @@ int command_program(const ProgramRequest& request, bool json) {
     auto station = load_station(request.station_file);
     if (!station) return print_refusals(station.error(), json);
     StationConfig& config = station->config;
+    if (!request.run_file.empty()) return write_retake_program(request, config, json);
     if (request.seed) config.cycle.seed = request.seed;
     std::random_device entropy;
     const auto passes = plan_passes(config.cycle, entropy());

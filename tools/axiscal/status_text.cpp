@@ -51,6 +51,10 @@ std::string run_text(const Json& status) {
         format(", %d of %d points", run.at("step").get<int>(), run.at("steps").get<int>());
     if (run.at("seconds_left").is_number())
         text += ", " + clock_text(run.at("seconds_left")) + " left";
+    if (run.value("retakes_asked", 0) > 0)
+        text += format(", %d of %d retakes left", run.value("retakes_left", 0),
+                       run.value("retakes_asked", 0));
+    if (run.value("excluded", 0) > 0) text += format(", %d left out", run.value("excluded", 0));
     text += "\n";
     if (status.at("run_open") == true) text += "Next         " + next_text(run) + "\n";
     if (!run.at("sentence").get<std::string>().empty())

@@ -43,7 +43,9 @@ std::vector<DirectionCurve> curves_of(const Certificate& certificate, double fac
     return curves;
 }
 
-Ticks deviation_ticks(const std::vector<DirectionCurve>& curves) {
+Ticks deviation_ticks(const std::vector<DirectionCurve>& curves,
+                      const std::vector<SetAside>& set_aside,
+                      double factor) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     const auto take = [&](double value) {
         low = std::min(low, value);
@@ -59,6 +61,8 @@ Ticks deviation_ticks(const std::vector<DirectionCurve>& curves) {
             for (const double value : row)
                 take(value * curve.factor);
     }
+    for (const SetAside& reading : set_aside)
+        take(reading.deviation * factor);
     const double span = high - low;
     if (low > 0 && low < 2 * span) low = 0; // show zero unless it would flatten the curves
     if (high < 0 && -high < 2 * span) high = 0;
@@ -97,6 +101,37 @@ void draw_curve(Canvas& canvas, const PlotFrame& frame, const DirectionCurve& cu
         canvas.arrow(at, curve.arrow, curve.colour, std::clamp(spacing * 0.22, 1.3, 2.6));
 }
 
+/// Readings that no figure uses: a cross, the excluded ones in a ring.
+void draw_set_aside(Canvas& canvas,
+                    const PlotFrame& frame,
+                    const Certificate& certificate,
+                    double factor) {
+    constexpr double arm = 2.2;
+    for (const SetAside& reading : certificate.set_aside) {
+        const auto target = static_cast<std::size_t>(reading.planned.target_index);
+        const Colour colour =
+            reading.planned.direction == Direction::positive ? forward_blue : backward_vermilion;
+        const double x = frame.px(certificate.deviations.targets()[target]),
+                     y = frame.py(reading.deviation * factor);
+        canvas.line({x - arm, y - arm}, {x + arm, y + arm}, {colour, 0.8});
+        canvas.line({x - arm, y + arm}, {x + arm, y - arm}, {colour, 0.8});
+        if (!reading.superseded) canvas.box({x - arm, y - arm, 2 * arm, 2 * arm}, {colour, 0.8});
+    }
+}
+
+std::string legend_of_points(const Certificate& certificate) {
+    const auto replaced = std::ranges::count(certificate.set_aside, true, &SetAside::superseded);
+    const auto excluded = std::ssize(certificate.set_aside) - replaced;
+    std::string words;
+    if (certificate.result.approaches > 1) words = "faint points: every single deviation";
+    const auto add = [&words](const std::string& more) {
+        words += (words.empty() ? "" : ";  ") + more;
+    };
+    if (replaced > 0) add("×: replaced (" + std::to_string(replaced) + ")");
+    if (excluded > 0) add("boxed ×: excluded (" + std::to_string(excluded) + ")");
+    return words;
+}
+
 /// Right-aligned on one line; returns where it begins.
 double draw_legend(Canvas& canvas,
                    const std::vector<DirectionCurve>& curves,
@@ -123,7 +158,7 @@ void draw_deviation_plot(Canvas& canvas, PageBox box, const Certificate& certifi
     const auto curves = curves_of(certificate, units.deviation_factor);
     const auto [low, high] = std::ranges::minmax(certificate.deviations.targets());
     PlotFrame frame = frame_along(low, high, 0.025);
-    frame.y = deviation_ticks(curves);
+    frame.y = deviation_ticks(curves, certificate.set_aside, units.deviation_factor);
     const double labels = widest(canvas, frame.y) + 6;
     frame.box = {box.x + labels, box.y + 13, box.width - labels - 8, box.height - 13 - 22};
     draw_columns(canvas, frame, true);
@@ -133,13 +168,13 @@ void draw_deviation_plot(Canvas& canvas, PageBox box, const Certificate& certifi
         draw_band(canvas, frame, curve);
     for (const DirectionCurve& curve : curves)
         draw_curve(canvas, frame, curve);
+    draw_set_aside(canvas, frame, certificate, units.deviation_factor);
     canvas.text({box.x, box.y + 8}, "Deviation (actual − target), " + units.deviation, {7.5, true});
     draw_legend(canvas, curves, {frame.box.right(), box.y + 8}, certificate.result.cover_factor);
     canvas.text({frame.box.right(), box.bottom() - 2}, "Target position, " + units.position,
                 label_style, Align::right);
-    if (certificate.result.approaches > 1)
-        canvas.text({frame.box.x, box.bottom() - 2}, "faint points: every single deviation",
-                    {7, false, grey});
+    if (const std::string words = legend_of_points(certificate); !words.empty())
+        canvas.text({frame.box.x, box.bottom() - 2}, words, {7, false, grey});
 }
 
 } // namespace axiscal

@@ -57,10 +57,54 @@ struct ApproachColumn {
 
 void append_approaches(std::vector<ApproachColumn>& columns,
                        const std::vector<std::vector<double>>& rows,
+                       std::size_t approaches,
                        const char* arrow) {
     if (rows.empty()) return;
-    for (std::size_t j = 0; j < rows.front().size(); ++j)
+    for (std::size_t j = 0; j < approaches; ++j)
         columns.push_back({&rows, j, arrow + std::string{" "} + std::to_string(j + 1)});
+}
+
+/// "-" where the reading was excluded; the others keep the place of their approach.
+std::string deviation_cell(const ApproachColumn& column,
+                           std::size_t target,
+                           const Certificate& certificate,
+                           const PaperUnits& units) {
+    const auto& row = (*column.rows)[target];
+    const auto approaches = static_cast<std::size_t>(certificate.run.plan.approaches);
+    if (row.size() == approaches) return units.of_deviation(row[column.approach]);
+    const bool forward = column.rows == &certificate.deviations.forward();
+    std::size_t before = 0; // excluded approaches of this row before this one
+    for (const SetAside& reading : certificate.set_aside) {
+        const bool here = !reading.superseded &&
+                          static_cast<std::size_t>(reading.planned.target_index) == target &&
+                          (reading.planned.direction == Direction::positive) == forward;
+        const auto approach = static_cast<std::size_t>(reading.planned.approach);
+        if (here && approach == column.approach) return "-";
+        if (here && approach < column.approach) ++before;
+    }
+    return units.of_deviation(row[column.approach - before]);
+}
+
+/// What no figure uses, each with its reason.
+void draw_set_aside(Sheet& sheet, const Certificate& certificate) {
+    if (certificate.set_aside.empty()) return;
+    const PaperUnits units = paper_units_of(certificate);
+    std::vector<TableRow> rows;
+    rows.reserve(certificate.set_aside.size());
+    for (const SetAside& reading : certificate.set_aside)
+        rows.push_back({std::to_string(reading.planned.target_index + 1),
+                        reading.planned.direction == Direction::positive ? "↑" : "↓",
+                        std::to_string(reading.planned.approach + 1),
+                        units.of_deviation(reading.deviation),
+                        reading.superseded ? "replaced" : "excluded", reading.reason});
+    sheet.heading("Readings that no figure uses");
+    sheet.table({{"Target", ""},
+                 {"Direction", ""},
+                 {"Approach", ""},
+                 {"Deviation", units.deviation},
+                 {"", "", Align::left},
+                 {"Reason", "", Align::left, true}},
+                rows);
 }
 
 void draw_block(Sheet& sheet,
@@ -77,7 +121,7 @@ void draw_block(Sheet& sheet,
     for (std::size_t i = 0; i < targets.size(); ++i) {
         TableRow cells{std::to_string(i + 1), units.of_position(targets[i])};
         for (std::size_t c = first; c < last; ++c)
-            cells.push_back(units.of_deviation((*approaches[c].rows)[i][approaches[c].approach]));
+            cells.push_back(deviation_cell(approaches[c], i, certificate, units));
         rows.push_back(std::move(cells));
     }
     sheet.table(columns, rows);
@@ -94,11 +138,13 @@ void draw_target_pages(Sheet& sheet, const Certificate& certificate) {
                {7, false, grey});
     sheet.heading("Every deviation x\u1d62\u2c7c (target i, approach j)");
     std::vector<ApproachColumn> approaches;
-    append_approaches(approaches, certificate.deviations.forward(), "↑");
-    append_approaches(approaches, certificate.deviations.backward(), "↓");
+    const auto n = static_cast<std::size_t>(certificate.run.plan.approaches);
+    append_approaches(approaches, certificate.deviations.forward(), n, "↑");
+    append_approaches(approaches, certificate.deviations.backward(), n, "↓");
     for (std::size_t first = 0; first < approaches.size(); first += deviations_in_a_row)
         draw_block(sheet, approaches, first,
                    std::min(first + deviations_in_a_row, approaches.size()), certificate);
+    draw_set_aside(sheet, certificate);
 }
 
 } // namespace axiscal

@@ -41,6 +41,7 @@ public:
     }
     Task<Result<std::string>> arm(ArmRequest request) override {
         armed = request;
+        if (request.pass == "soak") co_return refuse(Fault::refused, "preflight", "soak: Wait.");
         if (request.pass == "busy") co_return fail(Fault::busy, "run 7 is open");
         co_return "bench-1";
     }
@@ -49,7 +50,27 @@ public:
         return reason_given = std::move(reason), Result<void>{};
     }
 
+    [[nodiscard]] Result<std::vector<PreflightRecord>>
+    preflight(const ArmRequest& request) const override {
+        const auto reason = request.overrides.find("soak");
+        return std::vector<PreflightRecord>{
+            {"soak", false, "Wait.", reason == request.overrides.end() ? "" : reason->second}};
+    }
+    Task<Result<RetakeAnswer>> retake(RevisionRequest request) override {
+        revision = request;
+        if (request.reason == "late") co_return fail(Fault::datum_lost, "the beam was interrupted");
+        RetakeAnswer answer;
+        answer.points.push_back({10, {2, 2, Direction::negative, 0}});
+        answer.last_request = 10;
+        co_return answer;
+    }
+    Task<Result<int>> exclude(RevisionRequest request) override {
+        revision = request;
+        co_return 1;
+    }
+
     ArmRequest armed;
+    RevisionRequest revision;
     std::string reason_given;
 };
 
@@ -174,6 +195,49 @@ TEST_F(HttpDoor, ArmingPassesStatementsOn) {
     EXPECT_EQ(station.armed.datum_mm, -4.5);
     EXPECT_EQ(station.armed.seed, 7U);
     EXPECT_EQ(station.armed.statements.at("state"), "as left");
+}
+
+TEST_F(HttpDoor, ArmingThatChecksForbidShowsThemAll) {
+    const auto reply = over_socket("POST", "/v1/run", R"({"pass":"soak"})");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 409")) << reply;
+    const auto body = nlohmann::json::parse(body_of(reply));
+    EXPECT_EQ(body.at("error").at("field"), "preflight");
+    EXPECT_EQ(body.at("checks").at(0).at("name"), "soak");
+    EXPECT_EQ(body.at("checks").at(0).at("passed"), false);
+}
+
+TEST_F(HttpDoor, PreflightShowsTheChecksWithoutArming) {
+    const auto read = nlohmann::json::parse(body_of(over_tcp("GET", "/v1/preflight")));
+    EXPECT_EQ(read.at("checks").at(0).at("override"), "");
+    const auto tried = nlohmann::json::parse(
+        body_of(over_socket("POST", "/v1/preflight", R"({"overrides":{"soak":"hurry"}})")));
+    EXPECT_EQ(tried.at("checks").at(0).at("override"), "hurry");
+    EXPECT_TRUE(over_tcp("POST", "/v1/preflight", "", "{}").starts_with("HTTP/1.1 401"));
+}
+
+TEST_F(HttpDoor, ARetakeNamesItsPointsAndTheRequestItCountsFrom) {
+    const auto reply = over_socket("POST", "/v1/run/retake",
+                                   R"({"target":2,"direction":"negative","reason":"coolant"})");
+    ASSERT_TRUE(reply.starts_with("HTTP/1.1 200")) << reply;
+    const auto body = nlohmann::json::parse(body_of(reply));
+    EXPECT_EQ(body.at("last_request"), 10);
+    EXPECT_EQ(body.at("points").at(0).at("step"), 10);
+    EXPECT_EQ(station.revision.selection.target, 2);
+    EXPECT_EQ(station.revision.selection.direction, Direction::negative);
+    EXPECT_FALSE(station.revision.selection.approach);
+    EXPECT_TRUE(over_socket("POST", "/v1/run/retake", R"({"target":2,"reason":"late"})")
+                    .starts_with("HTTP/1.1 409"));
+}
+
+TEST_F(HttpDoor, ARetakeOrAnExclusionWithoutAReasonIsRefusedByName) {
+    for (const char* call : {"/v1/run/retake", "/v1/run/exclude"})
+        for (const char* body :
+             {R"({"target":2})", R"({"target":2,"reason":" "})", R"({"target":-1,"reason":"x"})",
+              R"({"goal":2,"reason":"x"})", R"({"direction":"up","reason":"x"})"})
+            EXPECT_TRUE(over_socket("POST", call, body).starts_with("HTTP/1.1 400"))
+                << call << body;
+    const auto left_out = over_socket("POST", "/v1/run/exclude", R"({"cycle":0,"reason":"x"})");
+    EXPECT_EQ(nlohmann::json::parse(body_of(left_out)).at("excluded"), 1);
 }
 
 TEST_F(HttpDoor, AnUnknownFieldIsRefusedByName) {

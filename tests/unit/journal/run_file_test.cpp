@@ -234,7 +234,8 @@ TEST(RunFile, OfFormat1IsReadWithoutUncertaintyStatement) {
 void make_format_1(const std::string& path) {
     run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; DROP TABLE circular; "
                   "DROP TABLE circular_bar; DROP TABLE circular_uncertainty; DROP TABLE stream; "
-                  "DROP TABLE stream_block; PRAGMA user_version=1");
+                  "DROP TABLE stream_block; DROP TABLE preflight; DROP TABLE retake; "
+                  "DROP TABLE retake_point; DROP TABLE exclusion; PRAGMA user_version=1");
 }
 
 TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {

@@ -223,6 +223,8 @@ private:
         port.map->refuse(action.sequence, action.fault);
     }
     void perform(const RecordEvent& /*action*/) {}
+    void perform(const RecordRetake& /*action*/) {}
+    void perform(const RecordExclusion& /*action*/) {}
     void perform(const SetState& /*action*/) {}
     void perform(const Close& action) {
         closed = true;

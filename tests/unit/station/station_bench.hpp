@@ -191,6 +191,10 @@ struct Shop {
         config.axis.air_humidity = {"air", "air humidity"};
         config.axis.material_temperature = {{"material", "contact 1"}, {"material", "contact 2"}};
         config.axis.material.coefficient = per_kelvin(11.5e-6);
+        config.axis.material.standard_uncertainty = per_kelvin(0.5e-6);
+        config.preflight.soak_window = config.preflight.drift_window = 0s;
+        config.statements.state = "as found";
+        config.statements.control_compensation = "none";
         config.cycle.travel_low = mm(0);
         config.cycle.travel_high = mm(1000);
         config.cycle.interval = mm(90);
@@ -206,6 +210,8 @@ struct Shop {
             InstrumentConfig one;
             one.name = name;
             one.driver = "made";
+            one.certificate_number = "C-1";
+            one.due_on = "2099-12-31";
             config.instruments.push_back(one);
         }
         return config;
@@ -265,6 +271,22 @@ public:
         run(3s);
         return *answer ? **answer : Result<std::string>{fail(Fault::internal, "still arming")};
     }
+    Result<RetakeAnswer> retake(RevisionRequest request) {
+        std::optional<Result<RetakeAnswer>> answer;
+        boost::asio::co_spawn(
+            scheduler.loop(), station->retake(std::move(request)),
+            [&answer](std::exception_ptr, Result<RetakeAnswer> r) { answer = std::move(r); });
+        run(1s);
+        return answer ? *answer : Result<RetakeAnswer>{fail(Fault::internal, "still at it")};
+    }
+    Result<int> exclude(RevisionRequest request) {
+        std::optional<Result<int>> answer;
+        boost::asio::co_spawn(
+            scheduler.loop(), station->exclude(std::move(request)),
+            [&answer](std::exception_ptr, Result<int> r) { answer = std::move(r); });
+        run(1s);
+        return answer ? *answer : Result<int>{fail(Fault::internal, "still at it")};
+    }
     std::shared_ptr<std::optional<Result<std::string>>> begin_arm(ArmRequest request = {}) {
         auto answer = std::make_shared<std::optional<Result<std::string>>>();
         boost::asio::co_spawn(
@@ -295,9 +317,9 @@ public:
         port->sink->on_trigger(event);
     }
     /// Drives, asks, waits. @returns done is the point's number
-    bool take(int step) {
+    bool take(int step) { return take(step, static_cast<std::uint16_t>(step + 1)); }
+    bool take(int step, std::uint16_t sequence) {
         const PlannedPoint point = shop.plan().points[static_cast<std::size_t>(step)];
-        const auto sequence = static_cast<std::uint16_t>(step + 1);
         drive_to(point);
         ask(request_for(point, sequence));
         for (int i = 0; i < 40 && port->done != sequence && port->refusals.empty(); ++i)

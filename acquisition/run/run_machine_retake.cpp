@@ -1,0 +1,171 @@
+// The part of RunMachine that deals with what people decide about readings: to take them again, to
+// leave them out. The trigger contract does not change: a retake's points stand behind the plan's
+// own, and their requests count on from the last one.
+#include "acquisition/run/run_machine.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+bool fits(const PointSelection& selection, const PlannedPoint& point) {
+    return (!selection.target || *selection.target == point.target_index) &&
+           (!selection.direction || *selection.direction == point.direction) &&
+           (!selection.approach || *selection.approach == point.approach);
+}
+
+Error refused(std::string sentence) {
+    return {Fault::bad_request, std::move(sentence), {}, {}};
+}
+
+std::size_t place(int step) {
+    return static_cast<std::size_t>(step);
+}
+
+} // namespace
+
+PlannedPoint RunMachine::planned_at(int step) const {
+    const auto& points = setup_.plan.points;
+    const bool again = place(step) >= points.size();
+    return points[place(again ? retaken_[place(step) - points.size()] : step)];
+}
+
+bool RunMachine::plan_is_done() const {
+    return std::all_of(done_.begin(),
+                       done_.begin() + static_cast<std::ptrdiff_t>(setup_.plan.points.size()),
+                       [](bool done) { return done; });
+}
+
+void RunMachine::append_retakes(const std::vector<RetakePoint>& points) {
+    for (const RetakePoint& point : points) {
+        retaken_.push_back(point.planned_step);
+        done_.push_back(false);
+        skipped_.push_back(false);
+    }
+}
+
+bool RunMachine::is_left_out(int planned_step) const {
+    return std::ranges::find(excluded_, last_reading_[place(planned_step)]) != excluded_.end();
+}
+
+bool RunMachine::awaits_retake(int planned_step) const {
+    for (std::size_t k = 0; k < retaken_.size(); ++k) {
+        const std::size_t step = setup_.plan.points.size() + k;
+        if (retaken_[k] == planned_step && !done_[step] && !skipped_[step]) return true;
+    }
+    return false;
+}
+
+Result<std::vector<int>> RunMachine::chosen(const PointSelection& selection) const {
+    if (!selection.target && !selection.direction && !selection.approach)
+        return tl::unexpected<Error>(
+            refused("Say which: a target, a direction, a cycle, or several of them."));
+    std::vector<int> steps;
+    bool planned = false;
+    for (const PlannedPoint& point : setup_.plan.points) {
+        if (!fits(selection, point)) continue;
+        planned = true;
+        if (last_reading_[place(point.step)] >= 0) steps.push_back(point.step);
+    }
+    if (!planned)
+        return tl::unexpected<Error>(refused(
+            "The plan has no such point; it has " + std::to_string(setup_.plan.targets.size()) +
+            " targets and " + std::to_string(setup_.plan.approaches) + " cycles" +
+            (setup_.plan.bidirectional ? "." : ", in the positive direction only.")));
+    if (steps.empty())
+        return tl::unexpected<Error>(
+            refused("Nothing of that is measured yet: it comes by itself in the plan's order."));
+    return steps;
+}
+
+std::optional<Error> RunMachine::objection_to_retake(const Retake& retake) const {
+    if (!armed_) return Error{Fault::no_run_armed, {}, {}, {}};
+    if (stopped_) return Error{Fault::not_durable, "The run acknowledges nothing more.", {}, {}};
+    if (closed_ && !complete_)
+        return Error{
+            Fault::no_run_armed, "The run was closed as incomplete: arm a new one.", {}, {}};
+    if (wanted_close_) return Error{Fault::busy, "The run is being closed.", {}, {}};
+    if (!datum_ || datum_broken_)
+        return Error{Fault::datum_lost,
+                     "The datum is lost: readings taken now would not belong to the run. Arm a new "
+                     "one.",
+                     {},
+                     {}};
+    if (retake.reason.empty()) return refused("A retake needs its reason.");
+    return std::nullopt;
+}
+
+void RunMachine::on(const Retake& retake, RunActions& out) {
+    const auto objection = objection_to_retake(retake);
+    if (objection) return refuse(0, TriggerOrigin::manual, *objection, retake.at, out);
+    auto steps = chosen(retake.selection);
+    if (!steps) return refuse(0, TriggerOrigin::manual, steps.error(), retake.at, out);
+    std::erase_if(*steps, [this](int step) { return awaits_retake(step); });
+    if (steps->empty())
+        return refuse(0, TriggerOrigin::manual, refused("That is to be taken again already."),
+                      retake.at, out);
+    RetakeRecord record;
+    record.number = ++retakes_;
+    record.at = retake.at;
+    record.reason = retake.reason;
+    int step = static_cast<int>(done_.size());
+    for (const int planned : *steps)
+        record.points.push_back({step++, planned});
+    append_retakes(record.points);
+    const bool reopens = std::exchange(closed_, false);
+    if (reopens) { // the way since then was not of this run
+        complete_ = false;
+        approach_since_ = retake.at;
+        approach_unseen_ = false;
+    }
+    out.push_back(RecordRetake{std::move(record), reopens});
+    if (!pending_) set_state(PortState::armed, out);
+}
+
+/// A standard deviation needs two readings; where one was planned, one.
+bool RunMachine::leaves_enough(const std::vector<int>& planned_steps) const {
+    const int least = std::min(setup_.plan.approaches, 2);
+    for (const int step : planned_steps) {
+        const PlannedPoint& of = setup_.plan.points[place(step)];
+        int left = 0;
+        for (const PlannedPoint& other : setup_.plan.points)
+            if (other.target_index == of.target_index && other.direction == of.direction &&
+                !is_left_out(other.step) &&
+                std::ranges::find(planned_steps, other.step) == planned_steps.end())
+                ++left;
+        if (left < least) return false;
+    }
+    return true;
+}
+
+void RunMachine::on(const Exclude& exclude, RunActions& out) {
+    const auto object = [&](const Error& error) {
+        refuse(0, TriggerOrigin::manual, error, exclude.at, out);
+    };
+    if (stopped_ || wanted_close_ || (closed_ && !complete_))
+        return object({Fault::no_run_armed, "This run takes nothing more.", {}, {}});
+    if (exclude.reason.empty()) return object(refused("An exclusion needs its reason."));
+    auto steps = chosen(exclude.selection);
+    if (!steps) return object(steps.error());
+    std::erase_if(*steps, [this](int step) { return is_left_out(step); });
+    if (steps->empty()) return object(refused("That is left out already."));
+    if (!leaves_enough(*steps))
+        return object(
+            refused("At least two readings of each target and direction must remain for a "
+                    "standard deviation; take the point again instead."));
+    std::vector<ExclusionRecord> records;
+    records.reserve(steps->size());
+    for (const int planned : *steps) {
+        ExclusionRecord record;
+        record.step = last_reading_[place(planned)];
+        record.at = exclude.at;
+        record.reason = exclude.reason;
+        excluded_.push_back(record.step);
+        records.push_back(std::move(record));
+    }
+    out.push_back(RecordExclusion{std::move(records), closed_});
+}
+
+} // namespace axiscal

@@ -1,0 +1,353 @@
+#include "acquisition/station/preflight.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "analysis/drift/settling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace axiscal {
+namespace {
+
+constexpr int kept_readings = 600;
+constexpr double nearly_whole = 0.95; // of a window: the first reading came a little late
+/// Below this the air is too steady to tell whether a sensor follows it.
+constexpr double telling_change_K = 0.03;
+/// Of the two residuals: below it they move by chance.
+constexpr double telling_correlation = 0.8;
+
+PreflightRecord passed(std::string name, std::string verdict) {
+    return {std::move(name), true, std::move(verdict), {}};
+}
+PreflightRecord failed(std::string name, std::string verdict) {
+    return {std::move(name), false, std::move(verdict), {}};
+}
+
+std::string in_kelvin(double kelvins) {
+    return plain_number(kelvins, 3) + " K";
+}
+std::string in_minutes(Duration span) {
+    return span < std::chrono::minutes{2} ? in_seconds(span)
+                                          : plain_number(seconds_of(span) / 60, 1) + " min";
+}
+
+void join(std::string& list, const std::string& item) {
+    list += (list.empty() ? "" : "; ") + item;
+}
+
+PreflightRecord check_instruments(const PreflightFacts& facts) {
+    constexpr Duration laser_limit = std::chrono::seconds{2};
+    std::string wrong;
+    for (const std::string& name : facts.unavailable)
+        join(wrong, name + " is not there");
+    for (const SensorFacts& sensor : facts.sensors)
+        if (!sensor.fresh)
+            join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
+    if (!facts.laser_age || *facts.laser_age > laser_limit)
+        join(wrong, "the laser gives no fresh reading");
+    if (wrong.empty())
+        return passed("instruments", "Every instrument is there and its readings are fresh.");
+    return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
+}
+
+/// Fitted change over the soak window, or how much of the window there is.
+struct Soak {
+    std::optional<double> change_K;
+    Duration covered{};
+};
+Soak soak_of(const SensorFacts& sensor, const PreflightFacts& facts) {
+    const Duration window = facts.config.preflight.soak_window;
+    const DriftSeries series = sensor.log->last(window, facts.now);
+    Soak soak;
+    if (series.times.size() < 2) return soak;
+    soak.covered = from_seconds(series.times.back() - series.times.front());
+    const double asked_s = seconds_of(window) * nearly_whole;
+    const auto slopes = window_slopes(series, asked_s);
+    if (!slopes.empty()) soak.change_K = slopes.back().slope * seconds_of(window);
+    return soak;
+}
+
+PreflightRecord check_soak(const PreflightFacts& facts) {
+    const PreflightConfig& limits = facts.config.preflight;
+    if (limits.soak_window <= Duration{})
+        return passed("soak", "Not asked: preflight.soak_window is 0.");
+    const double limit_K = limits.soak_change.in(kelvin);
+    std::string wrong;
+    double largest_K = 0;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.kind != ChannelKind::temperature) continue;
+        const Soak soak = soak_of(sensor, facts);
+        if (!soak.change_K)
+            join(wrong, sensor.name + " has been read for " + in_minutes(soak.covered) + " of " +
+                            in_minutes(limits.soak_window));
+        else if (std::fabs(*soak.change_K) > limit_K)
+            join(wrong, sensor.name + " changes by " + in_kelvin(*soak.change_K) + " in " +
+                            in_minutes(limits.soak_window) + ", " + in_kelvin(limit_K) +
+                            " are allowed");
+        else
+            largest_K = std::max(largest_K, std::fabs(*soak.change_K));
+    }
+    if (wrong.empty())
+        return passed("soak", "Every temperature changes by " + in_kelvin(largest_K) +
+                                  " or less in " + in_minutes(limits.soak_window) + ".");
+    return failed("soak", wrong + ". Let sensors and machine come to rest, and wait.");
+}
+
+PreflightRecord check_sensors(const PreflightFacts& facts) {
+    const double limit_K = facts.config.preflight.sensor_difference.in(kelvin);
+    const SensorFacts *lowest = nullptr, *highest = nullptr;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.medium != Medium::material || !sensor.log->newest()) continue;
+        if (lowest == nullptr || *sensor.log->newest() < *lowest->log->newest()) lowest = &sensor;
+        if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
+            highest = &sensor;
+    }
+    if (lowest == nullptr) return failed("sensors", "No material sensor gives a reading.");
+    const double apart_K = *highest->log->newest() - *lowest->log->newest();
+    if (lowest == highest)
+        return passed("sensors", "One material sensor alone: nothing to compare it with.");
+    if (apart_K <= limit_K)
+        return passed("sensors", "The material sensors agree within " + in_kelvin(apart_K) + ".");
+    return failed("sensors", highest->name + " shows " + in_kelvin(apart_K) + " more than " +
+                                 lowest->name + "; " + in_kelvin(limit_K) +
+                                 " are allowed. One of them does not touch the machine, or its "
+                                 "correction is wrong.");
+}
+
+/// Residuals of a series about its own straight line, at its own times.
+std::vector<double> residuals_of(const std::vector<double>& times,
+                                 const std::vector<double>& readings) {
+    const auto n = static_cast<double>(times.size());
+    double mean_t = 0, mean_x = 0, tt = 0, tx = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        mean_t += times[i] / n, mean_x += readings[i] / n;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        tt += (times[i] - mean_t) * (times[i] - mean_t);
+        tx += (times[i] - mean_t) * (readings[i] - mean_x);
+    }
+    const double slope = tt > 0 ? tx / tt : 0;
+    std::vector<double> residuals;
+    residuals.reserve(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i)
+        residuals.push_back(readings[i] - mean_x - slope * (times[i] - mean_t));
+    return residuals;
+}
+
+double value_at(const DriftSeries& series, double time) {
+    const auto after = std::ranges::lower_bound(series.times, time);
+    if (after == series.times.begin()) return series.readings.front();
+    if (after == series.times.end()) return series.readings.back();
+    const auto i = static_cast<std::size_t>(after - series.times.begin());
+    const double share = (time - series.times[i - 1]) / (series.times[i] - series.times[i - 1]);
+    return series.readings[i - 1] + share * (series.readings[i] - series.readings[i - 1]);
+}
+
+/// Share of the air's swings that the sensor shows; empty when nothing can be told.
+std::optional<double> air_share_of(const DriftSeries& material, const DriftSeries& air) {
+    constexpr std::size_t fewest = 10;
+    if (material.times.size() < fewest || air.times.size() < fewest) return std::nullopt;
+    std::vector<double> beside;
+    beside.reserve(material.times.size());
+    for (const double time : material.times)
+        beside.push_back(value_at(air, time));
+    const auto sensor = residuals_of(material.times, material.readings);
+    const auto driver = residuals_of(material.times, beside);
+    double aa = 0, am = 0, mm_ = 0;
+    for (std::size_t i = 0; i < sensor.size(); ++i) {
+        aa += driver[i] * driver[i];
+        am += driver[i] * sensor[i];
+        mm_ += sensor[i] * sensor[i];
+    }
+    const bool moves = std::sqrt(aa / static_cast<double>(sensor.size())) >= telling_change_K;
+    if (!moves || mm_ <= 0 || am / std::sqrt(aa * mm_) < telling_correlation) return std::nullopt;
+    return am / aa;
+}
+
+PreflightRecord check_contact(const PreflightFacts& facts) {
+    const PreflightConfig& limits = facts.config.preflight;
+    const Duration window = std::max<Duration>(limits.soak_window, std::chrono::seconds{1});
+    const auto air = std::ranges::find_if(facts.sensors, [](const SensorFacts& sensor) {
+        return sensor.medium == Medium::air && sensor.kind == ChannelKind::temperature;
+    });
+    if (air == facts.sensors.end())
+        return passed("contact", "There is no air sensor to compare with.");
+    const DriftSeries air_series = air->log->last(window, facts.now);
+    std::string wrong;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.medium != Medium::material) continue;
+        const auto share = air_share_of(sensor.log->last(window, facts.now), air_series);
+        if (share && *share >= limits.air_share)
+            join(wrong, sensor.name + " shows " + plain_number(*share * 100, 0) +
+                            " % of each change of " + air->name);
+    }
+    if (wrong.empty()) return passed("contact", "No material sensor follows the air.");
+    return failed("contact", wrong + ". It reads the air: press it on with paste and cover it.");
+}
+
+PreflightRecord check_strength(const PreflightFacts& facts) {
+    const double limit = facts.config.preflight.least_strength_percent;
+    std::optional<double> lowest;
+    for (const SensorFacts& strength : facts.strengths)
+        if (const auto found = strength.log->lowest())
+            lowest = std::min(lowest.value_or(*found), *found);
+    if (!lowest) return passed("strength", "The laser does not tell the strength of its signal.");
+    const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
+    if (*lowest >= limit) return passed("strength", seen + ".");
+    return failed("strength", seen + "; " + plain_number(limit, 0) +
+                                  " % are asked. Align the beam over the whole travel.");
+}
+
+PreflightRecord check_drift(const PreflightFacts& facts) {
+    const PreflightConfig& limits = facts.config.preflight;
+    if (limits.drift_window <= Duration{})
+        return passed("drift", "Not asked: preflight.drift_window is 0.");
+    constexpr double moved_um = 50; // no drift: the axis was driven
+    DriftSeries series;
+    for (const Sample& sample : facts.laser_samples)
+        if (const auto reading_m = sample.value();
+            reading_m && sample.at >= facts.now - limits.drift_window) {
+            const double at_s = seconds_of(sample.at - (facts.now - limits.drift_window));
+            if (!series.times.empty() && at_s <= series.times.back()) continue;
+            series.times.push_back(at_s);
+            series.readings.push_back(*reading_m * 1e6);
+        }
+    const double asked_s = seconds_of(limits.drift_window) * nearly_whole;
+    const bool whole =
+        series.times.size() > 1 && series.times.back() - series.times.front() >= asked_s;
+    if (!whole)
+        return failed("drift", "The laser has been read for less than " +
+                                   in_minutes(limits.drift_window) + " without a break. Wait.");
+    if (total_range(series).range > moved_um)
+        return failed("drift", "The axis moved within the last " + in_minutes(limits.drift_window) +
+                                   ". Let it stand at its datum.");
+    const auto slopes = window_slopes(series, asked_s);
+    const double change_um =
+        slopes.empty() ? 0 : slopes.back().slope * seconds_of(limits.drift_window);
+    const std::string seen = "The reading of the standing axis drifts by " +
+                             plain_number(change_um, 2) + " um in " +
+                             in_minutes(limits.drift_window);
+    if (std::fabs(change_um) <= limits.drift_limit.in(um)) return passed("drift", seen + ".");
+    return failed("drift", seen + ", " + in_um(limits.drift_limit) +
+                               " are allowed. Let laser and machine warm up.");
+}
+
+PreflightRecord check_expansion(const PreflightFacts& facts) {
+    const auto& material = facts.config.axis.material;
+    const bool width = facts.config.uncertainty && facts.config.uncertainty->expansion_width;
+    const bool rotary = facts.config.cycle.axis_kind == AxisKind::rotary;
+    const std::string coefficient =
+        plain_number(material.coefficient.in(um_per_m_kelvin), 2) + " um/(m*K)";
+    if (rotary) return passed("expansion", "A rotary axis has no length to expand.");
+    if (material.coefficient.si() <= 0)
+        return failed("expansion", "The coefficient of expansion is 0. Write the real one into "
+                                   "axis.material.coefficient.");
+    if (material.standard_uncertainty || width)
+        return passed("expansion", "The coefficient " + coefficient + " has its uncertainty.");
+    return failed("expansion", "The coefficient " + coefficient +
+                                   " stands without its uncertainty. State "
+                                   "axis.material.standard_uncertainty.");
+}
+
+PreflightRecord check_compensation(const PreflightFacts& facts) {
+    constexpr std::array<std::string_view, 3> known{"as found", "raw", "as left"};
+    const bool said = std::ranges::find(known, facts.state) != known.end();
+    if (!said)
+        return failed(
+            "compensation",
+            "The state of the machine is " +
+                (facts.state.empty() ? std::string{"not stated"} : "\"" + facts.state + "\"") +
+                ". Say \"as found\", \"raw\" or \"as left\": axiscal arm --state-that "
+                "state=\"as found\".");
+    if (facts.control_compensation.empty())
+        return failed("compensation",
+                      "Which compensation of the control is active is not stated. Say it: axiscal "
+                      "arm --state-that control_compensation=\"none\".");
+    return passed("compensation", "The machine is measured " + facts.state +
+                                      "; compensation: " + facts.control_compensation + ".");
+}
+
+PreflightRecord check_certificates(const PreflightFacts& facts) {
+    std::string wrong;
+    for (const InstrumentConfig& instrument : facts.config.instruments) {
+        if (std::ranges::find(facts.in_use, instrument.name) == facts.in_use.end()) continue;
+        if (instrument.certificate_number.empty() || instrument.due_on.empty())
+            join(wrong,
+                 instrument.name + " has no certificate_number and due_on in the station file");
+        else if (instrument.due_on < facts.today)
+            join(wrong, instrument.name + " was due for calibration on " + instrument.due_on);
+    }
+    if (wrong.empty())
+        return passed("certificates", "Every instrument has a certificate that is in date.");
+    return failed("certificates", wrong + ". Have it calibrated, or enter the new certificate.");
+}
+
+} // namespace
+
+void SensorLog::take(const Sample& sample) {
+    const auto value = sample.value();
+    if (!value || (!readings_.empty() && sample.at <= readings_.back().at)) return;
+    const Duration spacing = depth_ / kept_readings;
+    const bool close =
+        readings_.size() > 1 && sample.at - readings_[readings_.size() - 2].at < spacing;
+    if (!close)
+        readings_.push_back({sample.at, *value});
+    else if (keep_ == Keep::newest || *value < readings_.back().value)
+        readings_.back() = {sample.at, *value};
+    while (readings_.size() > 2 && readings_.front().at < sample.at - depth_)
+        readings_.pop_front();
+}
+
+DriftSeries SensorLog::last(Duration window, MonotonicTime now) const {
+    DriftSeries series;
+    for (const Reading& reading : readings_) {
+        if (reading.at < now - window || reading.at > now) continue;
+        series.times.push_back(seconds_of(reading.at - (now - window)));
+        series.readings.push_back(reading.value);
+    }
+    return series;
+}
+
+std::optional<double> SensorLog::lowest() const {
+    if (readings_.empty()) return std::nullopt;
+    return std::ranges::min_element(readings_, {}, &Reading::value)->value;
+}
+
+std::optional<double> SensorLog::newest() const {
+    return readings_.empty() ? std::nullopt : std::optional{readings_.back().value};
+}
+
+std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
+    return {check_instruments(facts), check_soak(facts),         check_sensors(facts),
+            check_contact(facts),     check_strength(facts),     check_drift(facts),
+            check_expansion(facts),   check_compensation(facts), check_certificates(facts)};
+}
+
+Result<void> override_checks(std::vector<PreflightRecord>& checks,
+                             const std::map<std::string, std::string>& reasons) {
+    for (const auto& [name, reason] : reasons) {
+        const auto check = std::ranges::find(checks, name, &PreflightRecord::name);
+        if (check == checks.end()) {
+            std::string known;
+            for (const PreflightRecord& known_check : checks)
+                known += (known.empty() ? "" : ", ") + known_check.name;
+            return refuse(Fault::bad_request, "overrides." + name,
+                          "is no check; there are " + known);
+        }
+        if (reason.find_first_not_of(" \t") == std::string::npos)
+            return refuse(Fault::bad_request, "overrides." + name, "needs a reason: it is printed");
+        if (!check->passed) check->override_reason = reason;
+    }
+    return {};
+}
+
+std::string open_objections(const std::vector<PreflightRecord>& checks) {
+    std::string text;
+    for (const PreflightRecord& check : checks)
+        if (!check.passed && check.override_reason.empty())
+            text += (text.empty() ? "" : " ") + check.name + ": " + check.verdict;
+    return text;
+}
+
+} // namespace axiscal

@@ -1,0 +1,79 @@
+#pragma once
+// What must hold before a run is armed: each check has a name, a verdict in one sentence with the
+// way out, and may be overridden with a reason that is printed. Pure.
+
+#include "analysis/drift/drift.hpp"
+#include "analysis/run_revisions.hpp"
+#include "config/station_config.hpp"
+#include "drivers/sample.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// The last minutes of one sensor, thinned. Pure.
+class SensorLog {
+public:
+    enum class Keep : std::uint8_t { newest, lowest }; ///< of readings that stand too close
+    /// Some 600 readings within `depth`.
+    explicit SensorLog(Duration depth, Keep keep = Keep::newest)
+        : depth_{depth}
+        , keep_{keep} {}
+    void take(const Sample& sample);
+    /// Seconds since the first reading of the daemon; only the last `window`.
+    [[nodiscard]] DriftSeries last(Duration window, MonotonicTime now) const;
+    [[nodiscard]] std::optional<double> lowest() const;
+    [[nodiscard]] std::optional<double> newest() const;
+
+private:
+    struct Reading {
+        MonotonicTime at;
+        double value = 0;
+    };
+    Duration depth_;
+    Keep keep_;
+    std::deque<Reading> readings_;
+};
+
+struct SensorFacts {
+    std::string name; ///< "material/contact 1"
+    ChannelKind kind = ChannelKind::temperature;
+    Medium medium = Medium::none;
+    bool fresh = false;
+    std::string quality; ///< "good", "stale", ...
+    const SensorLog* log = nullptr;
+};
+
+/// Everything that the checks look at.
+struct PreflightFacts {
+    const StationConfig& config;
+    MonotonicTime now;
+    std::string today;                       ///< ISO date
+    std::string state, control_compensation; ///< as the certificate will say
+    std::vector<std::string> unavailable;    ///< instruments in use that are not there
+    std::vector<std::string> in_use;         ///< names of instruments with a part to play
+    std::vector<SensorFacts> sensors;        ///< of the environment
+    std::vector<SensorFacts> strengths;      ///< of the laser's signal; empty: it tells none
+    std::optional<Duration> laser_age;       ///< of its last good reading
+    std::span<const Sample> laser_samples;   ///< at least of the last drift_window
+};
+
+/// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
+/// "certificates", in this order.
+std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
+
+/// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.
+/// @errors Fault::bad_request for a name that is no check, or without a reason.
+Result<void> override_checks(std::vector<PreflightRecord>& checks,
+                             const std::map<std::string, std::string>& reasons);
+
+/// Those that failed and have no reason, one sentence each; empty when the run may be armed.
+std::string open_objections(const std::vector<PreflightRecord>& checks);
+
+} // namespace axiscal

@@ -1,0 +1,79 @@
+// What the pre-flight checks look at, gathered from the running station.
+#include "acquisition/station/station.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+/// As make_run_header will take it: what a person says at arming goes before the station file.
+std::string
+stated(const ArmRequest& request, const std::string& key, const std::string& in_station_file) {
+    const auto said = request.statements.find(key);
+    return said == request.statements.end() ? in_station_file : said->second;
+}
+
+} // namespace
+
+void Station::log_sensor(const Sample& sample) {
+    sensor_logs_[static_cast<std::size_t>(sample.channel)].take(sample);
+}
+
+SensorFacts Station::sensor_facts(int id) const {
+    const StationChannel& channel = channel_of(id);
+    const ChannelView view = channel_view(channel);
+    SensorFacts facts;
+    facts.name = channel.instrument_name + "/" + channel.name;
+    facts.kind = channel.kind;
+    facts.medium = channel.medium;
+    facts.fresh = view.value.has_value();
+    facts.quality = view.quality;
+    facts.log = &sensor_logs_[static_cast<std::size_t>(id)];
+    return facts;
+}
+
+PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
+    constexpr std::size_t day_letters = 10;
+    const MonotonicTime now = scheduler_.now();
+    PreflightFacts facts{
+        config_,
+        now,
+        iso8601_utc(scheduler_.clock_tie().utc_ns).substr(0, day_letters),
+        stated(request, "state", config_.statements.state),
+        stated(request, "control_compensation", config_.statements.control_compensation),
+        {},
+        {},
+        {},
+        {},
+        {},
+        {}};
+    std::vector<int> roles = roles_.environment();
+    for (const int id : roles)
+        facts.sensors.push_back(sensor_facts(id));
+    roles.push_back(roles_.laser);
+    const auto views = supervisor_.view();
+    for (const int id : roles) {
+        const StationChannel& channel = channel_of(id);
+        const auto& name = channel.instrument_name;
+        if (std::ranges::find(facts.in_use, name) != facts.in_use.end()) continue;
+        facts.in_use.push_back(name);
+        const auto& view = views[static_cast<std::size_t>(channel.instrument)];
+        if (view.state != InstrumentState::available) facts.unavailable.push_back(name);
+    }
+    const int laser = channel_of(roles_.laser).instrument;
+    for (const StationChannel& channel : supervisor_.channels())
+        if (channel.kind == ChannelKind::strength && channel.instrument == laser)
+            facts.strengths.push_back(sensor_facts(channel.id));
+    if (const auto reading = history_.newest(); reading && reading->value())
+        facts.laser_age = now - reading->at;
+    facts.laser_samples = history_.between(now - config_.preflight.drift_window, now);
+    return facts;
+}
+
+Result<std::vector<PreflightRecord>> Station::preflight(const ArmRequest& request) const {
+    auto checks = judge_preflight(preflight_facts(request));
+    AXISCAL_CHECK(override_checks(checks, request.overrides));
+    return checks;
+}
+
+} // namespace axiscal

@@ -1,0 +1,145 @@
+// Points taken again and readings left out: while the run is open, and after it was closed as long
+// as the set-up stands. The run machine decides; here it is made durable.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "drivers/spawn.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration laser_limit = std::chrono::seconds{2}; // an older reading is no reading
+constexpr Length reading_slack = mm(0.05); // of two neighbouring readings, beside the axis's speed
+
+} // namespace
+
+/// After the closing nobody captures; the counter's zero is watched by its readings.
+void Station::watch_set_up(const Sample& sample) {
+    if (!run_ || !run_->closed || !datum_ || !set_up_lost_.empty()) return;
+    if (sample.epoch != datum_epoch_)
+        set_up_lost_ = "the laser's counter lost its zero since the run was closed";
+    else if (sample.quality() == Quality::beam_lost)
+        set_up_lost_ = "the laser's beam was interrupted since the run was closed";
+    else if (sample.value() && last_reading_ && config_.capture.fastest.si() > 0) {
+        const auto jump = abs(metre(*sample.value()) - metre(*last_reading_->value()));
+        const auto reach =
+            metre(config_.capture.fastest.si() * seconds_of(sample.at - last_reading_->at));
+        if (jump > reach + reading_slack)
+            set_up_lost_ = "the laser's reading jumped by " + in_mm(jump) +
+                           " since the run was closed, faster than the axis can move";
+    }
+    if (sample.value()) last_reading_ = sample;
+}
+
+Result<void> Station::run_may_be_revised() const {
+    if (!run_ || !machine_)
+        return fail(Fault::no_run_armed,
+                    "no run was measured since axiscald was started; a run that was closed before "
+                    "cannot be added to: arm a new one");
+    if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
+    if (run_->closing) return fail(Fault::busy, "the run is being closed; ask again");
+    return {};
+}
+
+/// For a run that was closed: the same instruments, and the datum that it was measured from.
+Result<void> Station::set_up_stands() const {
+    if (!set_up_lost_.empty()) return fail(Fault::datum_lost, set_up_lost_ + ": arm a new run");
+    const auto reading = history_.newest();
+    if (!reading || scheduler_.now() - reading->at > laser_limit || !reading->value())
+        return fail(Fault::link_timeout, "the laser gives no good reading now");
+    if (reading->epoch != datum_epoch_)
+        return fail(Fault::datum_lost, "the laser's counter lost its zero: arm a new run");
+    for (std::size_t i = 0; i < run_->header.instruments.size(); ++i) {
+        const InstrumentRecord& then = run_->header.instruments[i];
+        const std::string& serial = supervisor_.identity(static_cast<int>(i)).serial;
+        if (!serial.empty() && serial != then.serial)
+            return fail(Fault::unknown_instrument, then.name + " has the serial number '" + serial +
+                                                       "', the run's has '" + then.serial +
+                                                       "': arm a new run");
+    }
+    return watch_.check(scheduler_.now(), config_.axis.air.oldest);
+}
+
+/// Makes durable what the machine has just decided; on failure all is as it was before.
+Task<Result<void>> Station::keep_revision(RunMachine before) {
+    const auto retake = std::exchange(new_retake_, std::nullopt);
+    const auto exclusion = std::exchange(new_exclusion_, std::nullopt);
+    const bool reopens = (retake && retake->reopens) || (exclusion && exclusion->reopens);
+    Result<void> kept;
+    if (reopens) {
+        std::optional<RetakeRecord> order;
+        if (retake) order = retake->retake;
+        std::vector<ExclusionRecord> left_out;
+        if (exclusion) left_out = exclusion->exclusions;
+        kept = co_await journal_.reopen_closed(run_->path, std::move(order), std::move(left_out));
+    } else {
+        if (retake) journal_.note(retake->retake);
+        if (exclusion) journal_.note(exclusion->exclusions);
+        kept = co_await journal_.flush();
+    }
+    if (!kept) machine_.emplace(std::move(before));
+    co_return kept;
+}
+
+Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
+    if (auto may = run_may_be_revised(); !may) co_return tl::unexpected<Error>(may.error());
+    const bool was_closed = run_->closed;
+    if (was_closed)
+        if (auto stands = set_up_stands(); !stands) co_return tl::unexpected<Error>(stands.error());
+    manual_refusal_.reset();
+    RunMachine before = *machine_;
+    feed_with_air(Retake{request.selection, request.reason, scheduler_.now()});
+    if (manual_refusal_) co_return tl::unexpected<Error>(*manual_refusal_);
+    const std::vector<RetakePoint> points = new_retake_->retake.points;
+    revising_ = true;
+    auto kept = co_await keep_revision(std::move(before));
+    revising_ = false;
+    if (!kept) co_return tl::unexpected<Error>(kept.error());
+    if (was_closed) {
+        run_->closed = false;
+        run_->outcome.reset();
+        run_->certificate.clear();
+        run_->no_certificate.reset();
+        run_->refusal.reset();
+    }
+    RetakeAnswer answer;
+    answer.last_request = machine_->view().last_durable;
+    for (const RetakePoint& point : points)
+        answer.points.push_back(
+            {point.step, run_->header.plan.points[static_cast<std::size_t>(point.planned_step)]});
+    note(counted(static_cast<long>(answer.points.size()), "point") + " of run " +
+         run_->header.run_id + " to be taken again: " + request.reason);
+    co_return answer;
+}
+
+Task<Result<int>> Station::exclude(RevisionRequest request) {
+    if (auto may = run_may_be_revised(); !may) co_return tl::unexpected<Error>(may.error());
+    manual_refusal_.reset();
+    RunMachine before = *machine_;
+    feed(Exclude{request.selection, request.reason, scheduler_.now()});
+    if (manual_refusal_) co_return tl::unexpected<Error>(*manual_refusal_);
+    const int count = static_cast<int>(new_exclusion_->exclusions.size());
+    revising_ = true;
+    auto kept = co_await keep_revision(std::move(before));
+    if (kept && run_->closed) kept = co_await close_again();
+    revising_ = false;
+    if (!kept) co_return tl::unexpected<Error>(kept.error());
+    note(counted(count, "reading") + " of run " + run_->header.run_id +
+         " left out: " + request.reason);
+    co_return count;
+}
+
+/// The run stays closed to the CNC; only its file was opened for a moment.
+Task<Result<void>> Station::close_again() {
+    auto closed = co_await journal_.close(true, run_->outcome->reason);
+    if (!closed) co_return closed;
+    run_->certificate.clear();
+    run_->no_certificate.reset();
+    spawn(scheduler_, certify(run_->header.run_id, run_->path));
+    co_return closed;
+}
+
+} // namespace axiscal

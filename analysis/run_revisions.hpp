@@ -1,0 +1,61 @@
+#pragma once
+// What people decided about a run: what was checked before it, which points were taken again, which
+// readings are left out. Pure data, beside RunRecord, which holds what was measured.
+
+#include "analysis/run_record.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// One check before arming.
+struct PreflightRecord {
+    std::string name; ///< "soak"
+    bool passed = false;
+    std::string verdict;         ///< one sentence
+    std::string override_reason; ///< why the run was armed although it failed; else empty
+};
+
+/// A planned point that is to be taken once more. Its `step` follows those of the plan.
+struct RetakePoint {
+    int step = 0;
+    int planned_step = 0; ///< of the plan's point whose reading it replaces
+};
+
+struct RetakeRecord {
+    int number = 1; ///< from 1 within the run
+    MonotonicTime at;
+    std::int64_t utc_ns = 0;
+    std::string reason;
+    std::vector<RetakePoint> points;
+};
+
+/// A reading that no figure may use.
+struct ExclusionRecord {
+    int step = 0; ///< PointRecord::step
+    MonotonicTime at;
+    std::int64_t utc_ns = 0;
+    std::string reason;
+};
+
+struct RunRevisions {
+    std::vector<PreflightRecord> preflight;
+    std::vector<RetakeRecord> retakes;
+    std::vector<ExclusionRecord> exclusions;
+    std::vector<PointRecord> superseded; ///< replaced by RunRecord::points; by planned step, oldest
+                                         ///< first
+    int closings = 0;                    ///< a run that was added to is closed again
+};
+
+/// A reading that is shown and counted but enters no figure.
+struct SetAside {
+    PlannedPoint planned;
+    int step = 0;
+    double deviation = 0;    ///< mm at 20 degC, as every reading
+    bool superseded = false; ///< taken again; else excluded
+    std::string reason;
+};
+
+} // namespace axiscal

@@ -1,0 +1,92 @@
+"""Points taken again and readings left out, from the command line to the certificate."""
+
+import json
+from pathlib import Path
+
+import bench
+from bench import expect, sentence
+
+
+def take_again(b, *words):
+    """Orders it, writes its program and starts it; gives back the order."""
+    order = json.loads(b.axiscal("retake", "--json", *words))
+    shown = b.axiscal("program", "--json", "--retake", b.run()["file"], "--config",
+                      b.folder / "station.toml", "--out", b.folder)
+    program = json.loads(shown)["programs"][0]
+    expect(program["points"] == len(order["points"]), f"{program} for {order}")
+    expect(program["last_request"] == order["last_request"], f"{program} for {order}")
+    b.sim(f"run {program['file']}")
+    return order
+
+
+@sentence("PointsAreTakenAgainAfterTheRunWasClosed")
+def after_the_run(b):
+    b.begin_run()
+    first = b.finish()
+    first_folder = Path(b.run()["certificate"])
+    order = take_again(b, "--target", 2, "--cycle", 1, "--reason", "coolant on the mirror")
+    expect(len(order["points"]) == 2 and order["last_request"] == 20, f"{order}")
+    second = b.finish()
+    run = b.run()
+    expect(run["done"] == 22 and run["state"] == "complete", f"{run}")
+    aside = second["run"]["set_aside"]
+    expect([(one["target"], one["approach"], one["why"]) for one in aside]
+           == [(1, 0, "superseded")] * 2, f"{aside}")
+    was = first["run"]["deviations"]["forward"][1][0]
+    forward = next(one for one in aside if one["direction"] == "positive")
+    expect(abs(forward["deviation"] - was) < 1e-9, f"{forward} was {was}")
+    expect(second["run"]["retakes"][0]["reason"] == "coolant on the mirror", "the reason is kept")
+    told = [r for r in second["run"]["remarks"] if "Readings replaced" in r]
+    expect(len(told) == 1 and "P2 ↑ 1" in told[0], f"{second['run']['remarks']}")
+    expect(Path(run["certificate"]).name.endswith("-r2"), run["certificate"])
+    expect((first_folder / "certificate.pdf").exists(), "the first certificate is not touched")
+    csv = (Path(run["certificate"]) / "certificate.csv").read_text()
+    expect(csv.count("# superseded") == 2, csv[:2000])
+    checked = json.loads(b.axiscal("verify", "--json", run["file"]))
+    expect(checked["intact"], f"{checked['findings']}")
+
+
+@sentence("ReadingLeftOutIsCountedAndThePointTakenAgainCounts")
+def left_out(b):
+    b.station["cycle"].update(approaches=3)
+    b.begin_run()
+    b.wait_for_points(3)
+    b.axiscal("exclude", "--target", 1, "--direction", "up", "--cycle", 1, "--reason",
+              "somebody leaned on the table")
+    certificate = b.finish()
+    rows = certificate["run"]["deviations"]["forward"]
+    expect([len(row) for row in rows] == [2, 3, 3, 3, 3], f"{rows}")
+    told = " ".join(certificate["run"]["remarks"])
+    for words in ("Readings excluded: 1", "somebody leaned on the table", "asks for five"):
+        expect(words in told, f"'{words}' is not said: {told}")
+    b.axiscal("exclude", "--target", 1, "--direction", "up", "--cycle", 2, "--reason", "more",
+              code=4)
+    expect("At least two" in b.complaint, b.complaint)
+    take_again(b, "--target", 1, "--direction", "up", "--cycle", 1, "--reason", "once more")
+    rows = b.finish()["run"]["deviations"]["forward"]
+    expect([len(row) for row in rows] == [3] * 5, f"{rows}")
+
+
+@sentence("ArmingShowsEveryCheckThatFailsAndPrintsTheOverride")
+def preflight(b):
+    b.station["preflight"]["soak_window"] = "10 min"
+    b.station["instrument"][1]["due_on"] = "2020-01-01"
+    b.start()
+    b.write_program()
+    b.go_to_datum()
+    checks = json.loads(b.axiscal("preflight", "--json", code=4))["checks"]
+    failing = [check["name"] for check in checks if not check["passed"]]
+    expect(failing == ["soak", "certificates"], f"{checks}")
+    b.axiscal("arm", "--program", b.plan["file"], code=4)
+    for words in ("soak", "certificates", "--override"):
+        expect(words in b.complaint, b.complaint)
+    b.arm("--override", "soak=a test", "--override", "certificates=the new one is on its way")
+    certificate = b.finish()
+    told = " ".join(certificate["run"]["remarks"])
+    for words in ("a test", "the new one is on its way", "2020-01-01"):
+        expect(words in told, f"'{words}' is not said: {told}")
+    expect(len(certificate["run"]["preflight"]) == 9, f"{certificate['run']['preflight']}")
+
+
+if __name__ == "__main__":
+    bench.main()

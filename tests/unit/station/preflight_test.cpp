@@ -1,0 +1,203 @@
+// Each pre-flight check with what it lets pass and what it stops.
+#include "acquisition/station/preflight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+namespace axiscal {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A shop where every check holds, at 20 minutes; a test spoils one thing.
+class Preflight : public ::testing::Test {
+protected:
+    Preflight() {
+        for (const char* name : {"laser", "air", "material"}) {
+            InstrumentConfig one;
+            one.name = name;
+            one.certificate_number = "C-1";
+            one.due_on = "2026-11-21";
+            config.instruments.push_back(one);
+        }
+        config.axis.material.coefficient = per_kelvin(11.5e-6);
+        config.axis.material.standard_uncertainty = per_kelvin(0.5e-6);
+        read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 20.6; });
+        stand([](double) { return 0.0; });
+    }
+
+    using Course = std::function<double(double minutes)>;
+    /// Twenty minutes of readings, one a second.
+    void read(const Course& air, const Course& left, const Course& right) {
+        logs.clear();
+        for (const Course& course : {air, left, right}) {
+            auto log = std::make_unique<SensorLog>(20min);
+            for (int second = 0; second <= 1200; ++second)
+                log->take(Sample{0, at(second), course(second / 60.0)});
+            logs.push_back(std::move(log));
+        }
+    }
+    /// The laser's reading over the last minute, in micrometres.
+    void stand(const std::function<double(double seconds)>& course) {
+        samples.clear();
+        for (int k = 0; k <= 6000; ++k) {
+            const double seconds = k / 100.0;
+            samples.emplace_back(0, at(1140 + seconds), course(seconds) * 1e-6);
+        }
+    }
+    static MonotonicTime at(double seconds) { return MonotonicTime{from_seconds(seconds)}; }
+
+    PreflightFacts facts() {
+        PreflightFacts facts{config, at(1200), "2026-11-21", "as found", "none", {},
+                             {},     {},       {},           {},         {}};
+        facts.in_use = {"laser", "air", "material"};
+        const Medium media[] = {Medium::air, Medium::material, Medium::material};
+        const char* names[] = {"air/temperature", "material/left", "material/right"};
+        for (std::size_t k = 0; k < logs.size(); ++k)
+            facts.sensors.push_back(
+                {names[k], ChannelKind::temperature, media[k], true, "good", logs[k].get()});
+        facts.laser_age = 10ms;
+        facts.laser_samples = samples;
+        return facts;
+    }
+    static const PreflightRecord& named(const std::vector<PreflightRecord>& checks,
+                                        const std::string& name) {
+        return *std::ranges::find(checks, name, &PreflightRecord::name);
+    }
+    /// Only this check fails, and its sentence holds these words.
+    void
+    expect_failure(const PreflightFacts& of, const std::string& name, const std::string& words) {
+        const auto checks = judge_preflight(of);
+        for (const PreflightRecord& check : checks)
+            EXPECT_EQ(check.passed, check.name != name) << check.name << ": " << check.verdict;
+        EXPECT_NE(named(checks, name).verdict.find(words), std::string::npos)
+            << named(checks, name).verdict;
+    }
+
+    StationConfig config;
+    std::vector<std::unique_ptr<SensorLog>> logs;
+    std::vector<Sample> samples;
+};
+
+TEST_F(Preflight, AllHoldInAShopAtRest) {
+    for (const PreflightRecord& check : judge_preflight(facts()))
+        EXPECT_TRUE(check.passed) << check.name << ": " << check.verdict;
+    EXPECT_EQ(open_objections(judge_preflight(facts())), "");
+}
+
+TEST_F(Preflight, AnInstrumentThatIsAwayIsNamed) {
+    auto some = facts();
+    some.unavailable = {"air"};
+    expect_failure(some, "instruments", "air is not there");
+    auto stale = facts();
+    stale.sensors[1].fresh = false;
+    stale.sensors[1].quality = "stale";
+    expect_failure(stale, "instruments", "material/left gives no fresh reading (stale)");
+    auto blind = facts();
+    blind.laser_age.reset();
+    expect_failure(blind, "instruments", "the laser");
+}
+
+// 0.2 K in 10 minutes are allowed: 0.03 K/min is too much, 0.015 K/min is not.
+TEST_F(Preflight, ASensorThatStillWarmsUpIsNamedWithItsSlope) {
+    read([](double) { return 21.0; }, [](double minutes) { return 18 + 0.03 * minutes; },
+         [](double) { return 18.5; });
+    expect_failure(facts(), "soak", "material/left changes by 0.3 K in 10 min");
+    read([](double) { return 21.0; }, [](double minutes) { return 18 + 0.015 * minutes; },
+         [](double) { return 18.5; });
+    EXPECT_TRUE(named(judge_preflight(facts()), "soak").passed);
+}
+
+TEST_F(Preflight, ASensorReadForTooShortATimeIsToldHowLong) {
+    auto young = facts();
+    SensorLog log{20min};
+    for (int second = 1080; second <= 1200; ++second)
+        log.take(Sample{0, at(second), 20.5});
+    young.sensors[2].log = &log;
+    expect_failure(young, "soak", "material/right has been read for 2 min of 10 min");
+}
+
+TEST_F(Preflight, MaterialSensorsThatDisagreeAreNamed) {
+    read([](double) { return 21.0; }, [](double) { return 20.0; }, [](double) { return 23.5; });
+    expect_failure(facts(), "sensors", "material/right shows 3.5 K more than material/left");
+}
+
+// The air swings by 0.2 K with a period of three minutes; a sensor that hangs in it shows 90 %.
+TEST_F(Preflight, AMaterialSensorThatFollowsTheAirIsNamed) {
+    const auto swing = [](double minutes) { return 0.1 * std::sin(minutes * 2.1); };
+    read([&](double minutes) { return 21 + swing(minutes); },
+         [&](double minutes) { return 20.5 + 0.9 * swing(minutes); }, [](double) { return 20.6; });
+    expect_failure(facts(), "contact", "material/left shows 90 % of each change");
+    read([&](double minutes) { return 21 + swing(minutes); },
+         [&](double minutes) { return 20.5 + 0.2 * swing(minutes); }, [](double) { return 20.6; });
+    EXPECT_TRUE(named(judge_preflight(facts()), "contact").passed);
+}
+
+TEST_F(Preflight, AWeakSignalIsToldIfTheLaserTellsIt) {
+    auto weak = facts();
+    SensorLog log{20min, SensorLog::Keep::lowest};
+    for (int second = 0; second <= 1200; ++second)
+        log.take(Sample{0, at(second), second == 700 ? 12.0 : 80.0});
+    weak.strengths.push_back(
+        {"laser/strength", ChannelKind::strength, Medium::none, true, "good", &log});
+    expect_failure(weak, "strength", "The weakest signal lately was 12 %");
+}
+
+// 1 um in 30 s is allowed.
+TEST_F(Preflight, ADriftOfTheStandingAxisIsMeasured) {
+    stand([](double seconds) { return 0.05 * seconds; });
+    expect_failure(facts(), "drift", "drifts by 1.5 um in 30 s");
+    stand([](double seconds) { return seconds < 50 ? 0.0 : 20'000.0; });
+    expect_failure(facts(), "drift", "The axis moved");
+    samples.erase(samples.begin(), samples.begin() + 4000);
+    expect_failure(facts(), "drift", "less than 30 s");
+}
+
+TEST_F(Preflight, ACoefficientWithoutUncertaintyIsNotEnough) {
+    config.axis.material.standard_uncertainty.reset();
+    expect_failure(facts(), "expansion", "without its uncertainty");
+    config.uncertainty.emplace().expansion_width = per_kelvin(1e-6);
+    EXPECT_TRUE(named(judge_preflight(facts()), "expansion").passed);
+}
+
+TEST_F(Preflight, TheStateOfTheMachineIsAskedFor) {
+    auto silent = facts();
+    silent.state.clear();
+    expect_failure(silent, "compensation", "not stated");
+    auto odd = facts();
+    odd.state = "fine";
+    expect_failure(odd, "compensation", "\"fine\"");
+    auto table = facts();
+    table.control_compensation.clear();
+    expect_failure(table, "compensation", "Which compensation");
+}
+
+TEST_F(Preflight, AnInstrumentOutOfDateIsNamed) {
+    config.instruments[1].due_on = "2026-11-20";
+    expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");
+    config.instruments[1].due_on.clear();
+    expect_failure(facts(), "certificates", "air has no certificate_number and due_on");
+    auto unused = facts();
+    unused.in_use = {"laser", "material"};
+    EXPECT_TRUE(named(judge_preflight(unused), "certificates").passed) << "nobody needs it";
+}
+
+TEST_F(Preflight, AnOverrideNeedsAKnownNameAndAReason) {
+    config.instruments[1].due_on = "2026-11-20";
+    auto checks = judge_preflight(facts());
+    EXPECT_FALSE(override_checks(checks, {{"weather", "rain"}}));
+    EXPECT_FALSE(override_checks(checks, {{"certificates", "  "}}));
+    ASSERT_NE(open_objections(checks), "");
+    ASSERT_TRUE(override_checks(
+        checks, {{"certificates", "the new one is on its way"}, {"soak", "not needed: it holds"}}));
+    EXPECT_EQ(open_objections(checks), "");
+    EXPECT_EQ(named(checks, "certificates").override_reason, "the new one is on its way");
+    EXPECT_EQ(named(checks, "soak").override_reason, "") << "a reason for what holds is not kept";
+}
+
+} // namespace
+} // namespace axiscal

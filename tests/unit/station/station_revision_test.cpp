@@ -1,0 +1,175 @@
+// Pre-flight, retakes and exclusions through the whole station.
+#include "tests/unit/station/station_bench.hpp"
+
+namespace axiscal::testing {
+namespace {
+
+class StationRevises : public ::testing::Test {
+protected:
+    void SetUp() override { shop.shorten(); }
+    static RevisionRequest of_target(int target, const std::string& reason = "coolant") {
+        RevisionRequest request;
+        request.selection.target = target;
+        request.reason = reason;
+        return request;
+    }
+    void whole_run(Life& life) {
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 10; ++step)
+            ASSERT_TRUE(life.take(step)) << step;
+        life.run(2s);
+        ASSERT_EQ(life.status().run->state, "complete");
+    }
+    [[nodiscard]] RunFileContents contents() const {
+        return read_run_file_contents(shop.run_files().at(0)).value();
+    }
+    Shop shop;
+};
+
+TEST_F(StationRevises, DoesNotArmWhileACheckFailsUnlessItIsOverridden) {
+    shop.config.instruments[1].due_on = "2020-01-01";
+    Life life{shop};
+    const auto refused = life.arm();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "preflight");
+    EXPECT_NE(refused.error().detail.find("air was due for calibration on 2020-01-01"),
+              std::string::npos);
+    EXPECT_TRUE(shop.run_files().empty());
+    ArmRequest request;
+    request.overrides["certificates"] = "the new one is on its way";
+    ASSERT_TRUE(life.arm(request));
+    ASSERT_TRUE(life.take(0));
+    const auto checks = contents().revisions.preflight;
+    ASSERT_EQ(checks.size(), 9U);
+    EXPECT_EQ(checks.back().name, "certificates");
+    EXPECT_FALSE(checks.back().passed);
+    EXPECT_EQ(checks.back().override_reason, "the new one is on its way");
+}
+
+TEST_F(StationRevises, WaitsForTheSoakThatIsAskedFor) {
+    shop.config.preflight.soak_window = 60s;
+    Life life{shop};
+    ASSERT_FALSE(life.arm());
+    life.run(60s);
+    EXPECT_TRUE(life.arm());
+}
+
+TEST_F(StationRevises, TakesPointsAgainAfterTheRunWasClosed) {
+    Life life{shop};
+    whole_run(life);
+    const auto answer = life.retake(of_target(2));
+    ASSERT_TRUE(answer) << describe(answer.error());
+    EXPECT_EQ(answer->last_request, 10);
+    ASSERT_EQ(answer->points.size(), 2U);
+    EXPECT_EQ(answer->points[0].step, 10);
+    EXPECT_TRUE(life.status().run_open);
+    EXPECT_EQ(life.status().run->retakes_left, 2);
+    ASSERT_TRUE(life.take(2, 11));
+    ASSERT_TRUE(life.take(7, 12));
+    life.run(2s);
+    EXPECT_EQ(life.status().run->state, "complete");
+    const auto file = contents();
+    EXPECT_TRUE(file.closed && file.run.complete);
+    EXPECT_EQ(file.revisions.closings, 2);
+    ASSERT_EQ(file.revisions.superseded.size(), 2U);
+    EXPECT_EQ(file.revisions.superseded[0].sequence, 3);
+    EXPECT_EQ(file.run.points[2].sequence, 11);
+    EXPECT_EQ(file.run.points[7].sequence, 12);
+    EXPECT_TRUE(check_complete(file.run));
+}
+
+TEST_F(StationRevises, GoesOnWithARetakeAfterARestart) {
+    {
+        Life life{shop};
+        whole_run(life);
+        life.run(20s); // long enough to know how fast the laser counts
+        ASSERT_TRUE(life.retake(of_target(2)));
+        ASSERT_TRUE(life.take(2, 11));
+    }
+    Life life{shop};
+    ASSERT_TRUE(life.status().run_open);
+    ASSERT_TRUE(life.take(7, 12));
+    life.run(2s);
+    EXPECT_TRUE(contents().run.complete);
+    EXPECT_EQ(contents().revisions.superseded.size(), 2U);
+}
+
+TEST_F(StationRevises, ARetakeThatCannotGoOnLeavesTheRunComplete) {
+    {
+        Life life{shop};
+        whole_run(life);
+        ASSERT_TRUE(life.retake(of_target(2)));
+    }
+    shop.laser_serial = "another";
+    Life life{shop};
+    const auto file = contents();
+    EXPECT_TRUE(file.closed && file.run.complete);
+    EXPECT_NE(file.run.closing_reason.find("not every retake was done"), std::string::npos);
+}
+
+TEST_F(StationRevises, RefusesARetakeOnceTheBeamWasInterrupted) {
+    Life life{shop};
+    whole_run(life);
+    life.laser->quality = Quality::beam_lost;
+    life.run(1s);
+    life.laser->quality = Quality::good;
+    life.run(1s);
+    const auto answer = life.retake(of_target(2));
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().fault, Fault::datum_lost);
+    EXPECT_NE(answer.error().detail.find("beam was interrupted"), std::string::npos);
+    EXPECT_TRUE(contents().closed) << "the file was not touched";
+}
+
+TEST_F(StationRevises, RefusesARetakeOfARunOfAnotherLife) {
+    {
+        Life life{shop};
+        whole_run(life);
+    }
+    Life life{shop};
+    const auto answer = life.retake(of_target(2));
+    ASSERT_FALSE(answer);
+    EXPECT_NE(answer.error().detail.find("arm a new one"), std::string::npos);
+}
+
+TEST_F(StationRevises, AnotherJobIsNotArmedWhileARetakeIsOpen) {
+    Life life{shop};
+    whole_run(life);
+    ASSERT_TRUE(life.retake(of_target(2)));
+    const auto armed = life.arm();
+    ASSERT_FALSE(armed);
+    EXPECT_EQ(armed.error().fault, Fault::busy);
+    EXPECT_FALSE(life.retake(of_target(2))) << "it is asked for already";
+    ASSERT_TRUE(life.station->abort("enough"));
+    life.run(2s);
+    EXPECT_TRUE(contents().run.complete);
+}
+
+TEST_F(StationRevises, LeavesAReadingOutOfAnOpenAndOfAClosedRun) {
+    shop.config.cycle.approaches = 4;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step));
+    RevisionRequest request = of_target(1, "somebody leaned on the table");
+    request.selection.direction = Direction::positive;
+    EXPECT_EQ(life.exclude(request).value_or(0), 1);
+    for (int step = 10; step < 40; ++step)
+        ASSERT_TRUE(life.take(step));
+    life.run(2s);
+    request.selection.target = 3;
+    request.selection.approach = 0;
+    const auto excluded = life.exclude(request);
+    ASSERT_TRUE(excluded) << describe(excluded.error());
+    EXPECT_EQ(life.status().run->excluded, 2);
+    EXPECT_FALSE(life.status().run_open);
+    const auto file = contents();
+    EXPECT_TRUE(file.closed && file.run.complete);
+    ASSERT_EQ(file.revisions.exclusions.size(), 2U);
+    EXPECT_EQ(file.revisions.exclusions[0].step, 1);
+    EXPECT_EQ(file.revisions.exclusions[1].step, 3);
+    EXPECT_EQ(file.revisions.closings, 2);
+}
+
+} // namespace
+} // namespace axiscal::testing
