@@ -31,6 +31,8 @@ def air_by(b, wire):
                 "driver": "modbus",
                 "profile": str(bench.SOURCE / f"config/profiles/{profile}.toml"),
                 "link": link,
+                "certificate_number": "simulated",
+                "due_on": "2099-12-31",
                 "channel": [
                     {"channel": channel, "medium": "air", "place": "beside the beam"}
                     for channel in channels

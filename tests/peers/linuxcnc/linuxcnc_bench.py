@@ -104,6 +104,10 @@ class Bench:
               OTHERS_LIMIT_S)
         return cnc
 
+    def may_arm(self):
+        return subprocess.run([self.programs["axiscal"], "preflight"], env=self.environment,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+
     def begin_run(self):
         """Everything up to `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
         station = self.write_station()
@@ -116,7 +120,7 @@ class Bench:
         until(lambda: self.said("axiscal-simulate.log", '"ready"'), "instruments", [simulator])
         daemon = self.start_station(station)
         cnc = self.start_cnc(program, pipe)
-        until(lambda: "unavailable" not in self.axiscal("devices"), "all instruments", [daemon, cnc])
+        until(self.may_arm, "every pre-flight check to hold", [daemon, cnc])
         self.axiscal("arm", "--program", program)
         return daemon, cnc, program
 
