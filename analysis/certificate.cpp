@@ -130,18 +130,31 @@ std::ptrdiff_t excluded_readings(const std::vector<SetAside>& set_aside) {
     return std::ranges::count(set_aside, false, &SetAside::superseded);
 }
 
-void remark_on_number_of_readings(const Certificate& certificate,
-                                  std::vector<std::string>& remarks) {
-    constexpr std::size_t asked = 5; // ISO 230-2:2014, 4.3.3, axes up to 2000 mm
-    const bool excluded = excluded_readings(certificate.set_aside) > 0;
-    std::size_t fewest = asked;
-    for (const auto* side : {&certificate.deviations.forward(), &certificate.deviations.backward()})
+/// Of a target and direction; 0 without any.
+int fewest_readings(const RunAt20C& deviations) {
+    std::size_t fewest = deviations.forward().empty() ? 0 : deviations.forward().front().size();
+    for (const auto* side : {&deviations.forward(), &deviations.backward()})
         for (const auto& row : *side)
             fewest = std::min(fewest, row.size());
-    if (!excluded || fewest >= asked) return;
-    remarks.push_back("At one target and direction " + std::to_string(fewest) +
-                      " readings remain. ISO 230-2 asks for five: the figures that use it are not "
-                      "a complete test by this standard.");
+    return static_cast<int>(fewest);
+}
+
+/// Axes above 2000 mm take one approach in each direction (ISO 230-2:2014, 4.3.4).
+bool is_long_axis(const RunPlan& plan) {
+    const auto [low, high] = std::ranges::minmax(plan.targets);
+    return plan.axis_kind == AxisKind::linear && high - low > mm(2000);
+}
+
+void remark_on_number_of_readings(const Certificate& certificate,
+                                  std::vector<std::string>& remarks) {
+    constexpr int asked = 5; // ISO 230-2:2014, 4.3.3, axes up to 2000 mm
+    const RunPlan& plan = certificate.run.plan;
+    const int fewest = fewest_readings(certificate.deviations);
+    if (fewest >= asked || (fewest == plan.approaches && is_long_axis(plan))) return;
+    const std::string left = fewest == 1 ? "one reading" : std::to_string(fewest) + " readings";
+    remarks.push_back("At least one target and direction has " + left +
+                      ". ISO 230-2 asks for five: the figures are not those of a complete test by "
+                      "this standard.");
 }
 
 void remark_on_revisions(const Certificate& certificate, std::vector<std::string>& remarks) {
@@ -154,12 +167,13 @@ void remark_on_revisions(const Certificate& certificate, std::vector<std::string
                           "). The replaced ones stay in the run file and are drawn as crosses; no "
                           "figure uses them.");
     if (excluded > 0)
-        remarks.push_back(
-            "Readings excluded: " + std::to_string(excluded) + " (" + listed(set_aside, false) +
-            "). Rule: an excluded reading is drawn and counted and enters no figure; "
-            "mean and s of its target and direction are of the n readings that "
-            "remain (s with n - 1), at least two. The simulated uncertainty is left out.");
-    remark_on_number_of_readings(certificate, remarks);
+        remarks.push_back("Readings excluded: " + std::to_string(excluded) + " (" +
+                          listed(set_aside, false) +
+                          "). Rule: an excluded reading is drawn and counted and enters no figure; "
+                          "mean and s of its target and direction are of the n readings that "
+                          "remain (s with n - 1), at least two. The uncertainty budget takes the "
+                          "smallest of these n; "
+                          "the simulated uncertainty is left out.");
 }
 
 void remark_on_preflight(const RunRevisions& revisions, std::vector<std::string>& remarks) {
@@ -168,6 +182,8 @@ void remark_on_preflight(const RunRevisions& revisions, std::vector<std::string>
             remarks.push_back("Armed although the pre-flight check \"" + check.name +
                               "\" failed: " + check.verdict +
                               " Reason given: " + check.override_reason + ".");
+        else if (check.warning)
+            remarks.push_back("Pre-flight check \"" + check.name + "\": " + check.verdict);
 }
 
 void fill_environment(Certificate& certificate) {
@@ -249,8 +265,10 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
     remark_on_revisions(certificate, certificate.remarks);
+    remark_on_number_of_readings(certificate, certificate.remarks);
     remark_on_preflight(certificate.revisions, certificate.remarks);
-    certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor);
+    certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor,
+                                             fewest_readings(certificate.deviations));
     if (excluded_readings(certificate.set_aside) == 0) // the simulation draws n of each
         simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
                      certificate.result);

@@ -14,6 +14,7 @@ namespace axiscal {
 struct PreflightRecord {
     std::string name; ///< "soak"
     bool passed = false;
+    bool warning = false;        ///< it passed, but the certificate has to say something
     std::string verdict;         ///< one sentence
     std::string override_reason; ///< why the run was armed although it failed; else empty
 };

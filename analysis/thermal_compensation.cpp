@@ -206,6 +206,13 @@ const ExclusionRecord* exclusion_of(const RunRevisions& revisions, const PointRe
     return found == revisions.exclusions.end() ? nullptr : &*found;
 }
 
+/// The exclusion that went before a retake is told, too.
+std::string reason_of_replacement(const RunRevisions& revisions, const PointRecord& point) {
+    const ExclusionRecord* exclusion = exclusion_of(revisions, point);
+    return reason_of_retake(revisions, point) +
+           (exclusion != nullptr ? " (excluded before: " + exclusion->reason + ")" : "");
+}
+
 /// Takes excluded readings out of their rows, the last approach of a row first.
 Result<void> leave_out(DeviationTable& table, const std::vector<SetAside>& set_aside) {
     std::vector<PlannedPoint> excluded;
@@ -272,7 +279,7 @@ Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& 
         const auto index = static_cast<std::size_t>(point.planned.target_index);
         set_aside.push_back({point.planned, point.step,
                              (compensated.at_20C - run.plan.targets[index]).in(mm), true,
-                             reason_of_retake(revisions, point)});
+                             reason_of_replacement(revisions, point)});
     }
     std::ranges::stable_sort(set_aside, {},
                              [](const SetAside& reading) { return reading.planned.step; });

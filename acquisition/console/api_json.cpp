@@ -114,6 +114,7 @@ nlohmann::ordered_json to_json(const std::vector<PreflightRecord>& checks) {
     for (const PreflightRecord& check : checks)
         list.push_back({{"name", check.name},
                         {"passed", check.passed},
+                        {"warning", check.warning},
                         {"verdict", check.verdict},
                         {"override", check.override_reason}});
     return list;

@@ -64,7 +64,7 @@ constexpr std::array tables{
     Table{"stream_block",
           "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
           "iiiiitiirrb", 3},
-    Table{"preflight", "name, passed, verdict, override_reason", "titt", 3},
+    Table{"preflight", "name, passed, warning, verdict, override_reason", "tiitt", 3},
     Table{"retake", "number, at_ns, utc_ns, reason", "iiit", 3},
     Table{"retake_point", "step, planned_step", "ii", 3},
     Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit", 3},
@@ -493,8 +493,12 @@ void read_preflight(RecordedRun& run, RowReader& in) {
     PreflightRecord check;
     check.name = in.text();
     check.passed = in.flag();
+    check.warning = in.flag();
     check.verdict = in.text();
     check.override_reason = in.text();
+    // A disk that failed between writing and syncing may hold them twice.
+    std::erase_if(run.revisions.preflight,
+                  [&](const PreflightRecord& other) { return other.name == check.name; });
     run.revisions.preflight.push_back(std::move(check));
 }
 
@@ -697,8 +701,8 @@ ChainedRow row_of(const StreamBlock& block) {
 }
 
 ChainedRow row_of(const PreflightRecord& check) {
-    const auto& [name, passed, verdict, override_reason] = check;
-    return chained("preflight", {name, whole(passed), verdict, override_reason});
+    const auto& [name, passed, warning, verdict, override_reason] = check;
+    return chained("preflight", {name, whole(passed), whole(warning), verdict, override_reason});
 }
 
 ChainedRow row_of(const ExclusionRecord& exclusion) {

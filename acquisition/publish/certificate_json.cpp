@@ -105,6 +105,7 @@ Json preflight_of(const RunRevisions& revisions) {
     for (const PreflightRecord& check : revisions.preflight)
         list.push_back({{"name", check.name},
                         {"passed", check.passed},
+                        {"warning", check.warning},
                         {"verdict", check.verdict},
                         {"override", stated_json(check.override_reason)}});
     return list;

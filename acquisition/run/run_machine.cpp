@@ -68,6 +68,18 @@ RunMachine::RunMachine(RunSetup setup,
     approach_unseen_ = datum_.has_value();
 }
 
+RunMachine RunMachine::of_closed(RunSetup setup,
+                                 const RunRecord& run,
+                                 std::uint32_t epoch,
+                                 MonotonicTime now) {
+    RunMachine machine{std::move(setup), run, epoch, now};
+    machine.state_ = PortState::idle;
+    machine.closed_ = true;
+    machine.complete_ = run.complete;
+    machine.first_request_after_resume_ = false; // no program was interrupted
+    return machine;
+}
+
 RunActions RunMachine::handle(const RunInput& input) {
     RunActions out;
     std::visit([&](const auto& value) { on(value, out); }, input);

@@ -55,6 +55,9 @@ public:
     /// next; anything else closes the run (sequence_lost). As much of the way to the first point as
     /// nobody watched is not asked for, and an event says so.
     RunMachine(RunSetup setup, const RunRecord& open_run, std::uint32_t epoch, MonotonicTime now);
+    /// A run that an earlier daemon closed as complete: a retake may reopen it. `epoch` as above.
+    static RunMachine
+    of_closed(RunSetup setup, const RunRecord& run, std::uint32_t epoch, MonotonicTime now);
 
     RunActions handle(const RunInput& input);
     [[nodiscard]] RunView view() const;

@@ -11,18 +11,21 @@
 namespace axiscal {
 namespace {
 
-constexpr int kept_readings = 600;
 constexpr double nearly_whole = 0.95; // of a window: the first reading came a little late
+constexpr double longest_break = 0.5; // of a window: what happened meanwhile nobody knows
 /// Below this the air is too steady to tell whether a sensor follows it.
 constexpr double telling_change_K = 0.03;
 /// Of the two residuals: below it they move by chance.
 constexpr double telling_correlation = 0.8;
 
 PreflightRecord passed(std::string name, std::string verdict) {
-    return {std::move(name), true, std::move(verdict), {}};
+    return {std::move(name), true, false, std::move(verdict), {}};
+}
+PreflightRecord warned(std::string name, std::string verdict) {
+    return {std::move(name), true, true, std::move(verdict), {}};
 }
 PreflightRecord failed(std::string name, std::string verdict) {
-    return {std::move(name), false, std::move(verdict), {}};
+    return {std::move(name), false, false, std::move(verdict), {}};
 }
 
 std::string in_kelvin(double kelvins) {
@@ -52,6 +55,12 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
     return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
 }
 
+/// Slope of the straight line through a whole series, in its units a second.
+double slope_of(const DriftSeries& series) {
+    const auto slopes = window_slopes(series, series.times.back() - series.times.front());
+    return slopes.empty() ? 0 : slopes.back().slope;
+}
+
 /// Fitted change over the soak window, or how much of the window there is.
 struct Soak {
     std::optional<double> change_K;
@@ -61,11 +70,9 @@ Soak soak_of(const SensorFacts& sensor, const PreflightFacts& facts) {
     const Duration window = facts.config.preflight.soak_window;
     const DriftSeries series = sensor.log->last(window, facts.now);
     Soak soak;
-    if (series.times.size() < 2) return soak;
-    soak.covered = from_seconds(series.times.back() - series.times.front());
-    const double asked_s = seconds_of(window) * nearly_whole;
-    const auto slopes = window_slopes(series, asked_s);
-    if (!slopes.empty()) soak.change_K = slopes.back().slope * seconds_of(window);
+    soak.covered = sensor.log->covered(window, facts.now);
+    if (series.times.size() >= 2 && seconds_of(soak.covered) >= seconds_of(window) * nearly_whole)
+        soak.change_K = slope_of(series) * seconds_of(window);
     return soak;
 }
 
@@ -199,32 +206,57 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
                                   " % are asked. Align the beam over the whole travel.");
 }
 
+/// The standing axis's readings in micrometres that span the drift window until now: also the last
+/// one before it. Times are seconds since its beginning.
+DriftSeries readings_of_the_laser(const PreflightFacts& facts) {
+    const MonotonicTime begin = facts.now - facts.config.preflight.drift_window;
+    DriftSeries series;
+    for (const Sample& sample : facts.laser_samples) {
+        const auto reading_m = sample.value();
+        const double at_s = seconds_of(sample.at - begin);
+        if (!reading_m || (!series.times.empty() && at_s <= series.times.back())) continue;
+        if (at_s <= 0) series = {}; // only the last one before the window is of use
+        series.times.push_back(at_s);
+        series.readings.push_back(*reading_m * 1e6);
+    }
+    return series;
+}
+
+/// No more than some thousand readings, evenly taken: a line needs no more, and the loop no wait.
+DriftSeries thinned(const DriftSeries& series) {
+    constexpr std::size_t enough = 1000;
+    const std::size_t stride = series.times.size() / enough + 1;
+    DriftSeries few;
+    for (std::size_t i = 0; i < series.times.size(); i += stride) {
+        few.times.push_back(series.times[i]);
+        few.readings.push_back(series.readings[i]);
+    }
+    return few;
+}
+
+bool spans_window(const DriftSeries& series, double window_s) {
+    if (series.times.size() < 2 || window_s - series.times.front() < window_s * nearly_whole)
+        return false;
+    double longest_s = window_s - series.times.back();
+    for (std::size_t i = 1; i < series.times.size(); ++i)
+        longest_s = std::max(longest_s, series.times[i] - series.times[i - 1]);
+    return longest_s <= window_s * longest_break;
+}
+
 PreflightRecord check_drift(const PreflightFacts& facts) {
     const PreflightConfig& limits = facts.config.preflight;
     if (limits.drift_window <= Duration{})
         return passed("drift", "Not asked: preflight.drift_window is 0.");
     constexpr double moved_um = 50; // no drift: the axis was driven
-    DriftSeries series;
-    for (const Sample& sample : facts.laser_samples)
-        if (const auto reading_m = sample.value();
-            reading_m && sample.at >= facts.now - limits.drift_window) {
-            const double at_s = seconds_of(sample.at - (facts.now - limits.drift_window));
-            if (!series.times.empty() && at_s <= series.times.back()) continue;
-            series.times.push_back(at_s);
-            series.readings.push_back(*reading_m * 1e6);
-        }
-    const double asked_s = seconds_of(limits.drift_window) * nearly_whole;
-    const bool whole =
-        series.times.size() > 1 && series.times.back() - series.times.front() >= asked_s;
-    if (!whole)
+    const DriftSeries series = readings_of_the_laser(facts);
+    const double window_s = seconds_of(limits.drift_window);
+    if (!spans_window(series, window_s))
         return failed("drift", "The laser has been read for less than " +
                                    in_minutes(limits.drift_window) + " without a break. Wait.");
     if (total_range(series).range > moved_um)
         return failed("drift", "The axis moved within the last " + in_minutes(limits.drift_window) +
                                    ". Let it stand at its datum.");
-    const auto slopes = window_slopes(series, asked_s);
-    const double change_um =
-        slopes.empty() ? 0 : slopes.back().slope * seconds_of(limits.drift_window);
+    const double change_um = slope_of(thinned(series)) * window_s;
     const std::string seen = "The reading of the standing axis drifts by " +
                              plain_number(change_um, 2) + " um in " +
                              in_minutes(limits.drift_window);
@@ -268,55 +300,30 @@ PreflightRecord check_compensation(const PreflightFacts& facts) {
                                       "; compensation: " + facts.control_compensation + ".");
 }
 
+/// A date that is past blocks. What is not stated does not, for a shop may have no certificates: it
+/// is named, and the certificate says so.
 PreflightRecord check_certificates(const PreflightFacts& facts) {
-    std::string wrong;
+    std::string expired, silent;
     for (const InstrumentConfig& instrument : facts.config.instruments) {
         if (std::ranges::find(facts.in_use, instrument.name) == facts.in_use.end()) continue;
-        if (instrument.certificate_number.empty() || instrument.due_on.empty())
-            join(wrong,
-                 instrument.name + " has no certificate_number and due_on in the station file");
-        else if (instrument.due_on < facts.today)
-            join(wrong, instrument.name + " was due for calibration on " + instrument.due_on);
+        if (!instrument.due_on.empty() && instrument.due_on < facts.today)
+            join(expired, instrument.name + " was due for calibration on " + instrument.due_on);
+        else if (instrument.certificate_number.empty())
+            join(silent, instrument.name + " has no certificate_number in the station file");
+        else if (instrument.due_on.empty())
+            join(silent, instrument.name + " has no due_on in the station file");
     }
-    if (wrong.empty())
-        return passed("certificates", "Every instrument has a certificate that is in date.");
-    return failed("certificates", wrong + ". Have it calibrated, or enter the new certificate.");
+    const std::string unknown =
+        silent.empty() ? "" : silent + ". Whether it is calibrated and in date is not known.";
+    if (!expired.empty())
+        return failed("certificates", expired +
+                                          ". Have it calibrated, or enter the new certificate." +
+                                          (unknown.empty() ? "" : " Besides: " + unknown));
+    if (!unknown.empty()) return warned("certificates", unknown);
+    return passed("certificates", "Every instrument has a certificate that is in date.");
 }
 
 } // namespace
-
-void SensorLog::take(const Sample& sample) {
-    const auto value = sample.value();
-    if (!value || (!readings_.empty() && sample.at <= readings_.back().at)) return;
-    const Duration spacing = depth_ / kept_readings;
-    const bool close =
-        readings_.size() > 1 && sample.at - readings_[readings_.size() - 2].at < spacing;
-    if (!close)
-        readings_.push_back({sample.at, *value});
-    else if (keep_ == Keep::newest || *value < readings_.back().value)
-        readings_.back() = {sample.at, *value};
-    while (readings_.size() > 2 && readings_.front().at < sample.at - depth_)
-        readings_.pop_front();
-}
-
-DriftSeries SensorLog::last(Duration window, MonotonicTime now) const {
-    DriftSeries series;
-    for (const Reading& reading : readings_) {
-        if (reading.at < now - window || reading.at > now) continue;
-        series.times.push_back(seconds_of(reading.at - (now - window)));
-        series.readings.push_back(reading.value);
-    }
-    return series;
-}
-
-std::optional<double> SensorLog::lowest() const {
-    if (readings_.empty()) return std::nullopt;
-    return std::ranges::min_element(readings_, {}, &Reading::value)->value;
-}
-
-std::optional<double> SensorLog::newest() const {
-    return readings_.empty() ? std::nullopt : std::optional{readings_.back().value};
-}
 
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
     return {check_instruments(facts), check_soak(facts),         check_sensors(facts),

@@ -2,13 +2,12 @@
 // What must hold before a run is armed: each check has a name, a verdict in one sentence with the
 // way out, and may be overridden with a reason that is printed. Pure.
 
-#include "analysis/drift/drift.hpp"
+#include "acquisition/station/sensor_log.hpp"
 #include "analysis/run_revisions.hpp"
 #include "config/station_config.hpp"
 #include "drivers/sample.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -16,30 +15,6 @@
 #include <vector>
 
 namespace axiscal {
-
-/// The last minutes of one sensor, thinned. Pure.
-class SensorLog {
-public:
-    enum class Keep : std::uint8_t { newest, lowest }; ///< of readings that stand too close
-    /// Some 600 readings within `depth`.
-    explicit SensorLog(Duration depth, Keep keep = Keep::newest)
-        : depth_{depth}
-        , keep_{keep} {}
-    void take(const Sample& sample);
-    /// Seconds since the first reading of the daemon; only the last `window`.
-    [[nodiscard]] DriftSeries last(Duration window, MonotonicTime now) const;
-    [[nodiscard]] std::optional<double> lowest() const;
-    [[nodiscard]] std::optional<double> newest() const;
-
-private:
-    struct Reading {
-        MonotonicTime at;
-        double value = 0;
-    };
-    Duration depth_;
-    Keep keep_;
-    std::deque<Reading> readings_;
-};
 
 struct SensorFacts {
     std::string name; ///< "material/contact 1"
@@ -61,8 +36,14 @@ struct PreflightFacts {
     std::vector<SensorFacts> sensors;        ///< of the environment
     std::vector<SensorFacts> strengths;      ///< of the laser's signal; empty: it tells none
     std::optional<Duration> laser_age;       ///< of its last good reading
-    std::span<const Sample> laser_samples;   ///< at least of the last drift_window
+    std::span<const Sample> laser_samples;   ///< of a little more than the last drift_window
 };
+
+/// How far back `laser_samples` go: a laser that is asked seldom has its last sample before the
+/// window there.
+inline Duration drift_reach(const PreflightConfig& config) {
+    return config.drift_window * 5 / 4;
+}
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
 /// "certificates", in this order.

@@ -36,9 +36,10 @@ std::vector<WatchedChannel> watched(const StationRoles& roles,
     return list;
 }
 
-SampleHistory::Limits history_limits(const CaptureConfig& config) {
+/// A capture looks back, and so does the check for drift.
+SampleHistory::Limits history_limits(const StationConfig& config) {
     SampleHistory::Limits limits;
-    limits.depth = config.history;
+    limits.depth = std::max<Duration>(config.capture.history, drift_reach(config.preflight));
     return limits;
 }
 
@@ -76,7 +77,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , supervisor_{scheduler, links, *this}
     , port_{std::move(parts.port)}
     , journal_{scheduler, parts.journal_thread}
-    , history_{history_limits(config_.capture)}
+    , history_{history_limits(config_)}
     , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments)),
               watched(roles_, supervisor_.channels()))}
     , latest_(supervisor_.channels().size())
@@ -100,12 +101,13 @@ Task<Result<void>> Station::start() {
     supervisor_.start();
     spawn(scheduler_, tick());
     AXISCAL_CO_TRY(std::vector<RunSummary> stored, stored_runs());
-    for (const RunSummary& run : stored) {
+    for (RunSummary& run : stored) {
         if (run.closed) continue;
         auto resumed = co_await resume_or_close(run.path);
         if (!resumed)
             note("The open run " + run.path +
                  " could not be continued: " + describe(resumed.error()));
+        if (auto now = summarize_run_file(run.path)) run = *std::move(now);
     }
     co_await publish_done_of_closed(stored);
     spawn(scheduler_, certify_left_over(std::move(stored)));

@@ -134,10 +134,16 @@ private:
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
     [[nodiscard]] SensorFacts sensor_facts(int channel) const;
 
+    // station_closed_run.cpp: the set-up is watched, the newest run of an earlier daemon taken over
+    void watch_set_up(const Sample& sample);
+    [[nodiscard]] Result<RunSummary> newest_closed_run() const;
+    Task<Result<void>> take_over_closed_run();
+    Task<std::string> doubt_about_datum(const RunRecord& run);
+
     // station_retake.cpp: points taken again and readings left out, also after the run was closed
     [[nodiscard]] Result<void> run_may_be_revised() const;
     [[nodiscard]] Result<void> set_up_stands() const;
-    void watch_set_up(const Sample& sample);
+    void run_is_open_again();
     Task<Result<void>> keep_revision(RunMachine before);
     Task<Result<void>> close_again();
 
@@ -166,6 +172,7 @@ private:
     void judge_outbox();
     void take_reading(const Sample& sample);
     void log_environment(int channel, const Sample& sample);
+    void log_environment_anew(); ///< the first point needs a reading before it
     void record_instrument(const std::string& sentence, Fault fault);
     void note(const std::string& sentence);
     /// A run takes records: neither closing nor closed.
@@ -198,8 +205,10 @@ private:
     std::optional<Error> manual_refusal_;          ///< of a person's own request
     std::optional<RecordRetake> new_retake_;       ///< decided, not yet kept
     std::optional<RecordExclusion> new_exclusion_; ///< decided, not yet kept
-    std::string set_up_lost_; ///< why nothing can be taken again since the run was closed
-    std::optional<Sample> last_reading_;   ///< since then
+    std::string set_up_lost_;  ///< why nothing can be taken again of the run that was closed
+    std::string interruption_; ///< of a closed run that was taken over, to be recorded
+    std::optional<Sample> last_reading_; ///< since the run was closed, or since the start
+    std::optional<Sample> first_sample_, settled_sample_; ///< of the laser since the start
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
@@ -209,7 +218,8 @@ private:
     boost::asio::cancellation_signal end_port_;
     bool waiting_for_disk_ = false; ///< the run file could not be written
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
-    bool revising_ = false; ///< a retake or an exclusion is being kept
+    bool revising_ = false;         ///< a retake or an exclusion is being kept
+    bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same
 };
 
 } // namespace axiscal

@@ -111,7 +111,13 @@ void Station::begin_run(RunRecord header, std::string path, RunMachine machine) 
     left_over_fault_.reset();
     refused_note_.clear();
     datum_.reset();
-    for (const int channel : roles_.environment()) { // the first point needs a reading before it
+    interruption_.clear();
+    revision_unknown_ = false;
+    log_environment_anew();
+}
+
+void Station::log_environment_anew() {
+    for (const int channel : roles_.environment()) {
         logged_[static_cast<std::size_t>(channel)].reset();
         if (const auto& sample = latest_[static_cast<std::size_t>(channel)])
             log_environment(channel, *sample);
@@ -271,7 +277,6 @@ Task<void> Station::close_left_over(std::string path, std::string reason, Fault 
     note(closed ? "The open run " + path + how + reason
                 : "The open run " + path + " cannot be closed: " + describe(closed.error()));
     left_over_fault_ = Error{fault, reason, {}, {}};
-    if (whole && closed) note("'axiscal export " + path + "' writes its certificate anew.");
 }
 
 } // namespace axiscal

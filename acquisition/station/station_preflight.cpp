@@ -66,7 +66,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
             facts.strengths.push_back(sensor_facts(channel.id));
     if (const auto reading = history_.newest(); reading && reading->value())
         facts.laser_age = now - reading->at;
-    facts.laser_samples = history_.between(now - config_.preflight.drift_window, now);
+    facts.laser_samples = history_.between(now - drift_reach(config_.preflight), now);
     return facts;
 }
 

@@ -12,33 +12,17 @@ namespace axiscal {
 namespace {
 
 constexpr Duration laser_limit = std::chrono::seconds{2}; // an older reading is no reading
-constexpr Length reading_slack = mm(0.05); // of two neighbouring readings, beside the axis's speed
 
 } // namespace
 
-/// After the closing nobody captures; the counter's zero is watched by its readings.
-void Station::watch_set_up(const Sample& sample) {
-    if (!run_ || !run_->closed || !datum_ || !set_up_lost_.empty()) return;
-    if (sample.epoch != datum_epoch_)
-        set_up_lost_ = "the laser's counter lost its zero since the run was closed";
-    else if (sample.quality() == Quality::beam_lost)
-        set_up_lost_ = "the laser's beam was interrupted since the run was closed";
-    else if (sample.value() && last_reading_ && config_.capture.fastest.si() > 0) {
-        const auto jump = abs(metre(*sample.value()) - metre(*last_reading_->value()));
-        const auto reach =
-            metre(config_.capture.fastest.si() * seconds_of(sample.at - last_reading_->at));
-        if (jump > reach + reading_slack)
-            set_up_lost_ = "the laser's reading jumped by " + in_mm(jump) +
-                           " since the run was closed, faster than the axis can move";
-    }
-    if (sample.value()) last_reading_ = sample;
-}
-
 Result<void> Station::run_may_be_revised() const {
-    if (!run_ || !machine_)
-        return fail(Fault::no_run_armed,
-                    "no run was measured since axiscald was started; a run that was closed before "
-                    "cannot be added to: arm a new one");
+    if (!run_ || !machine_) return fail(Fault::no_run_armed, "there is no run to add to");
+    if (waiting_for_disk_)
+        return fail(Fault::not_durable, "the disk of the run does not take records yet");
+    if (revision_unknown_)
+        return fail(Fault::not_durable,
+                    "an earlier order could not be written, and only a new start of axiscald tells "
+                    "what the run file holds of it");
     if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
     if (run_->closing) return fail(Fault::busy, "the run is being closed; ask again");
     return {};
@@ -80,11 +64,28 @@ Task<Result<void>> Station::keep_revision(RunMachine before) {
         if (exclusion) journal_.note(exclusion->exclusions);
         kept = co_await journal_.flush();
     }
-    if (!kept) machine_.emplace(std::move(before));
+    if (!kept) {
+        machine_.emplace(std::move(before));
+        revision_unknown_ = kept.error().fault != Fault::refused; // then nothing was written
+    }
     co_return kept;
 }
 
+void Station::run_is_open_again() {
+    run_->closed = run_->shut = false;
+    run_->outcome.reset();
+    run_->certificate.clear();
+    run_->no_certificate.reset();
+    run_->refusal.reset();
+    if (!interruption_.empty())
+        perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
+                             std::exchange(interruption_, {}), Fault::none, 0}});
+    log_environment_anew();
+}
+
 Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
+    if (auto taken = co_await take_over_closed_run(); !taken)
+        co_return tl::unexpected<Error>(taken.error());
     if (auto may = run_may_be_revised(); !may) co_return tl::unexpected<Error>(may.error());
     const bool was_closed = run_->closed;
     if (was_closed)
@@ -98,13 +99,7 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
     auto kept = co_await keep_revision(std::move(before));
     revising_ = false;
     if (!kept) co_return tl::unexpected<Error>(kept.error());
-    if (was_closed) {
-        run_->closed = false;
-        run_->outcome.reset();
-        run_->certificate.clear();
-        run_->no_certificate.reset();
-        run_->refusal.reset();
-    }
+    if (was_closed) run_is_open_again();
     RetakeAnswer answer;
     answer.last_request = machine_->view().last_durable;
     for (const RetakePoint& point : points)
@@ -116,6 +111,8 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
 }
 
 Task<Result<int>> Station::exclude(RevisionRequest request) {
+    if (auto taken = co_await take_over_closed_run(); !taken)
+        co_return tl::unexpected<Error>(taken.error());
     if (auto may = run_may_be_revised(); !may) co_return tl::unexpected<Error>(may.error());
     manual_refusal_.reset();
     RunMachine before = *machine_;
@@ -134,8 +131,10 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
 
 /// The run stays closed to the CNC; only its file was opened for a moment.
 Task<Result<void>> Station::close_again() {
+    run_->shut = false;
     auto closed = co_await journal_.close(true, run_->outcome->reason);
-    if (!closed) co_return closed;
+    if (!closed) co_return closed; // the disk is waited for
+    run_->shut = true;
     run_->certificate.clear();
     run_->no_certificate.reset();
     spawn(scheduler_, certify(run_->header.run_id, run_->path));

@@ -165,6 +165,7 @@ Task<void> Station::close_run(Close action) {
     run_->closing = false;
     run_->shut = closed.has_value();
     set_up_lost_.clear();
+    interruption_.clear();
     last_reading_.reset();
     if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
 }

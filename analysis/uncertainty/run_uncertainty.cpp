@@ -116,14 +116,21 @@ std::uint64_t simulation_seed_of(const RunRecord& run) {
 } // namespace
 
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k) {
+    return uncertainty_of(run, edition_k, run.plan.approaches);
+}
+
+RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, int approaches) {
     RunUncertainty out;
     std::vector<std::string> remarks;
     if (!run.plan.targets.empty()) out.statement = statement_of(run, remarks);
     out.missing = missing_terms_of(out.statement);
     if (!run.uncertainty) return out;
+    if (approaches < run.plan.approaches)
+        remarks.push_back("Uncertainty: the budget is made with n = " + std::to_string(approaches) +
+                          ", the fewest readings that remain of a target and direction.");
     out.remarks = std::move(remarks);
-    auto budget = make_budget(out.statement, run.plan.approaches,
-                              static_cast<int>(run.plan.targets.size()), edition_k);
+    auto budget = make_budget(out.statement, approaches, static_cast<int>(run.plan.targets.size()),
+                              edition_k);
     if (!budget) {
         out.missing.push_back(
             {"budget", "a budget (" + budget.error().field + " " + budget.error().detail + ")"});

@@ -1,6 +1,7 @@
 """Points taken again and readings left out, from the command line to the certificate."""
 
 import json
+import signal
 from pathlib import Path
 
 import bench
@@ -44,6 +45,27 @@ def after_the_run(b):
     expect(csv.count("# superseded") == 2, csv[:2000])
     checked = json.loads(b.axiscal("verify", "--json", run["file"]))
     expect(checked["intact"], f"{checked['findings']}")
+
+
+@sentence("PointsAreTakenAgainAfterTheDaemonWasStartedAnew")
+def after_a_restart(b):
+    b.begin_run()
+    b.finish()
+    file = b.run()["file"]
+    expect(b.end("axiscald", signal.SIGKILL) == -signal.SIGKILL, "the exit code of axiscald")
+    b.start_daemon()
+    bench.wait_until("good readings", b.channels_are_good, 30)
+    expect(b.run() is None, "no run is shown before somebody asks for it")
+    b.axiscal("retake", "--json", "--target", 2, "--cycle", 1, "--reason", "coolant on the mirror")
+    expect(b.run()["file"] == file, f"{b.run()}")
+    shown = b.axiscal("program", "--json", "--retake", file, "--config", b.folder / "station.toml",
+                      "--out", b.folder)
+    b.sim(f"run {json.loads(shown)['programs'][0]['file']}")
+    certificate = b.finish()
+    expect(len(certificate["run"]["set_aside"]) == 2, f"{certificate['run']['set_aside']}")
+    told = " ".join(certificate["run"]["remarks"])
+    for words in ("restarted after the run had been closed", "The laser counted on"):
+        expect(words in told, told)
 
 
 @sentence("ReadingLeftOutIsCountedAndThePointTakenAgainCounts")

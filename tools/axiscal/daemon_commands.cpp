@@ -34,7 +34,9 @@ std::string checks_text(const Json& checks) {
     for (const Json& check : checks) {
         const bool passed = check.at("passed") == true;
         const std::string reason = check.at("override").get<std::string>();
-        const std::string word = passed           ? "ok        "
+        const bool warning = check.value("warning", false);
+        const std::string word = warning          ? "WARNING   "
+                                 : passed         ? "ok        "
                                  : reason.empty() ? "FAILS     "
                                                   : "overridden";
         std::string name = check.at("name").get<std::string>();

@@ -1,6 +1,7 @@
 #include "analysis/certificate.hpp"
 #include "reference_data.hpp"
 #include "simulated_run.hpp"
+#include "stated_uncertainty.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -100,6 +101,108 @@ TEST(Certificate, RefusesARunThatWasNotClosedAsComplete) {
     ASSERT_FALSE(certificate.has_value());
     EXPECT_EQ(certificate.error().fault, Fault::incomplete_run);
     EXPECT_NE(certificate.error().detail.find("aborted by the operator"), std::string::npos);
+}
+
+// ---- readings that were taken again or left out -----------------------------------------------
+
+PointRecord& reading_of(RunRecord& run, int target, Direction direction, int approach) {
+    return *std::ranges::find_if(run.points, [&](const PointRecord& point) {
+        return point.planned.target_index == target && point.planned.direction == direction &&
+               point.planned.approach == approach;
+    });
+}
+
+/// Each approach of the truth lies 0.2 um above the one before it.
+RunRecord stated_run() {
+    RunRecord run = simulated_run({});
+    run.uncertainty = test::stated_uncertainty();
+    return run;
+}
+
+TEST(Certificate, OfAnExcludedReadingUsesTheReadingsThatRemain) {
+    RunRecord run = stated_run();
+    RunRevisions revisions;
+    revisions.exclusions.push_back({reading_of(run, 2, Direction::positive, 4).step,
+                                    at_seconds(900), 0, "somebody leaned on the table"});
+    const auto whole = make_certificate(run, "");
+    const auto certificate = make_certificate(run, revisions, "");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    EXPECT_EQ(certificate->deviations.forward()[2].size(), 4U);
+    // s of 0, 0.2, 0.4, 0.6 um, then of 0 .. 0.8 um
+    EXPECT_NEAR(*certificate->result.positions[2].s_forward, 0.0002 * std::sqrt(5.0 / 3), 1e-7);
+    EXPECT_NEAR(*whole->result.positions[2].s_forward, 0.0002 * std::sqrt(2.5), 1e-7);
+    EXPECT_NEAR(whole->result.positions[2].mean_forward -
+                    certificate->result.positions[2].mean_forward,
+                0.0001, 1e-7);
+    ASSERT_EQ(certificate->set_aside.size(), 1U);
+    EXPECT_FALSE(certificate->set_aside[0].superseded);
+    EXPECT_TRUE(
+        holds(certificate->remarks, "Readings excluded: 1 (P3 ↑ 5: somebody leaned on the table)"));
+    EXPECT_TRUE(holds(certificate->remarks, "remain (s with n - 1)"));
+    EXPECT_TRUE(holds(certificate->remarks, "has 4 readings. ISO 230-2 asks for five"));
+}
+
+// U of the repeatability is 2 * 2 k u_EVE / sqrt(n - 1): 4 u_EVE for n = 5, 8 / sqrt(3) for 4.
+TEST(Certificate, TheBudgetTakesTheReadingsThatRemainForN) {
+    RunRecord run = stated_run();
+    RunRevisions revisions;
+    revisions.exclusions.push_back(
+        {reading_of(run, 7, Direction::negative, 0).step, at_seconds(900), 0, "coolant"});
+    const auto certificate = make_certificate(run, revisions, "");
+    ASSERT_TRUE(certificate && certificate->uncertainty.budget);
+    const double eve = 1.7 / std::sqrt(12.0);
+    EXPECT_EQ(certificate->uncertainty.budget->approaches, 4);
+    EXPECT_NEAR(certificate->uncertainty.budget->find("R_forward")->expanded,
+                8 / std::sqrt(3.0) * eve, 1e-12);
+    EXPECT_NEAR(certificate->uncertainty.budget->find("B")->expanded, 2 * eve * std::sqrt(0.5),
+                1e-12);
+    EXPECT_TRUE(holds(certificate->remarks, "the budget is made with n = 4"));
+    EXPECT_FALSE(certificate->uncertainty.simulation) << "it would draw five of each";
+    EXPECT_FALSE(holds(make_certificate(run, "")->remarks, "the budget is made"));
+}
+
+TEST(Certificate, OfAReplacedReadingShowsItAndUsesTheNewOne) {
+    RunRecord run = stated_run();
+    const PointRecord good = reading_of(run, 2, Direction::positive, 4);
+    RunRevisions revisions;
+    PointRecord bad = good;
+    bad.reading += mm(0.05);
+    revisions.superseded.push_back(bad);
+    revisions.exclusions.push_back({bad.step, at_seconds(900), 0, "doubtful"});
+    reading_of(run, 2, Direction::positive, 4).step = 110;
+    revisions.retakes.push_back(
+        {1, at_seconds(2290), 0, "coolant on the mirror", {{110, good.planned.step}}});
+    const auto certificate = make_certificate(run, revisions, "");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    EXPECT_EQ(certificate->deviations.forward()[2].size(), 5U);
+    ASSERT_EQ(certificate->set_aside.size(), 1U);
+    const SetAside& aside = certificate->set_aside[0];
+    EXPECT_TRUE(aside.superseded);
+    EXPECT_NEAR(aside.deviation - certificate->deviations.forward()[2][4], 0.05, 2e-5);
+    EXPECT_TRUE(holds(certificate->remarks, "Readings replaced by new ones: 1 (P3 ↑ 5: coolant on "
+                                            "the mirror (excluded before: doubtful))"));
+    EXPECT_FALSE(holds(certificate->remarks, "asks for five"));
+}
+
+TEST(Certificate, OfARunPlannedWithFewerThanFiveApproachesSaysSo) {
+    RunRecord run = simulated_run({});
+    run.plan.approaches = 3;
+    std::erase_if(run.plan.points, [](const PlannedPoint& point) { return point.approach >= 3; });
+    std::erase_if(run.points, [](const PointRecord& point) { return point.planned.approach >= 3; });
+    const auto certificate = make_certificate(run, "");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    EXPECT_TRUE(holds(certificate->remarks, "has 3 readings. ISO 230-2 asks for five"));
+}
+
+TEST(Certificate, PrintsEachOverrideAndEachWarningOfThePreFlightChecks) {
+    RunRevisions revisions;
+    revisions.preflight = {{"soak", false, false, "Wait.", "the customer waits"},
+                           {"drift", true, false, "Calm.", ""},
+                           {"certificates", true, true, "laser has no certificate_number.", ""}};
+    const auto remarks = make_certificate(simulated_run({}), revisions, "")->remarks;
+    EXPECT_TRUE(holds(remarks, "\"soak\" failed: Wait. Reason given: the customer waits."));
+    EXPECT_TRUE(holds(remarks, "\"certificates\": laser has no certificate_number."));
+    EXPECT_FALSE(holds(remarks, "Calm"));
 }
 
 // ---- canonical bytes ------------------------------------------------------------------------

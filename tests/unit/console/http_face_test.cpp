@@ -54,7 +54,7 @@ public:
     preflight(const ArmRequest& request) const override {
         const auto reason = request.overrides.find("soak");
         return std::vector<PreflightRecord>{
-            {"soak", false, "Wait.", reason == request.overrides.end() ? "" : reason->second}};
+            {"soak", false, false, "Wait.", reason == request.overrides.end() ? "" : reason->second}};
     }
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override {
         revision = request;

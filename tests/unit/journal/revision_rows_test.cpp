@@ -79,15 +79,16 @@ TEST(RevisionRows, ChecksAndExclusionsComeBackAsTheyWere) {
     RandomRun random{32};
     auto writer = RunFileWriter::create(path, random.header()).value();
     RunBatch batch;
-    batch.preflight = {{"soak", false, "Wait.", "the customer waits"},
-                       {"drift", true, "Calm.", ""}};
+    batch.preflight = {{"soak", false, false, "Wait.", "the customer waits"},
+                       {"drift", true, true, "Calm.", ""}};
     batch.exclusions = {{3, monotonic_from_ns(9), 11, "somebody leaned on the table"}};
     ASSERT_TRUE(writer.write(batch));
     const auto read = read_run_file_contents(path);
     ASSERT_TRUE(read) << describe(read.error());
     ASSERT_EQ(read->revisions.preflight.size(), 2U);
     EXPECT_EQ(read->revisions.preflight[0].override_reason, "the customer waits");
-    EXPECT_TRUE(read->revisions.preflight[1].passed);
+    EXPECT_FALSE(read->revisions.preflight[0].warning);
+    EXPECT_TRUE(read->revisions.preflight[1].passed && read->revisions.preflight[1].warning);
     ASSERT_EQ(read->revisions.exclusions.size(), 1U);
     EXPECT_EQ(read->revisions.exclusions[0].step, 3);
     EXPECT_EQ(read->revisions.exclusions[0].utc_ns, 11);
@@ -130,7 +131,7 @@ TEST(RevisionRows, AnOrderOrAnExclusionThatIsChangedShows) {
             auto writer = RunFileWriter::reopen_closed(path, first_rows(order_for(4, 2)));
             ASSERT_TRUE(writer);
             RunBatch more;
-            more.preflight = {{"soak", false, "Wait.", "why"}};
+            more.preflight = {{"soak", false, false, "Wait.", "why"}};
             ASSERT_TRUE(writer->write(more));
             ASSERT_TRUE(writer->close(true, "again", random.tie()));
         }

@@ -112,8 +112,9 @@ RunRecord stated_run() {
 class Report : public ::testing::Test {
 protected:
     /// Path of the rendered file.
-    std::string render(RunRecord run) {
-        const auto pdf = render_certificate_pdf(test::certificate_of(std::move(run)));
+    std::string render(RunRecord run, RunRevisions revisions = {}) {
+        const auto pdf =
+            render_certificate_pdf(test::certificate_of(std::move(run), std::move(revisions)));
         EXPECT_TRUE(pdf.has_value()) << (pdf ? "" : describe(pdf.error()));
         return test::write_pdf(folder_, pdf.value_or(""));
     }
@@ -182,6 +183,25 @@ TEST_F(Report, HoldsUAgainstItsStatedTarget) {
     EXPECT_EQ(count(text, " NO "), 1);
     EXPECT_EQ(count(text, " yes "), 1);
     EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("U_T")));
+}
+
+TEST_F(Report, ListsDrawsAndCountsReadingsThatNoFigureUses) {
+    RunRecord run = test::synthetic_run();
+    RunRevisions revisions;
+    revisions.exclusions.push_back(
+        {run.points[13].step, test::at_seconds(900), 0, "somebody leaned on the table"});
+    revisions.superseded.push_back(run.points[20]);
+    run.points[20].step = 110;
+    revisions.retakes.push_back(
+        {1, test::at_seconds(2290), 0, "coolant on the mirror", {{110, 20}}});
+    revisions.preflight = {{"soak", false, false, "The air sensor warms up.", "no time"},
+                           {"certificates", true, true, "air has no due_on.", ""}};
+    const std::string text = test::text_of(render(std::move(run), std::move(revisions)));
+    for (const char* words :
+         {"Readings that no figure uses", "somebody leaned on the table", "coolant on the mirror",
+          "excluded", "replaced", "boxed ×: excluded (1)", "×: replaced (1)", "The air sensor",
+          "no time", "air has no due_on", "asks for five"})
+        EXPECT_THAT(text, HasSubstr(words));
 }
 
 TEST_F(Report, SaysOnEachPageWhatIsMissing) {

@@ -80,8 +80,8 @@ inline RunRecord synthetic_run(unsigned seed = 1) {
     return run;
 }
 
-inline Certificate certificate_of(RunRecord run) {
-    auto certificate = make_certificate(std::move(run), std::string(64, 'a'));
+inline Certificate certificate_of(RunRecord run, RunRevisions revisions = {}) {
+    auto certificate = make_certificate(std::move(run), std::move(revisions), std::string(64, 'a'));
     if (!certificate) throw std::runtime_error(describe(certificate.error()));
     certificate->result_digest = std::string(64, 'd');
     return *std::move(certificate);

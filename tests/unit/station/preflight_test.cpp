@@ -121,6 +121,32 @@ TEST_F(Preflight, ASensorReadForTooShortATimeIsToldHowLong) {
     expect_failure(young, "soak", "material/right has been read for 2 min of 10 min");
 }
 
+// A sensor that is asked each 110 s: its first reading in the window comes 70 s after the
+// beginning, its newest is 90 s old.
+TEST_F(Preflight, ASensorThatIsAskedSeldomSpansTheWindowToo) {
+    auto slow = facts();
+    SensorLog log{12min};
+    for (int second = 10; second <= 1200; second += 110)
+        log.take(Sample{0, at(second), 20.5 + 0.0001 * second});
+    slow.sensors[2].log = &log;
+    EXPECT_TRUE(named(judge_preflight(slow), "soak").passed)
+        << named(judge_preflight(slow), "soak").verdict;
+    SensorLog warming{12min};
+    for (int second = 10; second <= 1200; second += 110)
+        warming.take(Sample{0, at(second), 20.5 + 0.0005 * second});
+    slow.sensors[2].log = &warming;
+    expect_failure(slow, "soak", "material/right changes by 0.3 K in 10 min");
+}
+
+TEST_F(Preflight, ASensorThatWasAwayBeginsItsSoakAnew) {
+    auto torn = facts();
+    SensorLog log{12min};
+    for (int second = 0; second <= 1200; ++second)
+        if (second <= 700 || second >= 1080) log.take(Sample{0, at(second), 20.5});
+    torn.sensors[2].log = &log;
+    expect_failure(torn, "soak", "material/right has been read for 2 min of 10 min");
+}
+
 TEST_F(Preflight, MaterialSensorsThatDisagreeAreNamed) {
     read([](double) { return 21.0; }, [](double) { return 20.0; }, [](double) { return 23.5; });
     expect_failure(facts(), "sensors", "material/right shows 3.5 K more than material/left");
@@ -157,6 +183,14 @@ TEST_F(Preflight, ADriftOfTheStandingAxisIsMeasured) {
     expect_failure(facts(), "drift", "less than 30 s");
 }
 
+TEST_F(Preflight, ALaserThatIsAskedSeldomSpansTheDriftWindowToo) {
+    samples.clear();
+    for (int second = 1160; second <= 1200; second += 8)
+        samples.emplace_back(0, at(second), 0.01e-6 * second);
+    EXPECT_TRUE(named(judge_preflight(facts()), "drift").passed)
+        << named(judge_preflight(facts()), "drift").verdict;
+}
+
 TEST_F(Preflight, ACoefficientWithoutUncertaintyIsNotEnough) {
     config.axis.material.standard_uncertainty.reset();
     expect_failure(facts(), "expansion", "without its uncertainty");
@@ -179,11 +213,26 @@ TEST_F(Preflight, TheStateOfTheMachineIsAskedFor) {
 TEST_F(Preflight, AnInstrumentOutOfDateIsNamed) {
     config.instruments[1].due_on = "2026-11-20";
     expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");
-    config.instruments[1].due_on.clear();
-    expect_failure(facts(), "certificates", "air has no certificate_number and due_on");
-    auto unused = facts();
-    unused.in_use = {"laser", "material"};
-    EXPECT_TRUE(named(judge_preflight(unused), "certificates").passed) << "nobody needs it";
+    auto others = facts();
+    others.in_use = {"laser", "material"};
+    EXPECT_TRUE(named(judge_preflight(others), "certificates").passed) << "nobody needs it";
+}
+
+TEST_F(Preflight, AShopWithoutCertificatesIsWarnedAndMayMeasure) {
+    for (InstrumentConfig& instrument : config.instruments)
+        instrument.certificate_number.clear(), instrument.due_on.clear();
+    const auto checks = judge_preflight(facts());
+    EXPECT_EQ(open_objections(checks), "");
+    const PreflightRecord& certificates = named(checks, "certificates");
+    EXPECT_TRUE(certificates.passed && certificates.warning);
+    for (const char* words : {"laser has no certificate_number", "air has no certificate_number",
+                              "material has no certificate_number", "is not known"})
+        EXPECT_NE(certificates.verdict.find(words), std::string::npos) << certificates.verdict;
+    config.instruments[1].due_on = "2026-11-20"; // a date alone is past all the same
+    expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");
+    auto others = facts();
+    others.in_use.clear();
+    EXPECT_FALSE(named(judge_preflight(others), "certificates").warning) << "nobody needs them";
 }
 
 TEST_F(Preflight, AnOverrideNeedsAKnownNameAndAReason) {

@@ -1,6 +1,8 @@
 // Pre-flight, retakes and exclusions through the whole station.
 #include "tests/unit/station/station_bench.hpp"
 
+#include <algorithm>
+
 namespace axiscal::testing {
 namespace {
 
@@ -121,15 +123,102 @@ TEST_F(StationRevises, RefusesARetakeOnceTheBeamWasInterrupted) {
     EXPECT_TRUE(contents().closed) << "the file was not touched";
 }
 
-TEST_F(StationRevises, RefusesARetakeOfARunOfAnotherLife) {
+TEST_F(StationRevises, TakesPointsAgainOfARunThatTheLastDaemonClosed) {
     {
         Life life{shop};
         whole_run(life);
     }
+    shop.now += 60s;
+    Life life{shop};
+    EXPECT_FALSE(life.status().run) << "nobody has asked for it";
+    life.run(2s);
+    const auto answer = life.retake(of_target(2));
+    ASSERT_TRUE(answer) << describe(answer.error());
+    EXPECT_EQ(answer->last_request, 10);
+    EXPECT_TRUE(life.status().run_open);
+    ASSERT_TRUE(life.take(2, 11));
+    ASSERT_TRUE(life.take(7, 12));
+    life.run(2s);
+    const auto file = contents();
+    EXPECT_TRUE(file.closed && file.run.complete);
+    EXPECT_EQ(file.revisions.superseded.size(), 2U);
+    const auto told =
+        std::ranges::find(file.run.events, EventKind::interrupted, &EventRecord::kind);
+    ASSERT_NE(told, file.run.events.end());
+    EXPECT_NE(told->text.find("The laser counted on"), std::string::npos) << told->text;
+    ASSERT_TRUE(life.retake(of_target(1))) << "it is this daemon's run now";
+}
+
+/// What a retake of the last daemon's run is refused with.
+class StationRefuses : public StationRevises {
+protected:
+    Error refusal_in(Life& life) {
+        life.run(2s);
+        const auto answer = life.retake(of_target(2));
+        EXPECT_FALSE(answer);
+        EXPECT_TRUE(contents().closed) << "the file was not touched";
+        return answer ? Error{} : answer.error();
+    }
+    void run_of_the_last_daemon() {
+        Life life{shop};
+        whole_run(life);
+    }
+};
+
+TEST_F(StationRefuses, ARetakeWhenTheLaserWasSwitchedOffMeanwhile) {
+    run_of_the_last_daemon();
+    shop.laser_switched_on = shop.now + 10s;
+    shop.now += 60s;
+    Life life{shop};
+    const Error error = refusal_in(life);
+    EXPECT_EQ(error.fault, Fault::datum_lost);
+    for (const char* words : {"axiscald was restarted", "its number advanced", "arm a new run"})
+        EXPECT_NE(error.detail.find(words), std::string::npos) << error.detail;
+}
+
+TEST_F(StationRefuses, ARetakeWithAnotherLaser) {
+    run_of_the_last_daemon();
+    shop.laser_serial = "another";
+    Life life{shop};
+    EXPECT_NE(refusal_in(life).detail.find("'another'"), std::string::npos);
+}
+
+TEST_F(StationRefuses, ARetakeOnceTheBeamWasInterruptedSinceTheStart) {
+    run_of_the_last_daemon();
+    Life life{shop};
+    life.laser->quality = Quality::beam_lost;
+    life.run(100ms);
+    life.laser->quality = Quality::good;
+    EXPECT_NE(refusal_in(life).detail.find("beam was interrupted since axiscald was started"),
+              std::string::npos);
+}
+
+TEST_F(StationRevises, LeavesAReadingOutOfARunThatTheLastDaemonClosed) {
+    shop.config.cycle.approaches = 3;
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 30; ++step)
+            ASSERT_TRUE(life.take(step)) << step;
+        life.run(2s);
+    }
+    shop.laser_serial = "another"; // what is measured is measured
+    Life life{shop};
+    RevisionRequest request = of_target(1, "somebody leaned on the table");
+    request.selection.direction = Direction::positive;
+    request.selection.approach = 0;
+    const auto excluded = life.exclude(request);
+    ASSERT_TRUE(excluded) << describe(excluded.error());
+    EXPECT_EQ(*excluded, 1);
+    EXPECT_EQ(contents().revisions.exclusions.size(), 1U);
+    EXPECT_TRUE(contents().closed && contents().run.complete);
+}
+
+TEST_F(StationRevises, SaysThatThereIsNothingToTakeAgain) {
     Life life{shop};
     const auto answer = life.retake(of_target(2));
     ASSERT_FALSE(answer);
-    EXPECT_NE(answer.error().detail.find("arm a new one"), std::string::npos);
+    EXPECT_NE(answer.error().detail.find("no run was measured yet"), std::string::npos);
 }
 
 TEST_F(StationRevises, AnotherJobIsNotArmedWhileARetakeIsOpen) {

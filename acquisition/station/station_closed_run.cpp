@@ -1,0 +1,112 @@
+// A closed run that may be added to: its set-up is watched, and the newest one of an earlier daemon
+// is taken over when a person asks for it.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/run/resume.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+constexpr Length reading_slack = mm(0.05); // of two neighbouring readings, beside the axis's speed
+constexpr Duration buffer_time = std::chrono::seconds{1};  // older bytes may wait in a USB buffer
+constexpr Duration answer_limit = std::chrono::seconds{5}; // for a station that was just started
+constexpr Duration look_every = std::chrono::milliseconds{20};
+
+} // namespace
+
+/// While no run is open nobody captures; the counter's zero is watched by its readings: since the
+/// run was closed, or, of a run that an earlier daemon closed, since the start.
+void Station::watch_set_up(const Sample& sample) {
+    if ((run_ && (!run_->closed || !datum_)) || !set_up_lost_.empty()) return;
+    if (!first_sample_) first_sample_ = sample;
+    if (!run_ && !settled_sample_ && sample.value() && sample.at - first_sample_->at >= buffer_time)
+        settled_sample_ = sample;
+    const std::uint32_t epoch = run_ ? datum_epoch_ : first_sample_->epoch;
+    const std::string since =
+        run_ && interruption_.empty() ? " since the run was closed" : " since axiscald was started";
+    if (sample.epoch != epoch)
+        set_up_lost_ = "the laser's counter lost its zero" + since;
+    else if (sample.quality() == Quality::beam_lost)
+        set_up_lost_ = "the laser's beam was interrupted" + since;
+    else if (sample.value() && last_reading_ && config_.capture.fastest.si() > 0) {
+        const auto jump = abs(metre(*sample.value()) - metre(*last_reading_->value()));
+        const auto reach =
+            metre(config_.capture.fastest.si() * seconds_of(sample.at - last_reading_->at));
+        if (jump > reach + reading_slack)
+            set_up_lost_ = "the laser's reading jumped by " + in_mm(jump) + since +
+                           ", faster than the axis can move";
+    }
+    if (sample.value()) last_reading_ = sample;
+}
+
+Result<RunSummary> Station::newest_closed_run() const {
+    AXISCAL_TRY(const std::vector<RunSummary> stored, stored_runs());
+    if (stored.empty()) return fail(Fault::no_run_armed, "no run was measured yet: arm one");
+    const RunSummary& newest = *std::ranges::max_element(stored, {}, &RunSummary::opened_utc_ns);
+    if (!newest.complete)
+        return fail(Fault::no_run_armed,
+                    "the last run, " + newest.run_id + ", was " +
+                        (newest.closed ? "closed as incomplete" : "left open") + ": arm a new one");
+    if (newest.circular)
+        return fail(Fault::no_run_armed, "the last run, " + newest.run_id +
+                                             ", is a circular test: its circles are driven again");
+    return newest;
+}
+
+/// Why the datum of a run of an earlier daemon cannot be relied on; empty when it holds, as for an
+/// open run that is resumed, and the proof is kept for the record.
+Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
+    const MonotonicTime limit = scheduler_.now() + answer_limit;
+    while (!settled_sample_ && set_up_lost_.empty() && scheduler_.now() < limit)
+        co_await scheduler_.sleep_for(look_every);
+    StationNow now;
+    now.config_hash = config_hash_;
+    now.boot_id = boot_id_;
+    now.laser_serial = laser_serial();
+    now.laser = settled_sample_;
+    now.limits.fastest = config_.capture.fastest;
+    now.limits.count_modulus =
+        supervisor_.instrument(channel_of(roles_.laser).instrument).count_modulus();
+    if (!counting_rate_hz(run)) now.limits.rate_hz = co_await laser_rate_hz(limit);
+    const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
+    interruption_ = "axiscald was restarted after the run had been closed. " + verdict.sentence;
+    if (verdict.decision == ResumeDecision::wait_for_request) co_return std::string{};
+    std::string doubt = "axiscald was restarted after the run had been closed, and nothing proves "
+                        "that its set-up stands. " +
+                        verdict.sentence;
+    if (doubt.ends_with('.')) doubt.pop_back();
+    co_return doubt;
+}
+
+/// Only when a person asks: a station that is started shows no old run. An exclusion needs no
+/// set-up; a retake is refused with `set_up_lost_`.
+Task<Result<void>> Station::take_over_closed_run() {
+    if (run_ || arming_) co_return Result<void>{};
+    AXISCAL_CO_TRY(const RunSummary newest, newest_closed_run());
+    AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(newest.path));
+    std::string doubt = co_await doubt_about_datum(contents.run);
+    if (run_ || arming_) // meanwhile
+        co_return fail(Fault::busy, "somebody else is at it just now");
+    CurrentRun last;
+    last.path = newest.path;
+    last.closed = last.shut = true;
+    last.outcome = Close{true, contents.run.closing_reason, Fault::none};
+    RunSetup setup = setup_of(contents.run);
+    setup.revisions = std::move(contents.revisions);
+    const std::uint32_t epoch = first_sample_ ? first_sample_->epoch : 0;
+    machine_.emplace(
+        RunMachine::of_closed(std::move(setup), contents.run, epoch, scheduler_.now()));
+    contents.run.points.clear();
+    last.header = std::move(contents.run);
+    run_ = std::move(last);
+    datum_ = machine_->view().datum;
+    datum_epoch_ = epoch;
+    if (set_up_lost_.empty()) set_up_lost_ = std::move(doubt);
+    co_return Result<void>{};
+}
+
+} // namespace axiscal
