@@ -93,15 +93,21 @@ bool same_reading(const RingPoint& a, const RingPoint& b) {
     return a.sense == b.sense && a.index == b.index && a.side == b.side;
 }
 
+/// Where an outer and an inner point in one direction alone prove the optimum, the fit names two
+/// more that need not touch: they are left out.
 ZoneRing ring_of(const Path& path, const MinimumZoneCircle& zone, const Extremes& about_center) {
     ZoneRing ring{zone.x, zone.y, about_center.high, about_center.low, {}, false};
     ring.beyond_set_up = std::hypot(zone.x, zone.y) > path.radius;
+    const double touching = 1e-6 * about_center.range() + 1e-12 * path.radius;
     for (const ControlPoint& point : zone.control_points) {
+        const double side = point.side == ZoneSide::outer ? ring.outer_mm : ring.inner_mm;
+        const double distance = radial_distance(path, point.index, zone.x, zone.y);
         const RingPoint reading = path.reading(point);
         const bool known = std::ranges::any_of(ring.control_points, [&](const RingPoint& held) {
             return same_reading(held, reading);
         });
-        if (!known) ring.control_points.push_back(reading);
+        if (!known && std::fabs(distance - side) <= touching)
+            ring.control_points.push_back(reading);
     }
     return ring;
 }

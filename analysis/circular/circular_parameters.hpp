@@ -43,7 +43,7 @@ struct RingPoint {
 struct ZoneRing {
     double x_mm = 0, y_mm = 0;
     double outer_mm = 0, inner_mm = 0;
-    std::vector<RingPoint> control_points; ///< what holds it; a reading that stands twice, once
+    std::vector<RingPoint> control_points; ///< what holds it: two to four
     bool beyond_set_up = false; ///< its centre lies farther than R from that of the set-up
 };
 

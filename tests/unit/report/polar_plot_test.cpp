@@ -142,8 +142,9 @@ TEST(PolarView, TheRingHoldsEveryReadingAndItsControlPointsTouchIt) {
                 EXPECT_NEAR(mark.at.deviation_mm,
                             is_outer ? view.zone->outer_mm : view.zone->inner_mm, nanometre);
             }
-            EXPECT_EQ(outer, 2);
-            EXPECT_EQ(inner, 2);
+            // one of each in one direction are enough: a reading of either sense at one angle
+            EXPECT_EQ(outer, inner);
+            EXPECT_TRUE(outer == 1 || outer == 2) << outer;
         }
     }
 }
