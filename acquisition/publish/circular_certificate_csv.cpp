@@ -53,8 +53,8 @@ void append_figures(std::string& csv, const CircularCertificate& certificate) {
     for (const MissingTerm& term : certificate.missing)
         append_csv_line(csv, {"# preliminary", "not stated", csv_field(term.words)});
     for (const CauseContribution& cause : certificate.diagnosis.ranking)
-        append_csv_line(
-            csv, {"# diagnosis", cause.cause, csv_number(cause.G_mm), "mm", csv_field(cause.words)});
+        append_csv_line(csv, {"# diagnosis", cause.cause, csv_number(cause.G_mm), "mm",
+                              csv_field(cause.words)});
 }
 
 std::string side_of(const ZoneRing& ring, std::size_t reading) {

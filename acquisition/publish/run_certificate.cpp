@@ -2,42 +2,86 @@
 
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/circular_json.hpp"
+#include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/result_digest.hpp"
 #include "acquisition/publish/result_json.hpp"
 
 #include <nlohmann/json.hpp>
 
 namespace axiscal {
+namespace {
+
+tl::unexpected<Error> still_open(const std::string& run_file) {
+    return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
+}
+
+/// Figures that differ from those of the first evaluation are refused.
+Result<void> check_stored_result(const std::string& run_file,
+                                 const std::string& digest,
+                                 const std::string& software_version) {
+    const auto stored = read_stored_result(run_file);
+    if (!stored && stored.error().fault == Fault::not_found) return {};
+    if (!stored) return tl::unexpected<Error>(stored.error());
+    if (stored->digest == digest) return {};
+    return fail(Fault::bad_run_file,
+                run_file + ": the figures recomputed now (" + digest +
+                    ") are not those of its first evaluation (" + stored->digest +
+                    "); this program computes differently from version " + software_version);
+}
+
+/// Digest and result document of what was evaluated just now.
+Result<StoredResult> first_result_of(const std::string& run_file) {
+    AXISCAL_TRY(const bool circular, is_circular_run(run_file));
+    if (!circular) {
+        AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(run_file));
+        return StoredResult{certificate.result_digest, result_to_json(certificate.result).dump()};
+    }
+    AXISCAL_TRY(const CircularCertificate certificate, circular_certificate_of_run_file(run_file));
+    const CircularMeasurement& measured = certificate.measured;
+    return StoredResult{certificate.result_digest,
+                        circular_to_json({measured.test, measured.axes, certificate.parameters,
+                                          certificate.diagnosis, certificate.budget})
+                            .dump()};
+}
+
+} // namespace
 
 Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     AXISCAL_TRY(std::string sha256, sha256_of_file(run_file));
     AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
-    if (!contents.closed)
-        return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
+    if (!contents.closed) return still_open(run_file);
     AXISCAL_TRY(Certificate certificate,
                 make_certificate(std::move(contents.run), std::move(contents.revisions),
                                  std::move(sha256)));
     certificate.result_digest = result_digest(certificate.result);
     // A run that was added to is evaluated anew: the stored result is of what it held before.
     if (contents.results < certificate.revisions.closings) return certificate;
-    const auto stored = read_stored_result(run_file);
-    if (!stored && stored.error().fault != Fault::not_found)
-        return tl::unexpected<Error>(stored.error());
-    if (stored && stored->digest != certificate.result_digest)
-        return fail(Fault::bad_run_file,
-                    run_file + ": the figures recomputed now (" + certificate.result_digest +
-                        ") are not those of its first evaluation (" + stored->digest +
-                        "); this program computes differently from version " +
-                        certificate.run.software_version);
+    AXISCAL_CHECK(
+        check_stored_result(run_file, certificate.result_digest, certificate.run.software_version));
+    return certificate;
+}
+
+Result<CircularCertificate> circular_certificate_of_run_file(const std::string& run_file) {
+    AXISCAL_TRY(std::string sha256, sha256_of_file(run_file));
+    AXISCAL_TRY(const RunFileContents contents, read_run_file_contents(run_file));
+    if (!contents.closed) return still_open(run_file);
+    AXISCAL_TRY(CircularRun run, circular_run_of(contents));
+    AXISCAL_TRY(CircularMeasurement measured, measurement_of(std::move(run)));
+    AXISCAL_TRY(CircularCertificate certificate,
+                evaluate_measurement(std::move(measured), std::move(sha256)));
+    certificate.result_digest = result_digest(certificate.parameters);
+    if (contents.results < contents.revisions.closings) return certificate;
+    AXISCAL_CHECK(check_stored_result(run_file, certificate.result_digest,
+                                      certificate.measured.run.software_version));
     return certificate;
 }
 
 Result<void> seal_result(const std::string& run_file) {
     AXISCAL_TRY(const RunFileContents contents, read_run_file_contents(run_file));
     if (contents.closed && contents.results >= contents.revisions.closings) return {};
-    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(run_file));
-    return store_result(run_file,
-                        {certificate.result_digest, result_to_json(certificate.result).dump()});
+    AXISCAL_TRY(const StoredResult result, first_result_of(run_file));
+    return store_result(run_file, result);
 }
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 // for next year's recomputation.
 
 #include "analysis/certificate.hpp"
+#include "analysis/circular/circular_certificate.hpp"
 
 #include <string>
 
@@ -14,8 +15,12 @@ namespace axiscal {
 /// Fault::not_found; what make_certificate() refuses.
 Result<Certificate> certificate_of_run_file(const std::string& run_file);
 
+/// The same of a circular test: its circles are cut out of the stream anew.
+/// @errors as above; those of read_circular_run() and evaluate_measurement().
+Result<CircularCertificate> circular_certificate_of_run_file(const std::string& run_file);
+
 /// The first evaluation: stores digest and result document in the closed run file, once.
-/// A file that has a result keeps it.
+/// A file that has a result keeps it. Of a circular test, too.
 Result<void> seal_result(const std::string& run_file);
 
 } // namespace axiscal

@@ -4,6 +4,8 @@
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/circular_certificate_json.hpp"
+#include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 
 #include <array>
@@ -26,6 +28,10 @@ constexpr std::array held_places{"/parameters",
                                  "/run/id",
                                  "/run/plan",
                                  "/run/deviations",
+                                 "/zones",
+                                 "/repeats",
+                                 "/run/circles",
+                                 "/run/bar",
                                  "/run/config_sha256",
                                  "/run/datums",
                                  "/run/result_digest",
@@ -108,6 +114,23 @@ std::string state_in_words(const ChainReport& chain) {
 
 } // namespace
 
+namespace {
+
+/// The certificate's document as the run file gives it now.
+Result<Json> document_of_run_file(const std::string& run_file, std::string& digest) {
+    AXISCAL_TRY(const bool circular, is_circular_run(run_file));
+    if (circular) {
+        AXISCAL_TRY(const CircularCertificate made, circular_certificate_of_run_file(run_file));
+        digest = made.result_digest;
+        return circular_certificate_to_json(made);
+    }
+    AXISCAL_TRY(const Certificate made, certificate_of_run_file(run_file));
+    digest = made.result_digest;
+    return certificate_to_json(made);
+}
+
+} // namespace
+
 Result<VerifyReport> verify_run(const std::string& run_file, const std::string& certificate) {
     VerifyReport report;
     report.run_file = run_file;
@@ -122,9 +145,8 @@ Result<VerifyReport> verify_run(const std::string& run_file, const std::string& 
         report.no_figures = "rows are not what they were";
     } else if (!report.chain.complete) {
         report.no_figures = state_in_words(report.chain);
-    } else if (auto made = certificate_of_run_file(run_file)) {
-        report.result_digest = made->result_digest;
-        right = certificate_to_json(*made);
+    } else if (auto made = document_of_run_file(run_file, report.result_digest)) {
+        right = *std::move(made);
     } else if (const auto stored = read_stored_result(run_file)) {
         report.wrong_result = describe(made.error());
     } else {

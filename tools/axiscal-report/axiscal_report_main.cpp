@@ -7,6 +7,7 @@
 
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
 #include "acquisition/publish/run_certificate.hpp"
@@ -32,6 +33,12 @@ struct Options {
 /// The first evaluation is the station's own report; an export changes nothing.
 Result<void> draw(const Options& options, const std::string& folder) {
     if (options.to.empty()) AXISCAL_CHECK(seal_result(options.run_file));
+    AXISCAL_TRY(const bool circular, is_circular_run(options.run_file));
+    if (circular) {
+        AXISCAL_TRY(const CircularCertificate certificate,
+                    circular_certificate_of_run_file(options.run_file));
+        return write_circular_files(certificate, options.run_file, folder);
+    }
     AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(options.run_file));
     return write_certificate_files(certificate, options.run_file, folder);
 }

@@ -3,6 +3,8 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/circular_certificate_json.hpp"
+#include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -56,7 +58,17 @@ int complain(const Error& error) {
     return error.fault == Fault::io ? exit_failed : exit_refused;
 }
 
+int analyze_circular_run(const std::string& path) {
+    const auto certificate = circular_certificate_of_run_file(path);
+    if (!certificate) return complain(certificate.error());
+    std::cout << circular_certificate_json_text(*certificate);
+    return exit_ok;
+}
+
 int analyze_run(const std::string& path) {
+    const auto circular = is_circular_run(path);
+    if (!circular) return complain(circular.error());
+    if (*circular) return analyze_circular_run(path);
     const auto certificate = certificate_of_run_file(path);
     if (!certificate) return complain(certificate.error());
     std::cout << certificate_json_text(*certificate);

@@ -167,6 +167,14 @@ void draw_repeats(Sheet& sheet, const CircularCertificate& certificate) {
     sheet.table(columns, rows, 7);
 }
 
+/// Without the requests of circles, which stand under "Circles driven".
+std::vector<EventRecord> events_on_paper(const CircularRun& run) {
+    std::vector<EventRecord> events;
+    for (const EventRecord& event : run.events)
+        if (event.kind != EventKind::note || event.sequence == 0) events.push_back(event);
+    return events;
+}
+
 } // namespace
 
 void draw_circular_condition_pages(Sheet& sheet,
@@ -181,7 +189,7 @@ void draw_circular_condition_pages(Sheet& sheet,
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, run.instruments, iso_date_of(certificate.measured));
     draw_remarks(sheet, certificate.remarks, shortened);
-    draw_events(sheet, run.events, run.opened);
+    draw_events(sheet, events_on_paper(run), run.opened);
     if (!certificate.measured.taken_elsewhere)
         sheet.fields(
             {{"Station", stated(run.station)}, {"Station file SHA-256", stated(run.config_hash)}},

@@ -1,0 +1,81 @@
+// From the run file of a circular test to its certificate, and back.
+
+#include "acquisition/publish/circular_certificate_json.hpp"
+#include "acquisition/publish/run_certificate.hpp"
+#include "acquisition/publish/run_verify.hpp"
+#include "written_circle.hpp"
+
+#include <fstream>
+
+namespace axiscal {
+namespace {
+
+using testing::ScratchFolder;
+
+class CircularRunCertificate : public ::testing::Test {
+protected:
+    std::string written(bool close = true) {
+        test::DrivenBar bar = test::bar_of_the_shop();
+        bar.setup.uncertainty.device_width_um = 0.5;
+        bar.setup.uncertainty.repeatability_um = 0.3;
+        bar.setup.uncertainty.eve_um = 0.4;
+        truth_ = bar.truth;
+        return test::write_circles(folder_, bar, bar.drive(), close);
+    }
+    ScratchFolder folder_;
+    test::Truth truth_;
+};
+
+TEST_F(CircularRunCertificate, HoldsTheTruthThatWasDriven) {
+    const auto certificate = circular_certificate_of_run_file(written());
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    const CircularMeasurement& measured = certificate->measured;
+    EXPECT_EQ(measured.run.run_id, "bay3-circle");
+    EXPECT_FALSE(measured.taken_elsewhere);
+    EXPECT_NEAR(certificate->parameters.ccw->cover.arc_deg, 220, 0.1);
+    const auto& backlash = certificate->diagnosis.of(circular::Cause::backlash_x);
+    EXPECT_NEAR(*backlash.value, truth_["backlash_x"], 3.5 * backlash.standard_uncertainty + 1e-4);
+    EXPECT_NE(certificate->uncertainty_of("G_b"), nullptr) << "its three terms are stated";
+    EXPECT_EQ(certificate->uncertainty_of("D"), nullptr) << "no length of the bar is known";
+    EXPECT_TRUE(certificate->preliminary);
+    EXPECT_NEAR(*measured.conditions.machine.mean_degC, 21.0, 1e-12);
+}
+
+TEST_F(CircularRunCertificate, IsTheSameWhenItIsComputedAnew) {
+    const std::string path = written();
+    ASSERT_TRUE(seal_result(path));
+    const auto stored = read_stored_result(path);
+    ASSERT_TRUE(stored);
+    const auto again = circular_certificate_of_run_file(path);
+    ASSERT_TRUE(again) << describe(again.error());
+    EXPECT_EQ(stored->digest, again->result_digest);
+    EXPECT_EQ(stored->digest.size(), 64u);
+    EXPECT_NE(stored->document.find("\"standard\":\"ISO 230-4\""), std::string::npos);
+    EXPECT_TRUE(seal_result(path)) << "a file that has a result keeps it";
+}
+
+TEST_F(CircularRunCertificate, OfAnOpenRunIsRefused) {
+    const auto certificate = circular_certificate_of_run_file(written(false));
+    ASSERT_FALSE(certificate);
+    EXPECT_EQ(certificate.error().fault, Fault::incomplete_run);
+}
+
+TEST_F(CircularRunCertificate, IsVerifiedAgainstItsRunFile) {
+    const std::string path = written();
+    ASSERT_TRUE(seal_result(path));
+    auto document = circular_certificate_to_json(circular_certificate_of_run_file(path).value());
+    const std::string json = folder_.file("certificate.json");
+    std::ofstream{json} << document.dump();
+    const auto intact = verify_run(path, json);
+    ASSERT_TRUE(intact);
+    EXPECT_TRUE(intact->intact()) << to_text(*intact);
+    document["parameters"]["G_b"]["value"] = 0.001;
+    std::ofstream{json} << document.dump();
+    const auto altered = verify_run(path, json);
+    ASSERT_TRUE(altered);
+    ASSERT_EQ(altered->certificate_findings.size(), 1u);
+    EXPECT_EQ(altered->certificate_findings.front().place, "/parameters/G_b/value");
+}
+
+} // namespace
+} // namespace axiscal
