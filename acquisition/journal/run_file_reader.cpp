@@ -72,10 +72,29 @@ Result<void> check_run_file_pages(const Database& database, const std::string& p
     return bad(path, "damaged: " + (word ? *word : std::string{"no verdict"}));
 }
 
+namespace {
+
+/// Beside a closed file lies what a power cut left of a write to it: the pages as they were before.
+/// SQLite puts them back at the next look of somebody who may write.
+Result<void> take_back_unfinished(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::exists(path + "-journal", error)) return {};
+    AXISCAL_TRY(auto database,
+                Database::open(path, Database::Access::read_write, Fault::bad_run_file));
+    if (const auto looked = database->integer_of("PRAGMA schema_version"); !looked)
+        return bad(path, "a write to it was interrupted and cannot be taken back by you: start "
+                         "axiscald, or look as its user (" +
+                             looked.error().detail + ")");
+    return {};
+}
+
+} // namespace
+
 Result<CheckedFile> open_run_file(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return fail(Fault::not_found, path + " is not a file");
+    AXISCAL_CHECK(take_back_unfinished(path));
     AXISCAL_TRY(auto database,
                 Database::open(path, Database::Access::read_only, Fault::bad_run_file));
     AXISCAL_CHECK(database->execute("BEGIN")); // one state, even while the run goes on

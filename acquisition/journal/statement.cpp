@@ -125,11 +125,11 @@ Result<std::int64_t> Database::integer_of(const std::string& sql) const {
 
 tl::unexpected<Error> Database::failure() const {
     int system = connection_ ? sqlite3_system_errno(connection_.get()) : 0;
-    const int kind = connection_ ? sqlite3_errcode(connection_.get()) & 0xff : SQLITE_NOMEM;
+    const int kind = connection_ ? sqlite3_extended_errcode(connection_.get()) : SQLITE_NOMEM;
     // For these SQLite keeps no errno, or not always.
     if (kind == SQLITE_FULL) system = ENOSPC;
     if (kind == SQLITE_READONLY) system = EROFS;
-    if (kind == SQLITE_IOERR && system == 0) system = EIO;
+    if ((kind & 0xff) == SQLITE_IOERR && system == 0) system = EIO;
     const char* word = connection_ ? sqlite3_errmsg(connection_.get()) : "out of memory";
     const std::error_code cause =
         system != 0 ? std::error_code{system, std::generic_category()} : std::error_code{};
