@@ -9,6 +9,8 @@ FOLDER keeps output.txt, console.log and the logs of all programs. Exit 77 (skip
 program of the host is missing and AXISCAL_MAY_SKIP names kernel.
 """
 
+import contextlib
+import datetime
 import os
 import shlex
 import shutil
@@ -43,14 +45,21 @@ def run_boot(name, share, programs, command=None):
     shutil.rmtree(share, ignore_errors=True)
     share.mkdir(parents=True)
     inside = f"export AXISCAL_SOURCE={shlex.quote(str(SOURCE))} AXISCAL_PATH={shlex.quote(str(programs))}; "
-    append = ""
+    append, devices = "", ()
     if command is None:
         command = f"/usr/bin/python3 -B -u {shlex.quote(str(machine.HERE / f'boot_{name}.py'))}"
         if name == "service":
             import service_overlay
             append = service_overlay.lay(share, programs)
     try:
-        status = machine.boot(share, inside + command, LIMIT_S, append)
+        with contextlib.ExitStack() as beside:
+            if name == "power":
+                import lossy_disk
+                machine.require_programs("mkfs.ext4")
+                seed = os.environ.get("AXISCAL_SEED", datetime.date.today().isoformat())  # another one each day
+                devices = beside.enter_context(lossy_disk.Server(share, machine.with_sbin(), seed)).words()
+                inside += f"export AXISCAL_CUTS={300 if os.environ.get('AXISCAL_ALL') else 20}; "
+            status = machine.boot(share, inside + command, LIMIT_S, append, devices)
     except machine.CanNotRun as why:
         missing(str(why))
     tell(share, status)

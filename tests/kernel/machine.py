@@ -39,9 +39,9 @@ def run(*words, cwd=None):
     return done.stdout
 
 
-def require_programs():
+def require_programs(*more):
     path = with_sbin()["PATH"]
-    missing = [name for name in PROGRAMS if shutil.which(name, path=path) is None]
+    missing = [name for name in (*PROGRAMS, *more) if shutil.which(name, path=path) is None]
     if missing:
         raise CanNotRun(f"missing: {' '.join(missing)}; tools/install-dependencies test installs them")
 
@@ -105,10 +105,11 @@ def folder_words(tag, path, read_only):
             "-device", f"virtio-9p-pci,fsdev={tag},mount_tag={tag}"]
 
 
-def boot(share, command, limit_s, append="", memory_mb=1536):
+def boot(share, command, limit_s, append="", devices=(), memory_mb=1536):
     """Runs `command` (a shell line) as root in a fresh guest; returns its exit status. `share` is
     /hostshare inside: overlay/ is laid over the root first; console.log and what the guest writes
-    stay there. None: the guest did not reach its end within limit_s (console.log tells)."""
+    stay there; `devices` are further words for QEMU. None: the guest did not reach its end within limit_s
+    (console.log tells)."""
     build()
     shutil.copy(HERE / "guest-init", share)
     (share / "guest-init").chmod(0o755)
@@ -122,7 +123,7 @@ def boot(share, command, limit_s, append="", memory_mb=1536):
              "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),
              *folder_words("hostroot", "/", True), *folder_words("share", share, False),
              *folder_words("modules", RIG / "unpacked/lib/modules", True),
-             "-device", f"isa-debug-exit,iobase={SAYS_GOODBYE:#x},iosize=4"]
+             "-device", f"isa-debug-exit,iobase={SAYS_GOODBYE:#x},iosize=4", *devices]
     with open(share / "qemu.log", "wb") as log, contextlib.suppress(subprocess.TimeoutExpired):
         status = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, timeout=limit_s).returncode
         return status // 2 if status % 2 == 1 else None
