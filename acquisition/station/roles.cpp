@@ -79,4 +79,10 @@ Result<int> resolve_ballbar(const RoleConfig& ballbar,
     return find(ballbar, {"ballbar.sensor", ChannelKind::displacement, Medium::none}, channels);
 }
 
+Result<int> resolve_bar_temperature(const RoleConfig& sensor,
+                                    const std::vector<StationChannel>& channels) {
+    return find(sensor, {"ballbar.temperature", ChannelKind::temperature, Medium::material},
+                channels);
+}
+
 } // namespace axiscal

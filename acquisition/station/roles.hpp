@@ -13,8 +13,9 @@ namespace axiscal {
 struct StationRoles {
     int laser = 0;
     int air_temperature = 0, air_pressure = 0, air_humidity = 0;
-    std::vector<int> material;  ///< contact temperatures, at least one
-    std::optional<int> ballbar; ///< the length of a circular test's ballbar
+    std::vector<int> material;          ///< contact temperatures, at least one
+    std::optional<int> ballbar;         ///< the length of a circular test's ballbar
+    std::optional<int> bar_temperature; ///< of the sensor on it
     /// All environment channels in the order air temperature, pressure, humidity, material...
     [[nodiscard]] std::vector<int> environment() const;
 };
@@ -26,5 +27,8 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
 
 /// The channel of `[ballbar] sensor`, a length. @errors as resolve_roles.
 Result<int> resolve_ballbar(const RoleConfig& ballbar, const std::vector<StationChannel>& channels);
+/// The channel of `[ballbar] temperature`, of medium "material". @errors as resolve_roles.
+Result<int> resolve_bar_temperature(const RoleConfig& sensor,
+                                    const std::vector<StationChannel>& channels);
 
 } // namespace axiscal

@@ -1,5 +1,7 @@
 #include "acquisition/station/run_header.hpp"
 
+#include "acquisition/journal/run_file.hpp"
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -60,6 +62,9 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     std::vector<ChannelRecord> records;
     std::vector<int> ids = parts.roles.environment();
     ids.push_back(parts.roles.laser);
+    if (parts.plan.pass == circular_pass)
+        for (const auto& id : {parts.roles.ballbar, parts.roles.bar_temperature})
+            if (id && std::ranges::find(ids, *id) == ids.end()) ids.push_back(*id);
     std::ranges::sort(ids);
     for (const int id : ids) {
         const StationChannel& channel = parts.supervisor.channels()[static_cast<std::size_t>(id)];

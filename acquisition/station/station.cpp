@@ -169,6 +169,9 @@ void Station::judge_outbox() {
 void Station::on_sample(const Sample& sample) {
     latest_[static_cast<std::size_t>(sample.channel)] = sample;
     if (sample.channel == roles_.laser) return take_reading(sample);
+    if (sample.channel == roles_.ballbar) return take_bar(sample);
+    if (circular_ && sample.channel == roles_.bar_temperature)
+        log_environment(sample.channel, sample);
     log_sensor(sample);
     const std::vector<int> environment = roles_.environment();
     for (std::size_t i = 0; i < environment.size(); ++i)
@@ -216,6 +219,7 @@ void Station::record_instrument(const std::string& sentence, Fault fault) {
 
 void Station::on_trigger(const TriggerEvent& event) {
     port_note_.clear(); // it works
+    if (circular_ && recording()) return take_circular(event);
     if (machine_) return feed_with_air(event);
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
@@ -260,7 +264,7 @@ const StationChannel& Station::channel_of(int id) const {
 }
 
 bool Station::recording() const {
-    return run_ && machine_ && !run_->closing && !run_->closed;
+    return run_ && (machine_ || circular_) && !run_->closing && !run_->closed;
 }
 
 bool Station::run_open() const {

@@ -5,9 +5,13 @@
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
 #include "acquisition/capture/environment_watch.hpp"
+#include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/sample_history.hpp"
+#include "acquisition/capture/sample_rate.hpp"
+#include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "acquisition/station/preflight.hpp"
 #include "acquisition/station/roles.hpp"
@@ -109,6 +113,30 @@ private:
     Task<void> close_run(Close action);
     Task<void> certify(std::string run_id, std::string path);
 
+    // station_circular.cpp: a circular test
+    /// While one is armed and after it, until the next run.
+    struct Circles {
+        explicit Circles(const CircularSetup& setup)
+            : order{setup.plan} {}
+        CircleOrder order;
+        StreamChunker chunker{0};
+        MinMaxPyramid view;
+        std::uint64_t dropped = 0; ///< chunks, because the disk did not keep up
+    };
+    [[nodiscard]] Result<void> ready_for_circles() const;
+    [[nodiscard]] CircularSetup circular_setup() const;
+    [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
+    Task<Result<std::string>> arm_circular(ArmRequest request);
+    Task<Result<std::string>> open_circular(ArmRequest request);
+    void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
+    void take_bar(const Sample& sample);
+    void keep_chunk(StreamChunk chunk);
+    void take_circular(const TriggerEvent& event);
+    Task<void>
+    commit_circle(TriggerEvent event, std::uint16_t sequence, std::string sentence, bool last);
+    void end_circular(Close close);
+    [[nodiscard]] RunStatus circular_status() const;
+
     // station_disk.cpp: the disk failed under an open run
     /// Tries until the run file can be written again, then goes on with the run or closes it.
     Task<void> wait_for_disk();
@@ -193,9 +221,11 @@ private:
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
     std::vector<SensorLog> sensor_logs_;               ///< by channel; the laser's stays empty
-    mutable OutboxWatch outbox_watch_; ///< remembers what it read; a look changes nothing else
-    std::string outbox_alarm_;         ///< as told in the notes
-    std::optional<RunMachine> machine_;
+    mutable OutboxWatch outbox_watch_;  ///< remembers what it read; a look changes nothing else
+    std::string outbox_alarm_;          ///< as told in the notes
+    std::optional<RunMachine> machine_; ///< of a linear or rotary run, else:
+    std::optional<Circles> circular_;
+    SampleRate bar_rate_;
     std::optional<CurrentRun> run_;
     std::deque<RunInput> inputs_;
     bool handling_ = false;

@@ -67,6 +67,7 @@ RunSetup Station::setup_of(const RunRecord& header) const {
 }
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
+    if (request.pass == circular_pass) co_return co_await arm_circular(std::move(request));
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
     arming_ = true;
     auto armed = co_await open_and_tie(std::move(request));
@@ -107,6 +108,7 @@ void Station::begin_run(RunRecord header, std::string path, RunMachine machine) 
     fresh.path = std::move(path);
     run_ = std::move(fresh);
     machine_.emplace(std::move(machine));
+    circular_.reset();
     last_receipt_.reset();
     left_over_fault_.reset();
     refused_note_.clear();
@@ -144,14 +146,20 @@ Result<void> Station::trigger() {
     TriggerEvent event;
     event.at = scheduler_.now();
     event.origin = TriggerOrigin::manual;
-    feed_with_air(event);
+    if (circular_)
+        take_circular(event);
+    else
+        feed_with_air(event);
     if (manual_refusal_) return tl::unexpected<Error>(*manual_refusal_);
     return {};
 }
 
 Result<void> Station::abort(std::string reason) {
     if (!recording()) return fail(Fault::no_run_armed, "there is nothing to abort");
-    feed(Abort{std::move(reason), scheduler_.now()});
+    if (circular_)
+        end_circular({false, std::move(reason), Fault::none});
+    else
+        feed(Abort{std::move(reason), scheduler_.now()});
     return {};
 }
 
@@ -171,6 +179,13 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     RunRecord run = std::move(contents.run);
     // Reopened for points to be taken again: what was measured before still makes a whole run.
     const bool whole = contents.revisions.closings > 0 && check_complete(run);
+    if (run.plan.pass == circular_pass) {
+        co_await close_left_over(path,
+                                 "The station was away while circles were driven: start the test "
+                                 "anew.",
+                                 Fault::incomplete_run);
+        co_return Result<void>{};
+    }
     if (run_open()) {
         co_await close_left_over(path, "Another run was open too; only one can go on.", Fault::busy,
                                  whole);

@@ -38,6 +38,13 @@ void check_together(LoadedStation& station, Settings root) {
         else
             root.refuse("ballbar", describe(ballbar.error()));
     }
+    if (station.config.circular && station.config.circular->bar_temperature) {
+        if (const auto bar =
+                resolve_bar_temperature(*station.config.circular->bar_temperature, channels))
+            station.roles.bar_temperature = *bar;
+        else
+            root.refuse("ballbar", describe(bar.error()));
+    }
     if (auto passes = plan_passes(station.config.cycle, 0))
         station.passes = *std::move(passes);
     else

@@ -74,6 +74,7 @@ AxisView Station::axis_view() const {
 }
 
 RunStatus Station::run_status() const {
+    if (circular_) return circular_status();
     const RunView view = machine_->view();
     RunStatus run;
     run.run_id = run_->header.run_id;

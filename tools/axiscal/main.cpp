@@ -157,7 +157,7 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
         ->check(CLI::ExistingFile);
     arm->add_option("--seed", options.arm.seed,
                     "seed of the targets' random parts, as the part program says");
-    arm->add_option("--pass", options.arm.pass, "whole, or stretch on an axis over 2000 mm")
+    arm->add_option("--pass", options.arm.pass, "whole, stretch on an axis over 2000 mm, or circular")
         ->capture_default_str();
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");

@@ -1,6 +1,7 @@
 #include "tools/axiscal/offline_commands.hpp"
 
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/circular_certificate_json.hpp"
@@ -149,6 +150,18 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
     return exit_ok;
 }
 
+/// Beside the linear cycle, where the station file has a circular test.
+Result<std::string> write_circles(const StationConfig& config, const std::string& folder) {
+    const CircularPlan& plan = config.circular->setup.plan;
+    const CircularOrder order{plan, config.trigger.shape,
+                              config.capture.timeout + std::chrono::seconds{2}};
+    const std::string path = folder + "/" + std::string{name_of(plan.plane)} + "-circular.ngc";
+    std::ofstream file{path, std::ios::binary | std::ios::trunc};
+    if (!(file << write_circular_linuxcnc(order) << std::flush))
+        return fail(Fault::io, "cannot write " + path);
+    return path;
+}
+
 Json plan_json(const RunPlan& plan, const std::string& path) {
     Json targets = Json::array();
     for (const Length target : plan.targets)
@@ -196,6 +209,15 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
         std::cout << "  load and start it; when the axis waits at its datum: axiscal arm --program "
                   << *path << "\n";
+    }
+    if (config.circular && dialect->name == "linuxcnc") {
+        const auto path = write_circles(config, request.out_directory);
+        if (!path) return complain(path.error());
+        const auto circles = planned_circles(config.circular->setup.plan).size();
+        list.push_back({{"file", *path}, {"pass", "circular"}, {"circles", circles}});
+        if (!json)
+            std::cout << *path << ": " << circles
+                      << " circles; when the machine waits at rest: axiscal arm --pass circular\n";
     }
     if (json) std::cout << Json{{"programs", std::move(list)}}.dump() << "\n";
     return exit_ok;

@@ -173,6 +173,8 @@ struct Shop {
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
     bool port_broken = false;
+    /// Reading of a ballbar in metres, 1 kHz; none: the station has no ballbar.
+    std::function<double(MonotonicTime)> ballbar;
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
 
@@ -336,7 +338,7 @@ public:
     Shop& shop;
     VirtualScheduler scheduler; // before the station: its tasks end with the loop
     NoLinks links;
-    BenchInstrument *laser = nullptr, *air = nullptr, *material = nullptr;
+    BenchInstrument *laser = nullptr, *air = nullptr, *material = nullptr, *bar = nullptr;
     ScriptedPort* port = nullptr;
     std::optional<Station> station;
     bool started = false;
@@ -372,6 +374,13 @@ private:
         made.instruments.push_back(std::move(light));
         made.instruments.push_back(std::move(weather));
         made.instruments.push_back(std::move(contacts));
+        if (shop.ballbar) {
+            auto length = std::make_unique<BenchInstrument>(
+                std::vector<Channel>{{"ballbar", ChannelKind::displacement}}, 1ms,
+                [this](int, MonotonicTime at) { return shop.ballbar(at); });
+            bar = length.get();
+            made.instruments.push_back(std::move(length));
+        }
         auto scripted = std::make_unique<ScriptedPort>();
         port = scripted.get();
         port->broken = shop.port_broken;
@@ -383,6 +392,8 @@ private:
                                   static_cast<int>(i), static_cast<int>(channels.size())))
                 channels.push_back(std::move(channel));
         made.roles = *resolve_roles(made.config.axis, channels);
+        if (made.config.ballbar)
+            made.roles.ballbar = *resolve_ballbar(*made.config.ballbar, channels);
         return made;
     }
 };

@@ -1,0 +1,201 @@
+// A circular test: the ballbar is recorded at its full rate from arming to the last request; each
+// request of the CNC becomes durable before it is answered.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/station/run_header.hpp"
+#include "drivers/spawn.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration bar_limit = std::chrono::seconds{2}; ///< an older reading is no reading
+
+} // namespace
+
+Result<void> Station::ready_for_circles() const {
+    if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
+    if (run_open())
+        return fail(Fault::busy, "run " + run_->header.run_id +
+                                     " is open; finish it or 'axiscal abort' it first");
+    if (!config_.circular || !roles_.ballbar)
+        return refuse(Fault::bad_request, "pass",
+                      "'circular' needs the tables [ballbar] and [circular] of the station file");
+    // At rest the bar may be out of its range: that it speaks is enough.
+    const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+    if (!reading || scheduler_.now() - reading->at > bar_limit)
+        return fail(Fault::link_timeout, "the ballbar (" + config_.ballbar->instrument +
+                                             ") sends nothing; see 'axiscal devices'");
+    return {};
+}
+
+CircularSetup Station::circular_setup() const {
+    CircularSetup setup = config_.circular->setup;
+    setup.bar_temperature_channel = roles_.bar_temperature;
+    setup.capture.sample_rate_hz = bar_rate_.hz();
+    return setup;
+}
+
+Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
+    RunPlan plan;
+    plan.pass = circular_pass;
+    plan.remark = "circular test; the table circular holds its plan";
+    plan.approaches = 0;
+    plan.bidirectional = false;
+    const RunHeaderParts parts{
+        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        boot_id_, config_hash_};
+    AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
+    const CircularPlan& circle = config_.circular->setup.plan;
+    const std::string name{name_of(circle.plane)};
+    header.run_id = run_id_of(config_.station, name + "-circle", parts.opened.utc_ns);
+    header.statements.axis = name;
+    header.uncertainty.reset(); // it speaks of the linear axis
+    return header;
+}
+
+Task<Result<std::string>> Station::arm_circular(ArmRequest request) {
+    if (auto ready = ready_for_circles(); !ready) co_return tl::unexpected<Error>(ready.error());
+    arming_ = true;
+    auto armed = co_await open_circular(std::move(request));
+    arming_ = false;
+    co_return armed;
+}
+
+Task<Result<std::string>> Station::open_circular(ArmRequest request) {
+    AXISCAL_CO_TRY(RunRecord header, circular_header(request));
+    std::string path =
+        config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
+    RunRecord copy = header;
+    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened)
+        co_return tl::unexpected<Error>(opened.error());
+    const CircularSetup setup = circular_setup();
+    const StationChannel& bar = channel_of(*roles_.ballbar);
+    StreamSetup stream;
+    stream.channel = bar.id;
+    stream.name = bar.shown;
+    stream.unit = stored_unit_of(bar.kind);
+    stream.nominal_rate_hz = setup.capture.sample_rate_hz;
+    journal_.note(setup, std::vector<StreamSetup>{stream});
+    begin_circular(std::move(header), std::move(path), setup);
+    if (auto kept = co_await journal_.flush(); !kept) co_return tl::unexpected<Error>(kept.error());
+    co_return run_->header.run_id;
+}
+
+void Station::begin_circular(RunRecord header, std::string path, const CircularSetup& setup) {
+    CurrentRun fresh;
+    fresh.header = std::move(header);
+    fresh.path = std::move(path);
+    run_ = std::move(fresh);
+    machine_.reset();
+    circular_.emplace(setup);
+    last_receipt_.reset();
+    left_over_fault_.reset();
+    refused_note_.clear();
+    manual_refusal_.reset();
+    datum_.reset();
+    for (auto& logged : logged_)
+        logged.reset();
+    perform(
+        RecordEvent{{EventKind::armed, scheduler_.now(), 0, "Armed for circles.", Fault::none, 0}});
+    port_->publish_armed();
+    perform(SetState{PortState::armed});
+}
+
+/// A reading of the bar, whatever is going on.
+void Station::take_bar(const Sample& sample) {
+    bar_rate_.take(sample);
+    if (!circular_ || !recording()) return;
+    if (const auto value = sample.value()) circular_->view.push(*value);
+    if (auto chunk = circular_->chunker.push(sample)) keep_chunk(*std::move(chunk));
+}
+
+void Station::keep_chunk(StreamChunk chunk) {
+    if (journal_.note(std::move(chunk))) return;
+    if (circular_->dropped++ > 0) return;
+    const std::string told = "The disk does not keep up: readings of the ballbar are dropped.";
+    note(told);
+    perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, told, Fault::not_durable, 0}});
+}
+
+void Station::take_circular(const TriggerEvent& event) {
+    const CircleVerdict verdict = circular_->order.judge(event);
+    switch (verdict.answer) {
+    case CircleAnswer::ignore: return;
+    case CircleAnswer::again: return perform(Acknowledge{verdict.sequence, -1});
+    case CircleAnswer::abort: return end_circular({false, verdict.sentence, Fault::none});
+    case CircleAnswer::refuse:
+        return perform(
+            Refuse{verdict.sequence, Fault::sequence_lost, verdict.sentence, event.origin});
+    case CircleAnswer::begin:
+    case CircleAnswer::end:
+        spawn(scheduler_, commit_circle(event, verdict.sequence, verdict.sentence,
+                                        verdict.answer == CircleAnswer::end));
+    }
+}
+
+/// The stretch up to here goes into the same commit. The event's time is that of the request: what
+/// was sampled before belongs to what came before.
+Task<void> Station::commit_circle(TriggerEvent event,
+                                  std::uint16_t sequence,
+                                  std::string sentence,
+                                  bool last) {
+    if (last)
+        if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
+    EventRecord mark{EventKind::note,     event.at,    scheduler_.clock_tie().utc_ns,
+                     std::move(sentence), Fault::none, sequence};
+    const auto receipt = co_await journal_.commit(std::move(mark), static_cast<int>(sequence) - 1);
+    if (!circular_ || !recording()) co_return;
+    if (!receipt) {
+        circular_->order.failed();
+        note("Not durable: " + describe(receipt.error()));
+        perform(Refuse{sequence, Fault::not_durable, describe(receipt.error()), event.origin});
+        co_return;
+    }
+    circular_->order.durable();
+    last_receipt_ = *receipt;
+    run_->refusal.reset();
+    refused_note_.clear();
+    port_->acknowledge(*receipt);
+    if (last) end_circular({true, "Every circle was driven.", Fault::none});
+}
+
+void Station::end_circular(Close close) {
+    if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
+    perform(RecordEvent{{close.complete ? EventKind::closed : EventKind::aborted, scheduler_.now(),
+                         0, close.reason, close.fault, 0}});
+    perform(SetState{PortState::idle});
+    perform(std::move(close));
+}
+
+RunStatus Station::circular_status() const {
+    RunStatus run;
+    run.run_id = run_->header.run_id;
+    run.pass = run_->header.plan.pass;
+    run.file = run_->path;
+    run.step = circular_->order.begun();
+    run.steps = circular_->order.circles();
+    run.done = circular_->order.last_durable();
+    run.certificate = run_->certificate;
+    run.state = !run_->closed ? "armed" : run_->outcome->complete ? "complete" : "incomplete";
+    const auto tell = [&run](const Error& error) {
+        if (error.fault != Fault::none) run.last_fault = fault_name(error.fault);
+        run.last_sentence = describe(error);
+    };
+    if (run_->outcome && !run_->outcome->complete)
+        tell({run_->outcome->fault, run_->outcome->reason, {}, {}});
+    else if (run_->no_certificate)
+        tell(*run_->no_certificate);
+    else if (run_->refusal && !run_->closed)
+        tell(*run_->refusal);
+    else if (circular_->dropped > 0)
+        tell({Fault::not_durable,
+              std::to_string(circular_->dropped) + " blocks were dropped",
+              {},
+              {}});
+    return run;
+}
+
+} // namespace axiscal

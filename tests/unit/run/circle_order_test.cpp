@@ -1,0 +1,68 @@
+#include "acquisition/run/circle_order.hpp"
+
+#include <gtest/gtest.h>
+
+namespace axiscal {
+namespace {
+
+TriggerEvent request(std::uint16_t sequence) {
+    TriggerEvent event;
+    event.sequence = sequence;
+    return event;
+}
+
+CircleOrder order_of_two() {
+    return CircleOrder{CircularPlan{}}; // ccw, cw
+}
+
+TEST(CircleOrder, TakesEachCircleOnceAndThenTheEnd) {
+    CircleOrder order = order_of_two();
+    EXPECT_EQ(order.judge(request(0)).answer, CircleAnswer::ignore);
+    const auto first = order.judge(request(1));
+    EXPECT_EQ(first.answer, CircleAnswer::begin);
+    EXPECT_NE(first.sentence.find("Circle 1 of 2 begins: ccw, repeat 1"), std::string::npos);
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::ignore); // under way
+    order.durable();
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::again);
+    EXPECT_EQ(order.judge(request(2)).answer, CircleAnswer::begin);
+    order.durable();
+    EXPECT_EQ(order.begun(), 2);
+    EXPECT_EQ(order.judge(request(3)).answer, CircleAnswer::end);
+    order.durable();
+    EXPECT_EQ(order.begun(), 2);
+    EXPECT_EQ(order.judge(request(4)).answer, CircleAnswer::refuse);
+}
+
+TEST(CircleOrder, WhatIsOutOfOrderIsRefusedWithBothNumbers) {
+    CircleOrder order = order_of_two();
+    const auto verdict = order.judge(request(2));
+    EXPECT_EQ(verdict.answer, CircleAnswer::refuse);
+    EXPECT_NE(verdict.sentence.find("Request 2 came, 1 was expected"), std::string::npos);
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
+}
+
+TEST(CircleOrder, ARequestThatDidNotBecomeDurableMayComeAgain) {
+    CircleOrder order = order_of_two();
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
+    order.failed();
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
+}
+
+TEST(CircleOrder, APersonStepsThroughWithoutNumbersAndDwellsMeanNothing) {
+    CircleOrder order = order_of_two();
+    TriggerEvent dwell = request(1);
+    dwell.origin = TriggerOrigin::dwell;
+    EXPECT_EQ(order.judge(dwell).answer, CircleAnswer::ignore);
+    TriggerEvent press;
+    press.origin = TriggerOrigin::manual;
+    for (const std::uint16_t sequence : {std::uint16_t{1}, std::uint16_t{2}, std::uint16_t{3}}) {
+        EXPECT_EQ(order.judge(press).sequence, sequence);
+        order.durable();
+    }
+    TriggerEvent abort = request(9);
+    abort.command = TriggerCommand::abort;
+    EXPECT_EQ(order.judge(abort).answer, CircleAnswer::abort);
+}
+
+} // namespace
+} // namespace axiscal

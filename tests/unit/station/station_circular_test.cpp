@@ -1,0 +1,233 @@
+// A whole circular test: a machine with known errors, a ballbar of 1 kHz, a CNC that asks before
+// each circle, a run file, and what its diagnosis finds.
+
+#include "acquisition/journal/stream_packing.hpp"
+#include "analysis/circular/circle_cut.hpp"
+#include "analysis/circular/circle_diagnosis.hpp"
+#include "station_bench.hpp"
+#include "tests/unit/analysis/driven_bar.hpp"
+
+namespace axiscal::testing {
+namespace {
+
+using circular::Cause;
+using test::leverage_of;
+using test::reference_name;
+
+/// The machine: at rest outside of the circle until it is told to drive one.
+class CircleMachine {
+public:
+    CircularPlan plan;
+    test::Truth truth{{"square", 40e-6}, {"backlash_x", 0.005}, {"scale_y", -30e-6}};
+
+    /// @returns how long it takes.
+    Duration drive(Sense sense, MonotonicTime now) {
+        sense_ = sense;
+        began_ = now;
+        return from_seconds(2 * radial().duration_s() + arc().duration_s());
+    }
+    /// What the bar reads, m.
+    [[nodiscard]] double reading(MonotonicTime now) const {
+        const double t = began_ ? seconds_of(now - *began_) : -1;
+        const double in_s = radial().duration_s(), arc_s = arc().duration_s();
+        const double turned = arc().way(t - in_s) / arc().length_mm;
+        const double from = entry_deg(plan, sense_), to = exit_deg(plan, sense_);
+        const double away = 1 - radial().way(t) / plan.feed_in_mm +
+                            radial().way(t - in_s - arc_s) / plan.feed_in_mm;
+        const double form =
+            test::true_deviation(truth, (from + (to - from) * turned) * test::one_degree, sense_,
+                                 plan.nominal_radius_mm, plan.feed_mm_per_s);
+        return (plan.feed_in_mm * away + form) * 1e-3;
+    }
+
+private:
+    [[nodiscard]] test::Trapezoid radial() const {
+        return {plan.feed_in_mm, plan.feed_mm_per_s, 0};
+    }
+    [[nodiscard]] test::Trapezoid arc() const {
+        return {driven_deg(plan) * test::one_degree * plan.nominal_radius_mm, plan.feed_mm_per_s,
+                0};
+    }
+    Sense sense_ = Sense::ccw;
+    std::optional<MonotonicTime> began_;
+};
+
+struct Bay {
+    Shop shop;
+    CircleMachine machine;
+    Bay() {
+        CircularConfig circular;
+        CircularPlan& plan = circular.setup.plan;
+        plan.nominal_radius_mm = 50;
+        plan.feed_mm_per_s = 100; // 6 m/min: short in virtual time
+        plan.overshoot_deg = 45;
+        circular.setup.bar_instrument = "ballbar";
+        circular.setup.machine_alpha_per_K = 11.5e-6;
+        machine.plan = plan;
+        shop.config.circular = circular;
+        shop.config.ballbar = RoleConfig{"ballbar", "ballbar"};
+        InstrumentConfig bar;
+        bar.name = "ballbar";
+        bar.driver = "made";
+        shop.config.instruments.push_back(bar);
+        shop.ballbar = [this](MonotonicTime at) { return machine.reading(at); };
+    }
+};
+
+ArmRequest circles() {
+    ArmRequest request;
+    request.pass = "circular";
+    return request;
+}
+
+Result<std::string> arm(Life& life) {
+    const auto answer = life.begin_arm(circles());
+    life.run(1s);
+    return *answer ? **answer : Result<std::string>{fail(Fault::internal, "still arming")};
+}
+
+void ask(Life& life, std::uint16_t sequence) {
+    TriggerEvent event;
+    event.sequence = sequence;
+    life.ask(event);
+    life.run(200ms);
+}
+
+void drive(Life& life, Bay& bay, Sense sense) {
+    life.run(500ms);
+    life.run(bay.machine.drive(sense, life.scheduler.now()) + 500ms);
+}
+
+RunFileContents contents_of(const Shop& shop) {
+    const auto files = shop.run_files();
+    EXPECT_EQ(files.size(), 1U);
+    auto read = read_run_file_contents(files.at(0));
+    EXPECT_TRUE(read) << (read ? "" : read.error().detail);
+    return *std::move(read);
+}
+
+TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
+    Bay bay;
+    Life life{bay.shop};
+    const auto armed = arm(life);
+    ASSERT_TRUE(armed) << describe(armed.error());
+    EXPECT_EQ(life.port->armed, 1);
+    std::uint16_t sequence = 0;
+    for (const Sense sense : {Sense::ccw, Sense::cw}) {
+        ask(life, ++sequence);
+        EXPECT_EQ(life.port->done, sequence);
+        drive(life, bay, sense);
+    }
+    ask(life, 3);
+    life.run(1s);
+    EXPECT_EQ(life.port->done, 3);
+    EXPECT_EQ(life.status().run->state, "complete");
+    EXPECT_EQ(life.status().run->step, 2);
+
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.run.complete);
+    ASSERT_TRUE(read.circular);
+    EXPECT_EQ(read.circular->capture.sample_rate_hz, 1000);
+    const auto stream = samples_of(read.blocks, 0);
+    ASSERT_TRUE(stream) << stream.error().detail;
+    EXPECT_TRUE(stream->gaps.empty());
+    std::vector<CircleMark> marks;
+    for (const EventRecord& event : read.run.events)
+        if (event.sequence != 0) marks.push_back({event.sequence, event.at});
+    const auto cut = cut_circles(*read.circular, *stream, marks);
+    ASSERT_TRUE(cut) << cut.error().detail;
+    CircularTest test{50, 100, SignalSource::external, {(*cut)[0].trace, (*cut)[1].trace}};
+    const auto found = diagnose_circle(test, {"X", "Y"}).value();
+    for (const Cause cause :
+         {Cause::squareness, Cause::backlash_x, Cause::backlash_y, Cause::scale_y}) {
+        const double leverage = leverage_of(cause, 50, 100);
+        test::Truth truth = bay.machine.truth;
+        // the form at the ends (8 um) shifts the steps by as much path: 0.16 mrad, of which twice
+        // 8 um make 3 nm; a sample is 2 mrad, and a reversal falls between two: 5 um of backlash
+        // times one sample of 3142
+        EXPECT_NEAR(*found.of(cause).value * leverage, truth[reference_name(cause)] * leverage,
+                    5e-5)
+            << reference_name(cause);
+    }
+}
+
+TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    life.run(2s);
+    life.bar->silent = true;
+    life.run(40ms);
+    life.bar->silent = false;
+    life.run(2s);
+    ASSERT_TRUE(life.station->abort("enough"));
+    life.run(1s);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_FALSE(read.run.complete);
+    const auto stream = samples_of(read.blocks, 0);
+    ASSERT_TRUE(stream);
+    ASSERT_EQ(stream->gaps.size(), 1U);
+    EXPECT_EQ(stream->gaps[0].missing, 40U);
+}
+
+TEST(StationCircular, ARequestOutOfOrderIsRefusedAndTheRightOneStillTaken) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    ask(life, 2);
+    EXPECT_EQ(life.port->done, 0);
+    ASSERT_EQ(life.port->refusals.size(), 1U);
+    EXPECT_EQ(life.port->refusals[0].second, Fault::sequence_lost);
+    ask(life, 1);
+    EXPECT_EQ(life.port->done, 1);
+    life.port->done = 0; // the CNC missed it
+    ask(life, 1);
+    EXPECT_EQ(life.port->done, 1);
+}
+
+TEST(StationCircular, APersonMayBeginEachCircle) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(life.station->trigger());
+        life.run(200ms);
+    }
+    life.run(1s);
+    EXPECT_EQ(life.status().run->state, "complete");
+}
+
+TEST(StationCircular, WithoutABallbarNothingIsArmed) {
+    Shop shop;
+    Life life{shop};
+    const auto armed = arm(life);
+    ASSERT_FALSE(armed);
+    EXPECT_NE(describe(armed.error()).find("[circular]"), std::string::npos);
+    Bay bay;
+    Life dumb{bay.shop};
+    dumb.bar->silent = true;
+    dumb.run(3s);
+    const auto refused = arm(dumb);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().detail.find("the ballbar (ballbar) sends nothing"),
+              std::string::npos);
+    EXPECT_TRUE(bay.shop.run_files().empty());
+}
+
+TEST(StationCircular, ATestThatTheDaemonDidNotSurviveIsClosed) {
+    Bay bay;
+    {
+        Life life{bay.shop};
+        ASSERT_TRUE(arm(life));
+        ask(life, 1);
+    }
+    Life again{bay.shop};
+    again.run(20s);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.closed);
+    EXPECT_FALSE(read.run.complete);
+    EXPECT_NE(read.run.closing_reason.find("start the test anew"), std::string::npos);
+}
+
+} // namespace
+} // namespace axiscal::testing
