@@ -183,7 +183,7 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
         co_await close_left_over(path,
                                  "The station was away while circles were driven: start the test "
                                  "anew.",
-                                 Fault::incomplete_run);
+                                 Fault::incomplete_run, false);
         co_return Result<void>{};
     }
     if (run_open()) {

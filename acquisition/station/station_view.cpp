@@ -38,6 +38,7 @@ void Station::publish_to_port() {
         status.feed_hold = view.stopped;
         status.may_move = port_state_ != PortState::settling && !view.stopped;
     }
+    if (circular_ && run_->closed) status.run_complete = run_->outcome && run_->outcome->complete;
     port_->publish(status);
 }
 
@@ -164,7 +165,7 @@ StationStatus Station::status() const {
     status.trigger_note = port_note_;
     status.trigger_counters = port_->counters();
     status.cnc_silent = cnc_silent_;
-    if (run_ && machine_) status.run = run_status();
+    if (run_ && (machine_ || circular_)) status.run = run_status();
     status.run_open = run_open();
     status.outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
     status.notes.assign(notes_.begin(), notes_.end());

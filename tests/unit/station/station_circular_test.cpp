@@ -121,8 +121,10 @@ TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
     ask(life, 3);
     life.run(1s);
     EXPECT_EQ(life.port->done, 3);
+    ASSERT_TRUE(life.status().run);
     EXPECT_EQ(life.status().run->state, "complete");
     EXPECT_EQ(life.status().run->step, 2);
+    EXPECT_TRUE(life.port->status.run_complete);
 
     const RunFileContents read = contents_of(bay.shop);
     EXPECT_TRUE(read.run.complete);
@@ -194,6 +196,7 @@ TEST(StationCircular, APersonMayBeginEachCircle) {
         life.run(200ms);
     }
     life.run(1s);
+    ASSERT_TRUE(life.status().run);
     EXPECT_EQ(life.status().run->state, "complete");
 }
 
