@@ -58,6 +58,8 @@ public:
     [[nodiscard]] virtual std::uint64_t count_modulus() const { return 0; }
 };
 
+struct Appearance;
+
 /// One row of the registry: how a driver is called in the station file and made from it.
 /// `make` opens nothing; it reads the driver's own keys from `options` and refuses through it.
 struct InstrumentDriver {
@@ -65,6 +67,7 @@ struct InstrumentDriver {
     std::string_view summary; ///< one line for `axiscal devices --drivers`
     std::unique_ptr<Instrument> (*make)(const InstrumentConfig& config,
                                         Settings& options) = nullptr;
+    const Appearance* shows = nullptr; ///< how it is found when plugged in; null: it is not
 };
 
 } // namespace axiscal

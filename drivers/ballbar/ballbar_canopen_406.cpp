@@ -15,6 +15,7 @@
 #include "drivers/ballbar/ballbar_canopen_406.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/ballbar/cia406_position.hpp"
 #include "drivers/canopen/pdo_stream.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -151,6 +152,13 @@ Task<Result<void>> CanOpen406::run(InstrumentContext context) {
 }
 
 } // namespace
+
+const Appearance canopen_406_appearance{
+    Wire::can,
+    {},
+    false,
+    "ballbar",
+    "node = 127                     # its node number on the bus\n"};
 
 std::unique_ptr<Instrument> make_canopen_406(const InstrumentConfig& /*config*/,
                                              Settings& options) {

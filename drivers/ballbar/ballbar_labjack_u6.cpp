@@ -13,11 +13,13 @@
 #include "drivers/ballbar/ballbar_labjack_u6.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/ballbar/u6_stream.hpp"
 #include "drivers/link/link_settings.hpp"
 #include "drivers/link/usb_link.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace axiscal {
 namespace {
@@ -232,12 +234,18 @@ U6Scale read_scale(Settings& options) {
     return scale;
 }
 
+const std::array u6_ids{UsbId{0x0CD5, 0x0006}};
+
 } // namespace
+
+const Appearance labjack_u6_appearance{
+    Wire::usb, u6_ids, false, "ballbar",
+    "scale_length = \"1 mm\"          # the length at +10 V, from the transducer's calibration\n"};
 
 std::unique_ptr<Instrument> make_labjack_u6(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults;
     defaults.kind = LinkSettings::Kind::usb;
-    defaults.usb.ids = {{0x0CD5, 0x0006}};
+    defaults.usb.ids.assign(u6_ids.begin(), u6_ids.end());
     const LinkSettings link = read_usb_link(options, defaults);
     const U6StreamSetup setup = read_setup(options);
     const U6Scale scale = read_scale(options);

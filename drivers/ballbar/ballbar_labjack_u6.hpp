@@ -7,4 +7,6 @@ namespace axiscal {
 /// settling_factor, sample_period, scale_length, scale_voltage, usable_voltage.
 std::unique_ptr<Instrument> make_labjack_u6(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance labjack_u6_appearance;
+
 } // namespace axiscal

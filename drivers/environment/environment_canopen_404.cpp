@@ -13,6 +13,7 @@
 #include "drivers/environment/environment_canopen_404.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/canopen/canopen_session.hpp"
 #include "drivers/environment/cia404_input.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -161,6 +162,13 @@ std::optional<Cia404Unit> read_stated_unit(Settings& options) {
 }
 
 } // namespace
+
+const Appearance canopen_404_appearance{
+    Wire::can,
+    {},
+    false,
+    "material",
+    "node = 125                     # its node number on the bus\n"};
 
 std::unique_ptr<Instrument> make_canopen_404(const InstrumentConfig& /*config*/,
                                              Settings& options) {

@@ -6,4 +6,6 @@ namespace axiscal {
 /// Reads `link`, `node`, `inputs`, `sample_period`, `unit` and `digits`.
 std::unique_ptr<Instrument> make_canopen_404(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance canopen_404_appearance;
+
 } // namespace axiscal

@@ -14,6 +14,7 @@
 #include "drivers/environment/environment_dracal_usbtenki.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/environment/tenki_reading.hpp"
 #include "drivers/framing/byte_order.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -245,16 +246,20 @@ Task<Result<void>> DracalUsbTenki::run(InstrumentContext context) {
     }
 }
 
+// 1781:0a98 is shared by many makers: the product string tells. Of Dracal's own number the
+// sticks of the VCP kind are none of ours: they have the class of a serial line.
+const std::array tenki_ids{UsbId{0x1781, 0x0A98, "USBTenki"}, UsbId{0x1781, 0x0A98, "USB_Temp"},
+                           UsbId{0x289B, 0, "", 0xFF}};
+
 } // namespace
+
+const Appearance dracal_usbtenki_appearance{Wire::usb, tenki_ids, false, "air", ""};
 
 std::unique_ptr<Instrument> make_dracal_usbtenki(const InstrumentConfig& /*config*/,
                                                  Settings& options) {
     LinkSettings defaults;
     defaults.kind = LinkSettings::Kind::usb;
-    // 1781:0a98 is shared by many makers: the product string tells. Of Dracal's own number the
-    // sticks of the VCP kind are none of ours: they have the class of a serial line.
-    defaults.usb.ids = {
-        {0x1781, 0x0A98, "USBTenki"}, {0x1781, 0x0A98, "USB_Temp"}, {0x289B, 0, "", 0xFF}};
+    defaults.usb.ids.assign(tenki_ids.begin(), tenki_ids.end());
     const LinkSettings link = read_usb_link(options, defaults);
     const Duration poll_period =
         options.duration("poll_period", std::chrono::milliseconds{100}, std::chrono::seconds{60},

@@ -13,6 +13,7 @@
 #include "drivers/environment/environment_dracal_vcp.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/environment/dracal_line.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -156,7 +157,11 @@ Task<Result<void>> DracalVcp::run(InstrumentContext context) {
     co_return fail(Fault::link_timeout, "no reading from " + link_settings_.describe());
 }
 
+const std::array dracal_vcp_ids{UsbId{0x289B, 0}};
+
 } // namespace
+
+const Appearance dracal_vcp_appearance{Wire::serial, dracal_vcp_ids, false, "air", ""};
 
 std::unique_ptr<Instrument> make_dracal_vcp(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults;

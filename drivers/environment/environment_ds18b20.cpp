@@ -13,6 +13,7 @@
 #include "drivers/environment/environment_ds18b20.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/environment/w1_text.hpp"
 #include "drivers/link/blocking_files.hpp"
 
@@ -153,6 +154,8 @@ void check_sensors(const std::vector<std::string>& sensors, Settings& options) {
 }
 
 } // namespace
+
+const Appearance ds18b20_appearance{Wire::one_wire, {}, false, "material", ""};
 
 std::unique_ptr<Instrument> make_ds18b20(const InstrumentConfig& /*config*/, Settings& options) {
     W1Setup setup;

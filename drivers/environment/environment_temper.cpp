@@ -14,11 +14,13 @@
 #include "drivers/environment/environment_temper.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/environment/temper_report.hpp"
 #include "drivers/framing/byte_order.hpp"
 #include "drivers/link/link_settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace axiscal {
@@ -170,13 +172,17 @@ Task<Result<void>> Temper::run(InstrumentContext context) {
     }
 }
 
+const std::array temper_ids{UsbId{0x0C45, 0x7401}, UsbId{0x0C45, 0x7402}, UsbId{0x413D, 0x2107},
+                            UsbId{0x1A86, 0xE025}, UsbId{0x3553, 0xA001}};
+
 } // namespace
+
+const Appearance temper_appearance{Wire::hid, temper_ids, false, "material", ""};
 
 std::unique_ptr<Instrument> make_temper(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults;
     defaults.kind = LinkSettings::Kind::hid;
-    defaults.usb.ids = {
-        {0x0C45, 0x7401}, {0x0C45, 0x7402}, {0x413D, 0x2107}, {0x1A86, 0xE025}, {0x3553, 0xA001}};
+    defaults.usb.ids.assign(temper_ids.begin(), temper_ids.end());
     defaults.usb.interface = -1;
     const LinkSettings link = read_usb_link(options, defaults);
     const Duration poll_period =

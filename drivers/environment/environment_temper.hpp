@@ -6,4 +6,6 @@ namespace axiscal {
 /// Registry row "temper". Keys: link, poll_period.
 std::unique_ptr<Instrument> make_temper(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance temper_appearance;
+
 } // namespace axiscal

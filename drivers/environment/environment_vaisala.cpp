@@ -16,6 +16,7 @@
 #include "drivers/environment/environment_vaisala.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/environment/vaisala_line.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -224,6 +225,9 @@ VaisalaChecksum read_checksum(Settings& options) {
 }
 
 } // namespace
+
+const Appearance vaisala_appearance{
+    Wire::serial, {}, true, "air", "model = \"ptu300\"               # or \"ptb330\"\n"};
 
 std::unique_ptr<Instrument> make_vaisala(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults;

@@ -7,4 +7,6 @@ namespace axiscal {
 /// address, poll_period.
 std::unique_ptr<Instrument> make_vaisala(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance vaisala_appearance;
+
 } // namespace axiscal

@@ -10,6 +10,7 @@
 #include "drivers/environment/modbus_instrument.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/link/link_settings.hpp"
 #include "drivers/link/modbus_bus.hpp"
 
@@ -172,6 +173,14 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
 }
 
 } // namespace
+
+const Appearance modbus_appearance{
+    Wire::serial,
+    {},
+    true,
+    "material",
+    "profile = \"tm-th8\"             # the sensor's: /usr/share/axiscal/profiles lists them\n"
+    "unit_id = 1                    # its address on the line\n"};
 
 std::unique_ptr<Instrument> make_modbus_instrument(ModbusProfile profile, ModbusStation station) {
     return std::make_unique<ModbusInstrument>(std::move(profile), std::move(station));

@@ -19,4 +19,6 @@ std::unique_ptr<Instrument> make_modbus_instrument(ModbusProfile profile, Modbus
 /// address_offset, poll_period.
 std::unique_ptr<Instrument> make_modbus(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance modbus_appearance;
+
 } // namespace axiscal

@@ -19,6 +19,7 @@
 #include "drivers/gauge/ascii_gauge.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/gauge/gauge_answer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -234,6 +235,13 @@ std::optional<GaugeUnit> read_unit(Settings& options, const GaugeModel& model) {
 }
 
 } // namespace
+
+const Appearance ascii_gauge_appearance{
+    Wire::serial,
+    {},
+    true,
+    "gauge",
+    "model = \"nd-28x\"               # or \"mitutoyo\" with unit = \"mm\", or \"sylvac\"\n"};
 
 std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& /*config*/,
                                              Settings& options) {

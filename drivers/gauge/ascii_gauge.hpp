@@ -7,4 +7,6 @@ namespace axiscal {
 
 std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance ascii_gauge_appearance;
+
 } // namespace axiscal

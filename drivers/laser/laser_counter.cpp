@@ -17,6 +17,7 @@
 #include "drivers/laser/laser_counter.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/laser/counter_record.hpp"
 #include "drivers/link/counter_link.hpp"
 
@@ -187,6 +188,18 @@ void read_scale(Settings& options, CounterSetup& setup) {
 }
 
 } // namespace
+
+const Appearance counter_appearance{
+    Wire::counter,
+    {},
+    false,
+    "laser",
+    "event = \"capture\"              # what makes the counter record\n"
+    "bits = 32                      # of the counter\n"
+    "wavelength = \"632.991354 nm\"   # in vacuum: write that of the laser's certificate\n"
+    "fold = \"plane mirror\"          # or \"corner cube\"\n"
+    "counts_per_cycle = 4           # of the quadrature\n"
+    "fastest = \"30 m/min\"           # the axis cannot move faster\n"};
 
 std::unique_ptr<Instrument> make_counter(const InstrumentConfig& /*config*/, Settings& options) {
     CounterSetup setup;

@@ -7,4 +7,6 @@ namespace axiscal {
 /// wavelength with fold and counts_per_cycle; counting, fastest, silence.
 std::unique_ptr<Instrument> make_counter(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance counter_appearance;
+
 } // namespace axiscal

@@ -20,6 +20,7 @@
 #include "drivers/laser/laser_ids.hpp"
 
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/laser/ids_message.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -361,6 +362,8 @@ Task<Result<void>> Ids::run(InstrumentContext context) {
 }
 
 } // namespace
+
+const Appearance ids_appearance{Wire::tcp, {}, false, "laser", ""};
 
 std::unique_ptr<Instrument> make_ids(const InstrumentConfig& /*config*/, Settings& options) {
     IdsSetup setup;

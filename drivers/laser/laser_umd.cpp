@@ -10,11 +10,13 @@
 
 #include "drivers/laser/laser_umd.hpp"
 #include "config/settings.hpp"
+#include "drivers/appearance.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/laser/umd_counter.hpp"
 #include "drivers/link/link_settings.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace axiscal {
 namespace {
@@ -140,7 +142,16 @@ UmdSetup read_setup(Settings& options) {
     return setup;
 }
 
+// Teensy (uMD2), and what the Arduino Nano of a uMD0 carries: FTDI or CH340.
+const std::array umd_ids{UsbId{0x16C0, 0x0483}, UsbId{0x0403, 0x6001}, UsbId{0x1A86, 0x7523}};
+
 } // namespace
+
+const Appearance umd_appearance{
+    Wire::serial, umd_ids, false, "laser",
+    "wavelength = \"632.991354 nm\"   # in vacuum: write that of the laser's certificate\n"
+    "fold = \"corner cube\"           # or \"plane mirror\"\n"
+    "fastest = \"30 m/min\"           # the axis cannot move faster\n"};
 
 std::unique_ptr<Instrument> make_umd(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults; // USB: the rate matters on the uMD0 only

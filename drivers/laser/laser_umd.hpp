@@ -7,4 +7,6 @@ namespace axiscal {
 /// counts_per_cycle, head, phase, axis, fastest.
 std::unique_ptr<Instrument> make_umd(const InstrumentConfig& config, Settings& options);
 
+extern const Appearance umd_appearance;
+
 } // namespace axiscal

@@ -24,7 +24,7 @@ import unittest
 BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 EXAMPLE = os.path.join(SOURCE, "config", "station.example.toml")
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
-COMMANDS = {"devices": ["--drivers"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
+COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
@@ -295,10 +295,92 @@ class Daemon(Scratch):
 class NoDaemon(Scratch):
     def test_it_is_said_where_it_was_looked_for(self):
         nowhere = os.path.join(self.folder, "none.sock")
-        for words in (["status"], ["devices"], ["watch"], ["arm"], ["trigger"], ["abort"]):
+        for words in (["status"], ["watch"], ["arm"], ["trigger"], ["abort"]):
             self.assertIn(nowhere, self.expect(5, *words, "--socket", nowhere).stderr)
         self.expect(5, "status", env={"AXISCAL_SOCKET": nowhere})
         self.expect(0, "devices", "--drivers")
+        self.assertIn(nowhere, self.expect(0, "devices", "--socket", nowhere).stdout)
+        self.expect(5, "devices", "--host", "127.0.0.1:1")
+
+
+class Devices(Scratch):
+    """What is plugged in, without a daemon, in folders laid out as /sys and /dev are."""
+
+    def plug(self, port, vendor, product, serial="", tty="", by_id="", driver="", its_class="00"):
+        device = os.path.join(self.sys, "devices/pci0000:00/usb1", port)
+        interface = os.path.join(device, port + ":1.0")
+        os.makedirs(interface)
+        number = len(os.listdir(os.path.dirname(device)))
+        for name, text in (("idVendor", vendor), ("idProduct", product), ("serial", serial), ("busnum", "1"),
+                           ("bDeviceClass", its_class), ("devnum", str(number))):
+            if text:
+                with open(os.path.join(device, name), "w", encoding="ascii") as out:
+                    out.write(text + "\n")
+        self.link(os.path.join(self.sys, "bus/usb/devices", port), device)
+        self.touch(os.path.join(self.dev, f"bus/usb/001/{number:03d}"))
+        if tty:
+            folder = os.path.join(interface, "tty", tty)
+            os.makedirs(folder)
+            os.symlink(interface, os.path.join(folder, "device"))
+            self.link(os.path.join(interface, "driver"), os.path.join(self.sys, "bus/usb/drivers", driver))
+            self.link(os.path.join(self.sys, "class/tty", tty), folder)
+            self.touch(os.path.join(self.dev, tty))
+            self.link(os.path.join(self.dev, "serial/by-id", by_id), os.path.join(self.dev, tty))
+
+    @staticmethod
+    def link(name, target):
+        os.makedirs(os.path.dirname(name), exist_ok=True)
+        os.symlink(target, name)
+
+    @staticmethod
+    def touch(path):
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="ascii"):
+            pass
+
+    def setUp(self):
+        super().setUp()
+        self.sys, self.dev = os.path.join(self.folder, "sys"), os.path.join(self.folder, "dev")
+        self.plug("1-1", "16c0", "0483", "7391231", "ttyACM0", "usb-Teensyduino_7391231-if00", "cdc_acm")
+        self.plug("1-2", "289b", "0505", "E24638", "ttyACM1", "usb-Dracal_E24638-if00", "cdc_acm")
+        self.plug("1-3", "0cd5", "0006", "470012345")
+        self.plug("1-4", "0403", "6001", "A600AXIS", "ttyUSB0", "usb-FTDI_A600AXIS-if00-port0", "ftdi_sio")
+        for name in ("w1_bus_master1", "28-0000075b3c2a"):
+            self.link(os.path.join(self.sys, "bus/w1/devices", name), os.path.join(self.sys, "devices", name))
+
+    def devices(self, *words):
+        return self.expect(0, "devices", "--sysfs", self.sys, "--dev", self.dev, "--socket",
+                           os.path.join(self.folder, "none.sock"), *words).stdout
+
+    def test_every_block_is_accepted_by_check_config(self):
+        station = self.file("station.toml", example_text())
+        found = json.loads(self.devices("--config", station, "--json"))["plugged"]
+        blocks = {one["driver"]: one["block"] for device in found for one in device["could_be"]}
+        self.assertEqual(set(blocks), {"umd", "dracal-vcp", "labjack-u6", "vaisala", "ascii-gauge", "modbus", "ds18b20"})
+        for driver, block in blocks.items():
+            self.assertIn(f'driver = "{driver}"', block)
+            profile = os.path.join(SOURCE, "config", "profiles")
+            path = self.file(driver + ".toml", example_text() + "\n" + block)
+            self.expect(0, "check-config", path, env={"AXISCAL_PROFILE_PATH": profile})
+
+    def test_a_block_that_was_added_makes_the_device_known(self):
+        station = self.file("station.toml", example_text())
+        [stick] = [one for one in json.loads(self.devices("--as", "dracal-vcp", "--config", station, "--json"))["plugged"]]
+        self.assertIsNone(stick["in_station"])
+        self.assertEqual(stick["usb"]["serial"], "E24638")
+        with open(station, "a", encoding="utf-8") as out:
+            out.write("\n" + stick["could_be"][0]["block"])
+        shown = self.devices("--config", station)
+        self.assertIn('in the station file as "air-2"', shown)
+
+    def test_people_read_what_it_could_be_and_the_lines_to_add(self):
+        shown = self.devices("--config", os.path.join(self.folder, "nothing.toml"))
+        self.assertIn("There is no station file", shown)
+        self.assertIn("LabJack U6", shown)
+        self.assertIn('        link = "usb:470012345"', shown)
+        self.assertIn("axiscal devices --as DRIVER", shown)  # four could sit behind the adapter
+        self.assertIn('        model = "ptu300"', self.devices("--as", "vaisala"))
+        self.assertIn("did you mean \"vaisala\"", self.expect(2, "devices", "--as", "vaisalla").stderr)
 
 
 class Incomplete(Scratch):

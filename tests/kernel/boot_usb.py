@@ -4,11 +4,13 @@ LabJack U6 by its bulk stream, a TEMPer by HID reports. A plain guest with udev,
 The checks run in their order on one station that never ends: what one of them breaks, it mends.
 """
 
+import json
 import os
 import sys
 import time
+from pathlib import Path
 
-from guest import check, expect, load_modules, run_checks, start_udev, wait_until
+from guest import PROGRAMS, check, expect, load_modules, run, run_checks, start_udev, wait_until
 from usb_station import LASER, LINKS, Undisturbed, UsbStation
 
 NAMES = ("air", "material", "ballbar")
@@ -105,6 +107,23 @@ def reads(station):
     near("ballbar", station.value("ballbar", "ballbar"), VOLTS * 1e-4, 2e-8)
     expect(station.instrument("ballbar")["serial"] == "470012345", "another U6 was taken")
     print([(one["name"], one["model"], one["serial"], one["firmware"]) for one in station.status()["instruments"]])
+
+
+@check("WhatIsPluggedInIsFoundWithoutOpeningIt")
+def found(station):
+    """By the command line, while the daemon measures with all of it."""
+    told = json.loads(run(PROGRAMS / "axiscal", "devices", "--json", "--socket", station.socket, "--config",
+                          station.folder / "station.toml"))
+    known = {one["in_station"]: one for one in told["plugged"] if one["in_station"]}
+    expect(set(known) == {"laser", *NAMES}, f"known are {sorted(known)}")
+    expect(known["air"]["usb"]["serial"] == "A10234", f"{known['air']}")
+    expect(known["laser"]["kernel_driver"] == "cdc_acm", f"{known['laser']}")
+    expect(known["material"]["node"].startswith("/dev/hidraw"), f"{known['material']}")
+    for one in known.values():
+        expect(one["missing"] == [], f"{one}")
+        expect(Path(one["node"]).exists(), f"{one}")
+    [decoy] = [one for one in told["plugged"] if one["usb"] and one["usb"]["serial"] == "470099999"]
+    expect(decoy["in_station"] is None and 'link = "usb:470099999"' in decoy["could_be"][0]["block"], f"{decoy}")
 
 
 @check("BallbarStreamsAtOneKilohertzWithoutAGap")

@@ -1,6 +1,5 @@
 #include "tools/axiscal/daemon_commands.hpp"
 
-#include "drivers/registry.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/status_text.hpp"
 
@@ -9,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <thread>
@@ -176,10 +174,6 @@ int command_status(const StationClient& client, bool json) {
     return ask(client.get("/v1/status"), json, status_text);
 }
 
-int command_devices(const StationClient& client, bool json) {
-    return ask(client.get("/v1/instruments"), json, instruments_text);
-}
-
 int command_watch(const StationClient& client, bool json, bool until_published) {
     Frames frames{json, until_published};
     for (;;) {
@@ -264,18 +258,6 @@ int command_abort(const StationClient& client, const std::string& reason, bool j
     return ask(client.post("/v1/run/abort", body.dump()), json, [](const Json&) {
         return std::string{"The run is closed as incomplete; its file is kept.\n"};
     });
-}
-
-int command_list_drivers(bool json) {
-    Json list = Json::array();
-    for (const InstrumentDriver& driver : instrument_drivers()) {
-        list.push_back({{"driver", driver.name}, {"summary", driver.summary}});
-        if (!json)
-            std::printf("  %-12s %s\n", std::string{driver.name}.c_str(),
-                        std::string{driver.summary}.c_str());
-    }
-    if (json) std::cout << list.dump() << "\n";
-    return exit_ok;
 }
 
 } // namespace axiscal

@@ -10,7 +10,6 @@
 namespace axiscal {
 
 int command_status(const StationClient& client, bool json);
-int command_devices(const StationClient& client, bool json);
 /// Shows progress until the open run ends: 0 complete, 6 incomplete; 1 if `until_published` waited
 /// for a certificate that cannot be written. Twice a second and more on
 /// a terminal, one line a point elsewhere, each status whole with `json`.
@@ -37,8 +36,5 @@ int command_retake(const StationClient& client, const RevisionOrder& order, bool
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json);
 int command_trigger(const StationClient& client, bool json);
 int command_abort(const StationClient& client, const std::string& reason, bool json);
-
-/// The connected drivers by name and summary; needs no daemon.
-int command_list_drivers(bool json);
 
 } // namespace axiscal

@@ -2,6 +2,7 @@
 #include "config/measure.hpp"
 #include "tools/axiscal/conformance.hpp"
 #include "tools/axiscal/daemon_commands.hpp"
+#include "tools/axiscal/devices_command.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 constexpr const char* footer = R"(A run, from start to certificate:
   axiscal check-config /etc/axiscal/station.toml     is the station file right?
-  axiscal devices                                    are laser and sensors there?
+  axiscal devices                                    what is plugged in? are laser and sensors there?
   axiscal program --config station.toml --out .      part program for the CNC; load and start it:
                                                      the axis goes to its datum and waits
   axiscal preflight                                  is all as it must be? axiscal arm asks the same
@@ -44,6 +45,7 @@ struct Options {
     bool exclude_instead = false;
     ProgramRequest program;
     ConformanceOrder conformance;
+    DevicesRequest devices;
     SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
 };
 
@@ -136,18 +138,43 @@ void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
     });
 }
 
-void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
-    auto* devices =
-        app.add_subcommand("devices", "Instruments of the station: state, counters, last note");
+constexpr const char* devices_footer = R"(Examples:
+  axiscal devices                     instruments of the station, then all that is plugged in
+  axiscal devices --as vaisala        one kind only, with the lines to add to the station file
+  axiscal devices --drivers           every driver; --json for programs
+
+Of each device: where it is plugged in, what it could be, what keeps axiscald from using it and the
+line that mends that, and whether the station file knows it. Nothing is opened: no instrument is
+disturbed. Instruments on a network cannot be seen; their pages in docs/instruments tell their link.
+Works without axiscald.)";
+
+void add_devices_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* devices = app.add_subcommand(
+        "devices", "Instruments of the station, and what is plugged in: what it could be, what is "
+                   "missing, the lines to add");
+    DevicesRequest& request = options.devices;
     devices->add_flag("--drivers", options.drivers,
                       "list the drivers this program knows instead; needs no daemon");
+    devices
+        ->add_option("--config", request.station_file, "station file that devices are held against")
+        ->capture_default_str();
+    devices->add_option("--as", request.driver, "show only what could be of this driver");
+    devices->add_option("--sysfs", request.places.sysfs, "look there instead of /sys")->group("");
+    devices->add_option("--dev", request.places.dev, "look there instead of /dev")->group("");
+    devices->footer(devices_footer);
+    daemon_options(*devices, options);
     devices->callback([&] {
         chosen = [&] {
-            return options.drivers ? command_list_drivers(options.json)
-                                   : command_devices(client_of(options), options.json);
+            if (options.drivers) return command_list_drivers(options.json);
+            const StationClient client = client_of(options);
+            return options.door.host.empty()
+                       ? command_devices(client, options.devices, options.json)
+                       : command_far_devices(client, options.json);
         };
     });
+}
 
+void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* arm = app.add_subcommand(
         "arm", "Open a run: the axis stands at its datum, the reading is tied there");
     arm->add_option("--datum", options.arm.datum_mm,
@@ -204,8 +231,8 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
     abort->callback([&] {
         chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
     });
-    for (const char* name : {"devices", "arm", "preflight", "retake", "exclude", "status", "watch",
-                             "trigger", "abort"})
+    for (const char* name :
+         {"arm", "preflight", "retake", "exclude", "status", "watch", "trigger", "abort"})
         daemon_options(*app.get_subcommand(name), options);
 }
 
@@ -335,6 +362,7 @@ int run(int argc, char** argv) {
     app.footer(footer);
     app.require_subcommand(1);
     app.set_version_flag("--version", AXISCAL_VERSION);
+    add_devices_command(app, options, chosen);
     add_daemon_commands(app, options, chosen);
     add_offline_commands(app, options, chosen);
     add_conformance_command(app, options, chosen);
