@@ -30,7 +30,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
-            "selftest": ["--state-directory", "--port", "--count"],
+            "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
         "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
@@ -80,7 +80,7 @@ class Help(Scratch):
 
     def test_exit_codes_are_told(self):
         told = self.expect(0, "--help").stdout
-        for code in range(9):
+        for code in range(10):
             self.assertRegex(told, rf"\b{code} ")
 
     def test_wrong_usage_is_2_with_a_hint(self):
@@ -381,6 +381,113 @@ class Devices(Scratch):
         self.assertIn("axiscal devices --as DRIVER", shown)  # four could sit behind the adapter
         self.assertIn('        model = "ptu300"', self.devices("--as", "vaisala"))
         self.assertIn("did you mean \"vaisala\"", self.expect(2, "devices", "--as", "vaisalla").stderr)
+
+
+class Doctor(Scratch):
+    def setUp(self):
+        super().setUp()
+        self.share = os.path.join(self.folder, "share")
+        self.state = os.path.join(self.folder, "state")
+        os.makedirs(self.share)
+        os.makedirs(self.state)
+        text = example_text().replace('# state_directory = "/var/lib/axiscal"', f'state_directory = "{self.state}"')
+        text = text.replace("[console]\n", f'[console]\nsocket = "{self.folder}/none.sock"\ngroup = ""\nport = 0\n')
+        text = text.replace('"/mnt/quality/axiscal"', f'"{self.share}"')
+        text = text.replace('due_on = "2027', 'due_on = "2099')  # the laser's and the air sensor's are in March
+        self.port = Daemon.free_port()
+        text = re.sub(r"^port = 1502$", f"port = {self.port}", text, flags=re.M)
+        for name in ("laser", "air", "material"):  # no terminals, but they are there
+            self.file(name)
+        lines = iter(("laser", "air", "material"))
+        text = re.sub(r'^link = "serial:.*"$', lambda _: f'link = "serial:{self.folder}/{next(lines)}"', text, flags=re.M)
+        self.text = text
+
+    def doctor(self, code, text, *words):
+        path = self.file("station.toml", text)
+        told = json.loads(self.expect(code, "doctor", path, "--json", *words).stdout)
+        self.assertEqual(told["broken"], sum(one["health"] == "broken" for one in told["findings"]))
+        for one in told["findings"]:
+            self.assertNotIn("\n", one["mend"])
+        return [(one["area"], one["what"]) for one in told["findings"] if one["health"] == "broken"]
+
+    def healthy(self):
+        """What is broken here although the station is right: a scratch folder may lie in memory."""
+        path = self.file("station.toml", self.text)
+        got = run("doctor", path, "--json")
+        broken = [one for one in json.loads(got.stdout)["findings"] if one["health"] == "broken"]
+        self.assertEqual([one for one in broken if "tmpfs" not in one["what"]], [], got.stdout)
+        return len(broken)
+
+    def broken_by(self, change, area, words):
+        """One change makes one finding more, and exit 9."""
+        before = self.healthy()
+        broken = self.doctor(9, change(self.text))
+        self.assertEqual(len(broken), before + 1, broken)
+        [what] = [what for its_area, what in broken if its_area == area and words in what]
+        return what
+
+    def test_a_station_in_order_has_nothing_broken(self):
+        if self.healthy() == 0:
+            shown = self.expect(0, "doctor", os.path.join(self.folder, "station.toml")).stdout
+            self.assertIn("Nothing is broken", shown)
+            for area in ("rights", "wire", "certificate", "clock", "disk", "share", "port", "kernel", "papers"):
+                self.assertIn(area, shown)
+        self.assertEqual(os.listdir(self.state), [], "the trial commit left something behind")
+
+    def test_an_instrument_that_is_not_plugged_in(self):
+        self.broken_by(lambda text: text.replace(f"{self.folder}/air", f"{self.folder}/nothing"), "wire", '"air"')
+
+    def test_a_certificate_that_ended(self):
+        self.broken_by(lambda text: text.replace("2099-02-10", "2026-03-01"), "certificate", '"laser"')
+
+    def test_a_share_that_is_not_there(self):
+        self.broken_by(lambda text: text.replace(self.share, self.share + "/gone"), "share", "gone")
+
+    def test_a_port_that_another_program_holds(self):
+        before = self.healthy()
+        with socket.socket() as other:
+            other.bind(("127.0.0.1", self.port))
+            other.listen(1)
+            broken = self.doctor(9, self.text)
+        self.assertEqual(len(broken), before + 1, broken)
+        self.assertTrue(any(area == "port" and str(self.port) in what for area, what in broken), broken)
+
+    def test_an_address_that_this_pc_does_not_have(self):
+        # 192.0.2.0/24 is for documentation (RFC 5737)
+        self.broken_by(lambda text: text.replace('host = "127.0.0.1"\n', 'host = "192.0.2.7"\nallowed_clients = ["192.0.2.8"]\n', 1),
+                       "port", "192.0.2.7")
+
+    def test_a_state_directory_that_is_gone(self):
+        broken = self.doctor(9, self.text.replace(self.state, self.state + "/gone"))
+        self.assertTrue(any(area == "disk" and "gone" in what for area, what in broken), broken)
+
+    def test_a_state_directory_in_memory(self):
+        memory = tempfile.mkdtemp(dir="/dev/shm")
+        self.addCleanup(shutil.rmtree, memory, True)
+        broken = self.doctor(9, self.text.replace(self.state, memory))
+        self.assertTrue(any("tmpfs" in what for _, what in broken), broken)
+
+    def test_a_refused_station_file_does_not_end_the_examination(self):
+        broken = self.doctor(9, self.text.replace('kind = "linear"', 'kind = "linaer"'))
+        self.assertTrue(any(area == "station" and "linear" in what for area, what in broken), broken)
+        shown = self.expect(9, "doctor", os.path.join(self.folder, "nothing.toml")).stdout
+        for area in ("station", "clock", "kernel", "papers"):
+            self.assertIn(area, shown)
+
+    def test_a_kernel_without_a_module_that_is_needed(self):
+        modules = os.path.join(self.folder, "modules")
+        os.makedirs(modules)
+        for name, text in (("modules.dep", "kernel/drivers/usb/class/cdc-acm.ko.xz:\n"), ("modules.builtin", "")):
+            with open(os.path.join(modules, name), "w", encoding="ascii") as out:
+                out.write(text)
+        words = ["--modules", modules, "--sysfs", os.path.join(self.folder, "sys")]
+        more = '\n[[instrument]]\nname = "screw"\ndriver = "ds18b20"\nsensors = ["28-0000075b3c2a"]\n'
+        broken = self.doctor(9, self.text + more, *words)
+        kernel = [what for area, what in broken if area == "kernel"]
+        self.assertEqual(len(kernel), 2, broken)
+        self.assertTrue("ds2490" in kernel[0] and "w1_therm" in kernel[1], kernel)
+        self.assertIn("Debian's stock kernel does not build", self.expect(9, "doctor", os.path.join(
+            self.folder, "station.toml"), *words).stdout)
 
 
 class Incomplete(Scratch):

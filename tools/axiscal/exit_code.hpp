@@ -13,6 +13,7 @@ enum ExitCode : int {
     exit_incomplete = 6, ///< the run ended without all its points
     exit_disagrees = 7,  ///< a figure of the conformance kit is not what it must be
     exit_changed = 8,    ///< a run file or its certificate is not what was written
+    exit_unwell = 9,     ///< the doctor found something broken
 };
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 #include "tools/axiscal/conformance.hpp"
 #include "tools/axiscal/daemon_commands.hpp"
 #include "tools/axiscal/devices_command.hpp"
+#include "tools/axiscal/doctor_command.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* footer = R"(A run, from start to certificate:
   axiscal check-config /etc/axiscal/station.toml     is the station file right?
+  axiscal doctor                                     is this PC right? how is it mended?
   axiscal devices                                    what is plugged in? are laser and sensors there?
   axiscal program --config station.toml --out .      part program for the CNC; load and start it:
                                                      the axis goes to its datum and waits
@@ -30,7 +32,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
 Exit codes: 0 done; 1 a file or the disk failed; 2 wrong usage; 3 input refused (case, run file,
 station file); 4 the station refuses (rights, busy, not armed); 5 axiscald does not answer;
 6 the run ended incomplete; 7 a figure of the conformance kit disagrees; 8 a run file or its
-certificate is not what was written.)";
+certificate is not what was written; 9 the doctor found something broken.)";
 
 struct Options {
     bool json = false;
@@ -46,6 +48,7 @@ struct Options {
     ProgramRequest program;
     ConformanceOrder conformance;
     DevicesRequest devices;
+    DoctorRequest doctor;
     SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
 };
 
@@ -343,6 +346,45 @@ void add_conformance_command(CLI::App& app, Options& options, Command& chosen) {
         [&] { chosen = [&] { return command_conformance(options.conformance, options.json); }; });
 }
 
+constexpr const char* doctor_footer = R"(What it looks at, and what it means:
+  rights       user and group axiscal, this user's membership, the daemon's socket
+  wire         each instrument of the station file: plugged in, its node open to the service, its kernel
+               driver, the latency timer of an FTDI adapter (bytes held back are time lost), CAN up
+  certificate  of the instruments: ended, or ending within 30 days
+  clock        monotonic clock (times of samples), time server (dates on certificates)
+  disk         the state directory: rights, space, kind of file system, one commit made durable
+  share        where certificates go: there, writable or reached, the publisher at work
+  port         the CNC's Modbus port and the console's: free, or held by axiscald; who may connect
+  kernel       modules that instruments need
+  papers       font and program of the certificates
+
+Each finding is good, a NOTE (it works; you should know) or BROKEN (mend it: a measurement fails, or is
+lost). The line below says how. Nothing is changed, no instrument is asked.
+  axiscal doctor                      the installed station file; sudo, so that the disk is tried, too
+  axiscal doctor my-station.toml      another one, before it is installed
+Exit codes: 0 nothing is broken; 9 something is. See also: axiscal devices, selftest, check-config.)";
+
+void add_doctor_command(CLI::App& app, Options& options, Command& chosen) {
+    DoctorRequest& request = options.doctor;
+    auto* doctor = app.add_subcommand(
+        "doctor", "What could keep this PC from measuring, and how to mend each; needs no daemon");
+    doctor->add_option("STATION", request.station_file, "station file")->capture_default_str();
+    doctor->add_option("--socket", options.door.socket_path,
+                       "Unix socket of axiscald; default: the station file's");
+    doctor->add_option("--sysfs", request.places.kernel.sysfs, "look there instead of /sys")
+        ->group("");
+    doctor->add_option("--dev", request.places.kernel.dev, "look there instead of /dev")->group("");
+    doctor->add_option("--modules", request.places.modules, "modules of another kernel")->group("");
+    doctor->footer(doctor_footer);
+    doctor->callback([&] {
+        chosen = [&] {
+            if (options.door.socket_path != Options{}.door.socket_path)
+                options.doctor.socket = options.door.socket_path;
+            return command_doctor(options.doctor, options.json);
+        };
+    });
+}
+
 /// The first word is no command: says so, with the nearest one there is.
 void hint_at_command(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
@@ -367,6 +409,7 @@ int run(int argc, char** argv) {
     add_offline_commands(app, options, chosen);
     add_conformance_command(app, options, chosen);
     add_selftest_command(app, options, chosen);
+    add_doctor_command(app, options, chosen);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag("--json", options.json, "print JSON for programs");
     try {

@@ -1,0 +1,122 @@
+// Each instrument of the station: plugged in, usable by the service, its certificate good.
+#include "config/certificate_dates.hpp"
+#include "tools/axiscal/doctor/doctor.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace axiscal {
+namespace {
+
+constexpr std::int64_t warning_ns = 30LL * 24 * 3600 * 1'000'000'000; // 30 days: time to send it in
+
+Finding finding_of(const Obstacle& obstacle, const std::string& name) {
+    return {obstacle.stops ? Health::broken : Health::note, "wire",
+            "\"" + name + "\": " + obstacle.what, obstacle.mend};
+}
+
+void check_device(const PluggedDevice& device,
+                  const std::string& name,
+                  const Account& service,
+                  std::vector<Finding>& found) {
+    const auto list = obstacles(device, service);
+    for (const Obstacle& obstacle : list)
+        found.push_back(finding_of(obstacle, name));
+    if (list.empty())
+        found.push_back(
+            {Health::good, "wire", "\"" + name + "\" is plugged in at " + device.place, ""});
+}
+
+bool is_far(const StationWires::Entry& entry) {
+    return entry.link.starts_with("tcp:");
+}
+
+Finding absent(const StationWires::Entry& entry) {
+    const std::string wire = entry.link.empty() ? "its sensors" : entry.link;
+    return {Health::broken, "wire", "\"" + entry.name + "\" is not plugged in: " + wire,
+            "axiscal devices shows what is; plug it in, or correct its link"};
+}
+
+/// A terminal that is there without hardware that the kernel could tell of (a pseudo terminal, a
+/// radio link).
+std::optional<PluggedDevice> bare_terminal(const std::string& path) {
+    std::error_code error;
+    if (path.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
+    PluggedDevice device;
+    device.place = device.node = path;
+    return device;
+}
+
+std::string path_of(const std::string& link) {
+    constexpr std::string_view prefix = "serial:";
+    return link.starts_with(prefix) ? link.substr(prefix.size()) : "";
+}
+
+const PluggedDevice* device_of(const std::string& name,
+                               const std::vector<PluggedDevice>& plugged,
+                               const StationWires& wires) {
+    const auto found = std::ranges::find_if(
+        plugged, [&](const PluggedDevice& device) { return known_as(device, wires) == name; });
+    return found == plugged.end() ? nullptr : &*found;
+}
+
+/// Alone: two instruments of one Modbus line share its device.
+StationWires only(const StationWires::Entry& entry) {
+    return {{entry}, ""};
+}
+
+} // namespace
+
+std::vector<Finding> check_wires(const Patient& patient, const DoctorPlaces& places) {
+    const auto plugged = list_plugged(places.kernel);
+    std::vector<Finding> found;
+    for (const StationWires::Entry& entry : patient.wires.instruments) {
+        if (is_far(entry)) {
+            found.push_back({Health::good, "wire",
+                             "\"" + entry.name + "\" is asked over the network (" + entry.link +
+                                 "): axiscal devices tells whether it answers axiscald",
+                             ""});
+            continue;
+        }
+        if (const PluggedDevice* device = device_of(entry.name, plugged, only(entry)))
+            check_device(*device, entry.name, patient.service, found);
+        else if (const auto bare = bare_terminal(path_of(entry.link)))
+            check_device(*bare, entry.name, patient.service, found);
+        else
+            found.push_back(absent(entry));
+    }
+    if (patient.wires.trigger_line.empty()) return found;
+    const StationWires line{{}, patient.wires.trigger_line};
+    if (const PluggedDevice* device = device_of("trigger", plugged, line))
+        check_device(*device, "trigger", patient.service, found);
+    else if (const auto bare = bare_terminal(patient.wires.trigger_line))
+        check_device(*bare, "trigger", patient.service, found);
+    else
+        found.push_back({Health::broken, "wire",
+                         "the CNC's serial line " + patient.wires.trigger_line + " is not there",
+                         "axiscal devices shows what is; plug it in, or correct serial_port"});
+    return found;
+}
+
+std::vector<Finding> check_certificates(const StationConfig& config, std::int64_t utc_ns) {
+    const std::string today = iso8601_utc(utc_ns).substr(0, 10);
+    const std::string soon = iso8601_utc(utc_ns + warning_ns).substr(0, 10);
+    std::vector<Finding> found;
+    for (const Refusal& past : expired_certificates(config, today))
+        found.push_back({Health::broken, "certificate", past.reason,
+                         "have it calibrated, then write its new dates"});
+    for (const InstrumentConfig& instrument : config.instruments)
+        if (!instrument.due_on.empty() && instrument.due_on >= today && instrument.due_on < soon)
+            found.push_back(
+                {Health::note, "certificate",
+                 "the certificate of \"" + instrument.name + "\" ends on " + instrument.due_on,
+                 "plan its calibration"});
+    if (found.empty())
+        found.push_back({Health::good, "certificate",
+                         "no certificate of an instrument ends within 30 days", ""});
+    return found;
+}
+
+} // namespace axiscal

@@ -1,0 +1,44 @@
+#pragma once
+// `axiscal doctor`: what could keep a station from measuring on this PC, and the one line that
+// mends each. It looks and tries, and leaves everything as it was. Blocking.
+
+#include "acquisition/station/station_loader.hpp"
+#include "drivers/plugged/candidates.hpp"
+#include "tools/axiscal/doctor/judges.hpp"
+#include "tools/axiscal/station_client.hpp"
+
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// Where the doctor looks; other folders in tests.
+struct DoctorPlaces {
+    KernelPlaces kernel;
+    std::string modules; ///< of the running kernel: "/lib/modules/6.1.0-40-amd64"
+    std::vector<std::string> fonts{"/usr/share/fonts", "/usr/local/share/fonts"};
+};
+
+/// What every check may ask.
+struct Patient {
+    const StationConfig* config = nullptr; ///< null: the station file was refused
+    StationWires wires;
+    Account service;
+    bool daemon_answers = false;
+    std::string trigger_note; ///< what the daemon says of its trigger port
+};
+
+std::vector<Finding> check_account(const Patient& patient);
+/// The wire of each instrument, and of the CNC's serial line.
+std::vector<Finding> check_wires(const Patient& patient, const DoctorPlaces& places);
+std::vector<Finding> check_certificates(const StationConfig& config, std::int64_t utc_ns);
+std::vector<Finding> check_clock(const DoctorPlaces& places);
+/// The state directory: rights, space, file system, one durable commit where the caller may write.
+std::vector<Finding> check_disk(const Patient& patient);
+std::vector<Finding> check_share(const Patient& patient, std::int64_t utc_ns);
+/// Sockets: the Modbus port of the CNC, the port of the console.
+std::vector<Finding> check_ports(const Patient& patient);
+std::vector<Finding> check_modules(const Patient& patient, const DoctorPlaces& places);
+std::vector<Finding> check_papers(const DoctorPlaces& places);
+
+} // namespace axiscal

@@ -1,0 +1,130 @@
+#include "tools/axiscal/doctor_command.hpp"
+
+#include "tools/axiscal/exit_code.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <sys/utsname.h>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 3> health_names{"good", "note", "broken"};
+constexpr std::array<const char*, 3> health_words{"good", "NOTE", "BROKEN"};
+
+std::string name_of(Health health) {
+    return health_names[static_cast<std::size_t>(health)];
+}
+
+std::string running_kernel() {
+    utsname kernel{};
+    ::uname(&kernel);
+    return kernel.release;
+}
+
+/// What is wrong with the station file, or that it is right.
+std::vector<Finding> findings_of(const tl::expected<LoadedStation, std::vector<Refusal>>& station,
+                                 const std::string& file) {
+    if (station) return {{Health::good, "station", file + " is accepted", ""}};
+    if (!std::filesystem::exists(file))
+        return {{Health::broken, "station", "there is no station file " + file,
+                 "sudo install -m 640 -g axiscal /usr/share/axiscal/station.example.toml " + file +
+                     ", then edit it"}};
+    std::vector<Finding> found;
+    found.reserve(station.error().size());
+    for (const Refusal& refusal : station.error())
+        found.push_back({Health::broken, "station", refusal.describe(),
+                         "sudo editor " + file + ", then: axiscal check-config " + file});
+    return found;
+}
+
+void ask_daemon(const StationClient& client, Patient& patient) {
+    const auto reply = client.get("/v1/status");
+    patient.daemon_answers = reply && reply->status < 300;
+    if (!patient.daemon_answers) return;
+    const Json status = Json::parse(reply->body, nullptr, false);
+    if (status.is_object() && status.contains("trigger"))
+        patient.trigger_note = status["trigger"].value("note", "");
+}
+
+StationWires wires_of(const std::string& file) {
+    auto document = SettingsDocument::load(file);
+    return document ? read_station_wires(*document) : StationWires{};
+}
+
+/// Every check in the order in which a technician would go about it. Those of the station need its
+/// file.
+std::vector<Finding> examine(const DoctorRequest& request) {
+    const auto station = load_station(request.station_file);
+    std::vector<Finding> all = findings_of(station, request.station_file);
+    const auto add = [&](std::vector<Finding> more) {
+        std::ranges::move(more, std::back_inserter(all));
+    };
+    const std::int64_t utc_ns =
+        std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
+    Patient patient;
+    patient.config = station ? &station->config : nullptr;
+    patient.wires = wires_of(request.station_file);
+    patient.service = service_account();
+    const ConsoleConfig console = station ? station->config.console : ConsoleConfig{};
+    const std::string socket = request.socket.empty() ? console.socket_path : request.socket;
+    const StationClient client{{socket, "", ""}};
+    ask_daemon(client, patient);
+    add(check_account(patient));
+    add(check_wires(patient, request.places));
+    if (station) add(check_certificates(station->config, utc_ns));
+    add(check_clock(request.places));
+    add(check_disk(patient));
+    if (station) add(check_share(patient, utc_ns));
+    if (station) add(check_ports(patient));
+    add(check_modules(patient, request.places));
+    add(check_papers(request.places));
+    return all;
+}
+
+void print(const std::vector<Finding>& findings) {
+    for (const Finding& finding : findings) {
+        std::printf("%-6s  %-11s  %s\n", health_words[static_cast<std::size_t>(finding.health)],
+                    finding.area.c_str(), finding.what.c_str());
+        if (!finding.mend.empty()) std::printf("%21s-> %s\n", "", finding.mend.c_str());
+    }
+}
+
+} // namespace
+
+int command_doctor(const DoctorRequest& request, bool json) {
+    DoctorRequest whole = request;
+    if (whole.places.modules.empty()) whole.places.modules = "/lib/modules/" + running_kernel();
+    const std::vector<Finding> findings = examine(whole);
+    const auto broken = std::ranges::count(findings, Health::broken, &Finding::health);
+    const auto notes = std::ranges::count(findings, Health::note, &Finding::health);
+    if (json) {
+        Json list = Json::array();
+        for (const Finding& finding : findings)
+            list.push_back({{"health", name_of(finding.health)},
+                            {"area", finding.area},
+                            {"what", finding.what},
+                            {"mend", finding.mend}});
+        std::cout
+            << Json{{"findings", std::move(list)}, {"broken", broken}, {"notes", notes}}.dump()
+            << "\n";
+    } else {
+        print(findings);
+        std::printf("%s; %d to know\n",
+                    broken == 0 ? "Nothing is broken"
+                                : (std::to_string(broken) + " broken").c_str(),
+                    static_cast<int>(notes));
+    }
+    return broken == 0 ? exit_ok : exit_unwell;
+}
+
+} // namespace axiscal
