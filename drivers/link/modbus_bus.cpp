@@ -230,13 +230,18 @@ Task<Result<ModbusWords>> ModbusBus::read(ModbusRead request) {
 
 Result<ModbusBus*> ModbusBuses::bus(const LinkSettings& settings) {
     const bool serial = settings.kind == LinkSettings::Kind::serial;
-    auto& bus = buses_[serial ? settings.path : settings.describe()];
-    if (!bus) bus = std::make_unique<ModbusBus>(settings, loop_);
-    if (bus->settings().describe() != settings.describe())
-        return fail(Fault::bad_configuration, settings.describe() +
-                                                  ": another instrument uses this line as " +
-                                                  bus->settings().describe());
-    return bus.get();
+    auto& line = buses_[serial ? settings.path : settings.describe()];
+    if (!line.bus) {
+        LinkSettings place = settings;
+        if (detour_) {
+            AXISCAL_TRY(place, detour_(settings));
+        }
+        line = {settings.describe(), std::make_unique<ModbusBus>(std::move(place), loop_)};
+    }
+    if (line.asked != settings.describe())
+        return fail(Fault::bad_configuration,
+                    settings.describe() + ": another instrument uses this line as " + line.asked);
+    return line.bus.get();
 }
 
 } // namespace axiscal

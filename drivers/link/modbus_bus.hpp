@@ -7,6 +7,7 @@
 #include <boost/asio/any_io_executor.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,15 +55,24 @@ private:
 /// All lines of the station: instruments on one line share its bus. Loop-bound.
 class ModbusBuses {
 public:
-    explicit ModbusBuses(boost::asio::any_io_executor loop)
-        : loop_{std::move(loop)} {}
+    /// Where a line that is asked for is opened in fact (a recorder stands between); itself when
+    /// empty.
+    using Detour = std::function<Result<LinkSettings>(const LinkSettings&)>;
+    explicit ModbusBuses(boost::asio::any_io_executor loop, Detour detour = {})
+        : loop_{std::move(loop)}
+        , detour_{std::move(detour)} {}
     /// @errors Fault::bad_configuration when the line is in use with other settings.
     Result<ModbusBus*> bus(const LinkSettings& settings);
     [[nodiscard]] std::size_t size() const { return buses_.size(); }
 
 private:
+    struct Line {
+        std::string asked; ///< its settings in words
+        std::unique_ptr<ModbusBus> bus;
+    };
     boost::asio::any_io_executor loop_;
-    std::map<std::string, std::unique_ptr<ModbusBus>> buses_;
+    Detour detour_;
+    std::map<std::string, Line> buses_;
 };
 
 } // namespace axiscal

@@ -59,7 +59,59 @@ Task<Result<std::vector<TimedCanFrame>>> TapeCanLink::read_some(MonotonicTime de
     co_return frames;
 }
 
+class CanRecorderLink final : public CanLink {
+public:
+    CanRecorderLink(std::unique_ptr<CanLink> inner,
+                    Scheduler& scheduler,
+                    std::ostream& tape,
+                    MonotonicTime begin)
+        : inner_{std::move(inner)}
+        , scheduler_{scheduler}
+        , tape_{tape, begin} {}
+    Result<void> hear(const std::vector<std::uint32_t>& ids) override { return inner_->hear(ids); }
+    Task<Result<std::vector<TimedCanFrame>>> read_some(MonotonicTime deadline) override;
+    Task<Result<void>> send(CanFrame frame, MonotonicTime deadline) override;
+    [[nodiscard]] std::uint64_t bus_errors() const override { return inner_->bus_errors(); }
+
+private:
+    void closed_if(const Error& error) {
+        if (error.fault == Fault::link_closed)
+            tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
+    }
+    std::unique_ptr<CanLink> inner_;
+    Scheduler& scheduler_;
+    TapeWriter tape_;
+};
+
+Task<Result<std::vector<TimedCanFrame>>> CanRecorderLink::read_some(MonotonicTime deadline) {
+    auto frames = co_await inner_->read_some(deadline);
+    if (!frames) {
+        closed_if(frames.error());
+        co_return frames;
+    }
+    for (const TimedCanFrame& heard : *frames)
+        tape_.write(TapeEntry::Direction::in, heard.at, bytes_from(heard.frame));
+    co_return frames;
+}
+
+Task<Result<void>> CanRecorderLink::send(CanFrame frame, MonotonicTime deadline) {
+    const MonotonicTime at = scheduler_.now();
+    auto sent = co_await inner_->send(frame, deadline);
+    if (sent)
+        tape_.write(TapeEntry::Direction::out, at, bytes_from(frame));
+    else
+        closed_if(sent.error());
+    co_return sent;
+}
+
 } // namespace
+
+std::unique_ptr<CanLink> record_can(std::unique_ptr<CanLink> inner,
+                                    Scheduler& scheduler,
+                                    std::ostream& tape,
+                                    MonotonicTime begin) {
+    return std::make_unique<CanRecorderLink>(std::move(inner), scheduler, tape, begin);
+}
 
 Task<Result<std::unique_ptr<CanLink>>> TapePlayer::open_can(const LinkSettings& /*settings*/,
                                                             MonotonicTime /*deadline*/) {

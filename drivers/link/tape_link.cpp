@@ -1,7 +1,6 @@
 #include "drivers/link/tape_link.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <ostream>
 
@@ -78,8 +77,7 @@ Result<Tape> parse_tape(std::string_view text) {
             return fail(Fault::bad_request,
                         "tape line " + std::to_string(number) + ": " + read.error().detail);
     }
-    constexpr std::array origins{"device", "vendor-document", "simulator"};
-    if (std::ranges::find(origins, tape.header["origin"]) == origins.end())
+    if (std::ranges::find(tape_origins, tape.header["origin"]) == tape_origins.end())
         return fail(Fault::bad_request, "tape: origin = device | vendor-document | simulator");
     return tape;
 }
@@ -169,14 +167,14 @@ TapeRecorderLink::TapeRecorderLink(std::unique_ptr<ByteLink> inner,
                                    MonotonicTime begin)
     : inner_{std::move(inner)}
     , scheduler_{scheduler}
-    , tape_{tape}
-    , begin_{begin} {}
+    , tape_{tape, begin} {}
 
-void TapeRecorderLink::record(TapeEntry::Direction direction,
-                              MonotonicTime at,
-                              std::span<const std::byte> bytes) {
+void TapeWriter::write(TapeEntry::Direction direction,
+                       MonotonicTime at,
+                       std::span<const std::byte> bytes) {
     constexpr std::string_view digits = "0123456789abcdef";
-    tape_ << static_cast<char>(direction) << ' ' << (at - begin_).count();
+    last_ = std::max(last_, Duration{at - begin_});
+    tape_ << static_cast<char>(direction) << ' ' << last_.count();
     if (!bytes.empty()) tape_ << ' ';
     for (const std::byte byte : bytes)
         tape_ << digits[std::to_integer<std::size_t>(byte >> 4)]
@@ -187,16 +185,21 @@ void TapeRecorderLink::record(TapeEntry::Direction direction,
 Task<Result<TimedBytes>> TapeRecorderLink::read_some(MonotonicTime deadline) {
     auto arrived = co_await inner_->read_some(deadline);
     if (arrived)
-        record(TapeEntry::Direction::in, arrived->read_at, arrived->bytes);
+        tape_.write(TapeEntry::Direction::in, arrived->read_at, arrived->bytes);
     else if (arrived.error().fault == Fault::link_closed)
-        record(TapeEntry::Direction::closed, scheduler_.now(), {});
+        tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
     co_return arrived;
 }
 
 Task<Result<void>> TapeRecorderLink::write_all(std::vector<std::byte> bytes,
                                                MonotonicTime deadline) {
-    record(TapeEntry::Direction::out, scheduler_.now(), bytes);
+    const MonotonicTime at = scheduler_.now();
+    const std::vector<std::byte> copy = bytes;
     auto written = co_await inner_->write_all(std::move(bytes), deadline);
+    if (written)
+        tape_.write(TapeEntry::Direction::out, at, copy);
+    else if (written.error().fault == Fault::link_closed)
+        tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
     co_return written;
 }
 

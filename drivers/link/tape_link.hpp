@@ -14,6 +14,7 @@
 
 #include "drivers/link/byte_link.hpp"
 
+#include <array>
 #include <iosfwd>
 #include <map>
 #include <optional>
@@ -37,6 +38,10 @@ struct Tape {
     std::map<std::string, std::string> header;
     std::vector<TapeEntry> entries;
 };
+
+/// One row each. Pure.
+inline constexpr std::array tape_origins{
+    std::string_view{"device"}, std::string_view{"vendor-document"}, std::string_view{"simulator"}};
 
 /// Pure. @errors Fault::bad_request naming the line: unknown direction, offsets that go back, odd
 /// hex, a missing or unknown origin.
@@ -74,6 +79,22 @@ private:
     std::optional<MonotonicTime> begin_;
 };
 
+/// Writes transfers as the lines of a tape. The stream is borrowed. Loop-bound.
+class TapeWriter {
+public:
+    /// `begin` is the instant of offset 0.
+    TapeWriter(std::ostream& tape, MonotonicTime begin)
+        : tape_{tape}
+        , begin_{begin} {}
+    /// What was stamped before the line above it (read ahead, off the loop) gets its offset.
+    void write(TapeEntry::Direction direction, MonotonicTime at, std::span<const std::byte> bytes);
+
+private:
+    std::ostream& tape_;
+    MonotonicTime begin_;
+    Duration last_{};
+};
+
 /// Writes all that passes through another link to a stream, then hands it on. Loop-bound.
 class TapeRecorderLink final : public ByteLink {
 public:
@@ -90,12 +111,21 @@ public:
     [[nodiscard]] std::string remark() const override { return inner_->remark(); }
 
 private:
-    void record(TapeEntry::Direction direction, MonotonicTime at, std::span<const std::byte> bytes);
-
     std::unique_ptr<ByteLink> inner_;
     Scheduler& scheduler_;
-    std::ostream& tape_;
-    MonotonicTime begin_;
+    TapeWriter tape_;
 };
+
+/// The same for a USB device: each transfer as tape_link.hpp tells it, 'x' where the device
+/// refuses.
+std::unique_ptr<UsbLink> record_usb(std::unique_ptr<UsbLink> inner,
+                                    Scheduler& scheduler,
+                                    std::ostream& tape,
+                                    MonotonicTime begin);
+/// The same for frames of a CAN bus, in and out.
+std::unique_ptr<CanLink> record_can(std::unique_ptr<CanLink> inner,
+                                    Scheduler& scheduler,
+                                    std::ostream& tape,
+                                    MonotonicTime begin);
 
 } // namespace axiscal

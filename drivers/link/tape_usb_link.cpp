@@ -56,7 +56,91 @@ TapeUsbLink::bulk_in(int endpoint, std::size_t /*longest*/, MonotonicTime deadli
     co_return packet;
 }
 
+class UsbRecorderLink final : public UsbLink {
+public:
+    UsbRecorderLink(std::unique_ptr<UsbLink> inner,
+                    Scheduler& scheduler,
+                    std::ostream& tape,
+                    MonotonicTime begin)
+        : inner_{std::move(inner)}
+        , scheduler_{scheduler}
+        , tape_{tape, begin} {}
+    Task<Result<TimedBytes>> control_in(UsbRequest request, MonotonicTime deadline) override;
+    Task<Result<void>>
+    bulk_out(int endpoint, std::vector<std::byte> bytes, MonotonicTime deadline) override;
+    Task<Result<TimedBytes>>
+    bulk_in(int endpoint, std::size_t longest, MonotonicTime deadline) override;
+    Task<Result<TimedBytes>>
+    next_packet(int endpoint, std::size_t longest, MonotonicTime deadline) override;
+    [[nodiscard]] const UsbEntry& entry() const override { return inner_->entry(); }
+
+private:
+    void wrote(std::vector<std::byte> bytes, std::optional<int> endpoint = {});
+    /// What came, or how it failed; silence leaves no line.
+    void came(const Result<TimedBytes>& answer, std::optional<int> endpoint = {});
+
+    std::unique_ptr<UsbLink> inner_;
+    Scheduler& scheduler_;
+    TapeWriter tape_;
+};
+
+void UsbRecorderLink::wrote(std::vector<std::byte> bytes, std::optional<int> endpoint) {
+    if (endpoint) bytes.insert(bytes.begin(), static_cast<std::byte>(*endpoint));
+    tape_.write(TapeEntry::Direction::out, scheduler_.now(), bytes);
+}
+
+void UsbRecorderLink::came(const Result<TimedBytes>& answer, std::optional<int> endpoint) {
+    if (answer) {
+        std::vector<std::byte> bytes = answer->bytes;
+        if (endpoint) bytes.insert(bytes.begin(), static_cast<std::byte>(*endpoint));
+        return tape_.write(TapeEntry::Direction::in, answer->read_at, bytes);
+    }
+    if (answer.error().fault == Fault::refused)
+        tape_.write(TapeEntry::Direction::refused, scheduler_.now(), {});
+    if (answer.error().fault == Fault::link_closed)
+        tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
+}
+
+Task<Result<TimedBytes>> UsbRecorderLink::control_in(UsbRequest request, MonotonicTime deadline) {
+    wrote(setup_packet(request));
+    auto answer = co_await inner_->control_in(request, deadline);
+    came(answer);
+    co_return answer;
+}
+
+Task<Result<void>>
+UsbRecorderLink::bulk_out(int endpoint, std::vector<std::byte> bytes, MonotonicTime deadline) {
+    const std::vector<std::byte> copy = bytes;
+    auto written = co_await inner_->bulk_out(endpoint, std::move(bytes), deadline);
+    if (written)
+        wrote(copy, endpoint);
+    else if (written.error().fault == Fault::link_closed)
+        tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
+    co_return written;
+}
+
+Task<Result<TimedBytes>>
+UsbRecorderLink::bulk_in(int endpoint, std::size_t longest, MonotonicTime deadline) {
+    auto packet = co_await inner_->bulk_in(endpoint, longest, deadline);
+    came(packet, endpoint);
+    co_return packet;
+}
+
+Task<Result<TimedBytes>>
+UsbRecorderLink::next_packet(int endpoint, std::size_t longest, MonotonicTime deadline) {
+    auto packet = co_await inner_->next_packet(endpoint, longest, deadline);
+    came(packet, endpoint);
+    co_return packet;
+}
+
 } // namespace
+
+std::unique_ptr<UsbLink> record_usb(std::unique_ptr<UsbLink> inner,
+                                    Scheduler& scheduler,
+                                    std::ostream& tape,
+                                    MonotonicTime begin) {
+    return std::make_unique<UsbRecorderLink>(std::move(inner), scheduler, tape, begin);
+}
 
 Task<Result<std::unique_ptr<UsbLink>>> TapePlayer::open_usb(const LinkSettings& /*settings*/,
                                                             MonotonicTime /*deadline*/) {

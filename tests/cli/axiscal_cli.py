@@ -31,6 +31,8 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
+            "record": ["--instrument", "--out", "--for", "--who"],
+            "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
         "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
@@ -488,6 +490,116 @@ class Doctor(Scratch):
         self.assertTrue("ds2490" in kernel[0] and "w1_therm" in kernel[1], kernel)
         self.assertIn("Debian's stock kernel does not build", self.expect(9, "doctor", os.path.join(
             self.folder, "station.toml"), *words).stdout)
+
+
+class Tapes(Scratch):
+    FOLDER = os.path.join(SOURCE, "tests", "traces")
+
+    def paths(self, name):
+        return os.path.join(self.FOLDER, name + ".tape"), os.path.join(self.FOLDER, name + ".expected")
+
+    def with_driver(self):
+        names = sorted(name[:-5] for name in os.listdir(self.FOLDER) if name.endswith(".tape"))
+        return [name for name in names if "\ndriver = " in self.text(self.paths(name)[0])]
+
+    @staticmethod
+    def text(path):
+        with open(path, encoding="utf-8") as source:
+            return source.read()
+
+    def test_every_tape_gives_what_is_expected(self):
+        names = self.with_driver()
+        self.assertGreaterEqual(len(names), 16)
+        for name in names:
+            tape, expected = self.paths(name)
+            self.expect(0, "replay", tape, "--expect", expected)
+
+    def test_the_first_difference_is_named_and_only_rebuilding_writes(self):
+        tape, expected = self.paths("dracal-vcp-pth450")
+        text = self.text(expected)
+        first = text.split("\n")[0]
+        other = self.file("other.expected", text.replace(first, "+0 something else"))
+        told = self.expect(7, "replay", tape, "--expect", other).stderr
+        self.assertIn("other.expected:1:", told)
+        self.assertIn(first, told)
+        self.assertIn("something else", self.text(other))
+        self.expect(0, "replay", tape, "--rebuild", other)
+        self.assertEqual(self.text(other), text)
+
+    def test_a_tape_that_is_none_is_refused_with_its_line(self):
+        self.assertIn("line 2", self.expect(3, "replay", self.file("x.tape", "origin = device\n< 5 0g\n")).stderr)
+        self.expect(1, "replay", os.path.join(self.folder, "nothing.tape"))
+        self.assertIn("driver", self.expect(3, "replay", "--print", self.file("y.tape", "origin = device\n")).stderr)
+        tape, _ = self.paths("temper-x")
+        self.assertIn("--print", self.expect(3, "replay", tape).stderr)
+
+    def transfers(self, name):
+        """(direction, bytes) of a tape."""
+        lines = [line.split() for line in self.text(self.paths(name)[0]).split("\n") if line[:2] in ("< ", "> ", "! ")]
+        return [(line[0], bytes.fromhex("".join(line[2:]))) for line in lines]
+
+    def play(self, name, *words):
+        child = subprocess.Popen([os.path.join(BIN, "axiscal"), "replay", self.paths(name)[0], "--fast", "--json", *words],
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (child.kill(), child.wait(), child.stdout.close(), child.stderr.close()))
+        ready = json.loads(child.stdout.readline())
+        self.assertTrue(ready["ready"])
+        return child, ready["link"]
+
+    def reopened(self, path):
+        """The terminal that a link leads to once it is there again: nobody can open one whose near end is gone."""
+        end = time.monotonic() + 30
+        while True:
+            self.assertLess(time.monotonic(), end, "the terminal is not back")
+            try:
+                return os.open(path, os.O_RDWR | os.O_NOCTTY)
+            except OSError:
+                time.sleep(0.01)
+
+    def test_a_terminal_answers_and_is_unplugged_as_on_the_tape(self):
+        path = os.path.join(self.folder, "gauge")
+        child, link = self.play("gauge-nd-28x", "--link", path)
+        self.assertEqual(link, "serial:" + path)
+        transfers = self.transfers("gauge-nd-28x")
+        self.assertEqual([direction for direction, _ in transfers].count("!"), 2)
+        tty = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        for place, (direction, content) in enumerate(transfers):
+            if direction == ">":
+                os.write(tty, content)
+            while direction == "<" and content:
+                heard = os.read(tty, len(content))
+                self.assertTrue(heard and content.startswith(heard), f"{heard} is not {content}")
+                content = content[len(heard):]
+            if direction == "!":
+                with self.assertRaises(OSError):  # EIO: the other end is gone
+                    self.assertEqual(os.read(tty, 1), b"")
+                    raise OSError
+                os.close(tty)
+                if place + 1 < len(transfers):
+                    tty = self.reopened(path)
+        self.assertEqual(child.wait(30), 0)
+
+    def test_a_port_answers_as_the_tape_does(self):
+        child, link = self.play("ids3010-corrects-twice")
+        _, host, port = link.split(":")
+        with socket.create_connection((host, int(port)), 20) as wire:
+            for direction, content in self.transfers("ids3010-corrects-twice"):
+                if direction == ">":
+                    wire.sendall(content)
+                while direction == "<" and content:
+                    heard = wire.recv(len(content))
+                    self.assertTrue(heard and content.startswith(heard), f"{heard} is not {content}")
+                    content = content[len(heard):]
+        self.assertEqual(child.wait(30), 0)
+
+    def test_a_program_that_writes_something_else_is_told_so(self):
+        child, link = self.play("ids3010-corrects-twice")
+        _, host, port = link.split(":")
+        [asked] = [content for direction, content in self.transfers("ids3010-corrects-twice")[:1] if direction == ">"]
+        with socket.create_connection((host, int(port)), 20) as wire:
+            wire.sendall(b"?" * len(asked))
+            self.assertEqual(child.wait(30), 7)
+        self.assertIn("transfer 1 of the tape", child.stderr.read())
 
 
 class Incomplete(Scratch):

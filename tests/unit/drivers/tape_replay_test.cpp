@@ -1,5 +1,6 @@
 // Every instrument's tape under virtual time, compared with its expectation to the last digit.
 #include "drivers/link/tape_link.hpp"
+#include "drivers/link/tape_recording.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/source_dir.hpp"
@@ -59,6 +60,41 @@ TEST_P(TapeReplay, GivesExactlyWhatIsExpected) {
     scheduler.run_for(std::chrono::minutes{1});
     sink.lines.push_back(testing::text_of(instrument->counters()));
     EXPECT_EQ(sink.text(), file_text(which.tape + ".expected"));
+}
+
+/// Direction and bytes of each transfer, without its time.
+std::string transfers_of(const Tape& tape) {
+    std::string text;
+    for (const TapeEntry& entry : tape.entries) {
+        text += static_cast<char>(entry.direction);
+        for (const std::byte byte : entry.bytes)
+            text += " " + std::to_string(std::to_integer<int>(byte));
+        text += "\n";
+    }
+    return text;
+}
+
+/// A driver writes when it is ready, which may be earlier than the tape was made.
+TEST_P(TapeReplay, IsRecordedAsItWasPlayed) {
+    const TapeCase& which = GetParam();
+    const auto tape = parse_tape(file_text(which.tape + ".tape"));
+    ASSERT_TRUE(tape);
+    testing::VirtualScheduler scheduler;
+    TapePlayer player{scheduler, *tape};
+    std::stringstream copy;
+    RecordingOpener recorder{scheduler, player, copy};
+    testing::SampleRecorder sink{scheduler.now()};
+    const auto instrument = testing::instrument(which.driver, which.keys);
+    const InstrumentContext context{&scheduler, &recorder, &sink};
+    boost::asio::co_spawn(scheduler.executor(), run_to_the_end(*instrument, context, player, sink),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::minutes{1});
+    const auto recorded = parse_tape("origin = simulator\n" + copy.str());
+    ASSERT_TRUE(recorded) << describe(recorded.error());
+    // What ends the tape is met as a closed link.
+    std::string wanted = transfers_of(*tape), got = transfers_of(*recorded);
+    if (got == wanted + "!\n") wanted += "!\n";
+    EXPECT_EQ(got, wanted);
 }
 
 const std::string umd_keys = "link = \"serial:/dev/null\"\nwavelength = \"632.991354 nm\"\n"

@@ -1,0 +1,51 @@
+#pragma once
+// Records whatever an instrument opens: serial and TCP links, HID reports, USB transfers, CAN
+// frames, Modbus lines. Loop-bound.
+
+#include "drivers/link/modbus_bus.hpp"
+#include "drivers/link/near_wire.hpp"
+#include "drivers/link/tape_link.hpp"
+
+#include <iosfwd>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace axiscal {
+
+/// Opens by another opener and writes all that passes to a stream, as the lines of a tape; offset 0
+/// is the first opening. A Modbus library opens its line by itself: it is led over a wire made
+/// here, and what passes on that is recorded. `scheduler`, `inner` and `tape` are borrowed and
+/// must outlive the opener, and it the instrument's coroutines.
+class RecordingOpener final : public LinkOpener {
+public:
+    RecordingOpener(Scheduler& scheduler, LinkOpener& inner, std::ostream& tape);
+    ~RecordingOpener() override;
+    RecordingOpener(const RecordingOpener&) = delete;
+    RecordingOpener& operator=(const RecordingOpener&) = delete;
+
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                 MonotonicTime deadline) override;
+    Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override;
+    Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override;
+    [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
+    /// What was opened last: "serial", "tcp", "usb", "hid" or "can"; empty before.
+    [[nodiscard]] std::string_view wire() const { return wire_; }
+
+private:
+    class Relay;
+    MonotonicTime begin();
+    Result<LinkSettings> lead_over_here(const LinkSettings& settings);
+
+    Scheduler& scheduler_;
+    LinkOpener& inner_;
+    std::ostream& tape_;
+    std::optional<MonotonicTime> begin_;
+    std::string_view wire_;
+    std::vector<std::unique_ptr<Relay>> relays_;
+    ModbusBuses buses_;
+};
+
+} // namespace axiscal
