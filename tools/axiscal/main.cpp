@@ -297,7 +297,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
 
     auto* write = app.add_subcommand(
         "export", "certificate.json, .csv and .pdf of a closed run file, or of a circular case");
-    write->add_option("FILE", options.file, "run file, or the JSON of a circular case")->required();
+    write->add_option("RUN", options.file, "run file, or the JSON of a circular case")->required();
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
     write->callback(
         [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });

@@ -63,7 +63,8 @@ std::string symbol_with_index(const std::string& key, const CircularCertificate&
 
 std::string angle_words(double angle_rad) {
     constexpr double per_degree = 360 / turn;
-    return fixed(folded_angle(angle_rad) * per_degree, 2) + "°";
+    const double hundredths = std::round(folded_angle(angle_rad) * per_degree * 100);
+    return fixed(hundredths < 36000 ? hundredths / 100 : 0, 2) + "°"; // a whole turn less a bit
 }
 
 int quadrant_at(double angle_rad) {

@@ -284,6 +284,8 @@ TEST(CircularWording, NamesTheQuadrantThatATraceGoesIntoAndComesOutOf) {
     const double degree_rad = test::one_degree;
     const CircularTrace ccw{Sense::ccw, {0, 1, 359.5 * degree_rad}, {0, 0, 0}};
     EXPECT_EQ(start_words(ccw), "0.00°, into quadrant 1");
+    const CircularTrace turned{Sense::cw, {(360 - 1e-9) * degree_rad, 1, 0}, {0, 0, 0}};
+    EXPECT_EQ(start_words(turned), "0.00°, into quadrant 4");
     EXPECT_EQ(end_words(ccw), "359.50°, out of quadrant 4");
     const CircularTrace cw{Sense::cw, {0, -1, -270 * degree_rad}, {0, 0, 0}};
     EXPECT_EQ(start_words(cw), "0.00°, into quadrant 4");
