@@ -29,7 +29,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
-            "export": ["FILE", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
+            "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
             "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild"],
