@@ -1,6 +1,6 @@
 // Circles in LinuxCNC's dialect. Source: LinuxCNC 2.9 G-code reference (G2 G3 with centre words,
-// incremental by G91.1; G17 G18 G19; M62..M68, M66). In every plane G3 turns the first axis to the
-// second (X to Y, Z to X, Y to Z). Wiring as for the linear cycle (docs/trigger.md).
+// incremental by G91.1, P turns; G17 G18 G19; M62..M68, M66). In every plane G3 turns the first
+// axis to the second (X to Y, Z to X, Y to Z). Wiring as for the linear cycle (docs/trigger.md).
 #include "acquisition/program/circular_program.hpp"
 
 #include <array>
@@ -101,23 +101,16 @@ private:
         dwell(handshake() ? rest_s : halt_s);
     }
 
-    /// Whole turns, then what is left; tangents, so that nothing brakes between them.
+    /// One arc of as many turns as it takes (P), so that nothing brakes within.
     void turn(double radius_mm, double to_deg) {
-        double left = to_deg - here_deg_;
-        while (std::fabs(left) > least_arc_deg) {
-            const double step =
-                std::fabs(left) >= 360 - least_arc_deg ? std::copysign(360, left) : left;
-            arc(radius_mm, here_deg_ + step, step > 0);
-            left -= step;
-        }
+        const double turned = to_deg - here_deg_, angle = here_deg_ * one_degree;
         here_deg_ = to_deg;
-    }
-    void arc(double radius_mm, double to_deg, bool ccw) {
-        const double angle = here_deg_ * one_degree;
-        line((ccw ? "G3 " : "G2 ") + place(radius_mm, to_deg) + " " +
+        if (std::fabs(turned) < least_arc_deg) return;
+        const int turns = static_cast<int>(std::ceil(std::fabs(turned) / 360 - least_arc_deg));
+        line((turned > 0 ? "G3 " : "G2 ") + place(radius_mm, to_deg) + " " +
              centre_word(0, -radius_mm * std::cos(angle)) + " " +
-             centre_word(1, -radius_mm * std::sin(angle)));
-        here_deg_ = to_deg;
+             centre_word(1, -radius_mm * std::sin(angle)) +
+             (turns > 1 ? " P" + std::to_string(turns) : ""));
     }
 
     void request(int sequence) {

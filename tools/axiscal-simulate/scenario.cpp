@@ -198,6 +198,25 @@ void read_sensor(Fields& f, SensorScenario& sensor) {
     if (!on_tcp.contains(sensor.kind) && sensor.path.empty()) f.refuse("path", "is missing");
 }
 
+void read_ballbar(Fields& f, BallbarScenario& bar) {
+    f.read("path", bar.path);
+    f.one_of("plane", bar.plane, {"XY", "YZ", "ZX"});
+    f.read("centre_first_mm", bar.centre_first_mm);
+    f.read("centre_second_mm", bar.centre_second_mm);
+    f.positive("radius_mm", bar.radius_mm);
+    f.read("start_first_mm", bar.start_first_mm);
+    f.read("start_second_mm", bar.start_second_mm);
+    f.read("scale_first_um_per_m", bar.scale_first_um_per_m);
+    f.read("scale_second_um_per_m", bar.scale_second_um_per_m);
+    f.read("squareness_um_per_m", bar.squareness_um_per_m);
+    f.read("backlash_first_um", bar.backlash_first_um);
+    f.read("backlash_second_um", bar.backlash_second_um);
+    f.read("cyclic_first_um", bar.cyclic_first_um);
+    f.positive("cyclic_period_mm", bar.cyclic_period_mm);
+    f.read("noise_um", bar.noise_um);
+    if (bar.path.empty()) f.refuse("path", "is missing");
+}
+
 void read_cnc(Fields& f, CncScenario& cnc) {
     f.one_of("shape", cnc.shape, {"sequence-block", "single-register", "coil-and-index", "dwell"});
     f.one_of("transport", cnc.transport, {"tcp", "rtu", "server"});
@@ -242,6 +261,7 @@ void read_all(Fields& f, Scenario& s) {
     });
     f.table("laser", [&](Fields& t) { read_laser(t, s.laser); });
     f.tables("sensor", [&](Fields& t) { read_sensor(t, s.sensors.emplace_back()); });
+    f.table("ballbar", [&](Fields& t) { read_ballbar(t, s.ballbar.emplace()); });
     f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });
     f.table("truth", [&](Fields& t) {
         t.positive("window_s", s.truth.window_s);

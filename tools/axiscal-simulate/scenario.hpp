@@ -66,6 +66,18 @@ struct LaserScenario {
     bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
 };
 
+/// A ballbar between spindle and table, and what it shall find; ways of its plane move it.
+struct BallbarScenario {
+    std::string path, plane = "XY"; ///< letters of the first and the second axis
+    double centre_first_mm = 0, centre_second_mm = 0, radius_mm = 100;
+    double start_first_mm = 0, start_second_mm = 0;
+    double scale_first_um_per_m = 0, scale_second_um_per_m = 0;
+    double squareness_um_per_m = 0; ///< > 0: the + axes enclose more than 90 degrees
+    double backlash_first_um = 0, backlash_second_um = 0; ///< lost motion
+    double cyclic_first_um = 0, cyclic_period_mm = 10;    ///< amplitude
+    double noise_um = 0;                                  ///< sigma per sample
+};
+
 struct SensorScenario {
     std::string name, kind; ///< dracal-vcp, tm-th8, comet ... (README.md)
     std::string path = {};  ///< symlink to the pty; empty: Modbus TCP
@@ -105,6 +117,7 @@ struct Scenario {
     AirScenario air;
     LaserScenario laser;
     std::vector<SensorScenario> sensors;
+    std::optional<BallbarScenario> ballbar;
     std::optional<CncScenario> cnc;
     TruthScenario truth;
 };

@@ -1,6 +1,7 @@
 #include "simulator.hpp"
 
 #include "truth.hpp"
+#include "wire/bar_face.hpp"
 #include "wire/ids_face.hpp"
 #include "wire/sensor_faces.hpp"
 
@@ -12,9 +13,17 @@
 
 namespace axiscal::simulate {
 
+namespace {
+PlanePoint start_of(const Scenario& scenario) {
+    const BallbarScenario bar = scenario.ballbar.value_or(BallbarScenario{});
+    return {bar.start_first_mm, bar.start_second_mm};
+}
+} // namespace
+
 Simulator::Simulator(const Scenario& scenario)
     : scenario_{scenario}
     , axis_{scenario.axis.start_mm, scenario.axis.acceleration_mm_per_s2}
+    , plane_{start_of(scenario), scenario.axis.acceleration_mm_per_s2}
     , lines_{scenario.cnc.value_or(CncScenario{})} {}
 
 Simulator::~Simulator() {
@@ -43,8 +52,12 @@ Result<void> Simulator::open_faces() {
         AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_));
         sensors_.push_back(std::move(face));
     }
+    if (scenario_.ballbar) {
+        AXISCAL_TRY(Pty pty, Pty::open(scenario_.ballbar->path));
+        sensors_.push_back(std::make_unique<BarFace>(scenario_, std::move(pty), clock_, plane_));
+    }
     if (!scenario_.cnc) return {};
-    runner_ = std::make_unique<CncRunner>(scenario_, axis_, lines_, clock_);
+    runner_ = std::make_unique<CncRunner>(scenario_, axis_, plane_, lines_, clock_);
     if (scenario_.cnc->shape == "dwell") return {};
     if (scenario_.cnc->transport == "server") {
         AXISCAL_TRY(exchange_, CncServer::open(*scenario_.cnc, lines_, clock_));

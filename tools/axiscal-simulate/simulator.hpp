@@ -52,6 +52,7 @@ private:
     Scenario scenario_;
     SimClock clock_;
     CommandedAxis axis_;
+    CommandedPlane plane_;
     CncLines lines_;
     std::unique_ptr<LaserFace> laser_;
     std::vector<std::unique_ptr<Face>> sensors_;

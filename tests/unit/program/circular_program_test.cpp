@@ -79,6 +79,8 @@ Driven follow(const CircularOrder& order, char first, char second) {
                 std::fmod((ccw ? turned : -turned) + 4 * std::numbers::pi, 2 * std::numbers::pi);
             if (turned < 1e-6 || turned > 2 * std::numbers::pi - 1e-6)
                 turned = 2 * std::numbers::pi;
+            if (block.word.contains('P')) // turns in all, the last one perhaps in part
+                turned += 2 * std::numbers::pi * (block.word['P'] - 1);
             if (std::fabs(radius - 100) < 1e-3)
                 (ccw ? driven.ccw_deg : driven.cw_deg) += turned * 180 / std::numbers::pi;
         }

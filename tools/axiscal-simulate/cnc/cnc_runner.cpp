@@ -26,20 +26,26 @@ bool is_marlin(const std::string& path) {
     return path.ends_with(".gcode") || path.ends_with(".marlin");
 }
 
-Result<ProgramRun> parse_program(const std::string& text, bool marlin, char letter) {
+Result<ProgramRun>
+parse_program(const std::string& text, bool marlin, char letter, const std::string& plane) {
     if (marlin) {
         AXISCAL_TRY(auto program, MarlinProgram::parse(text, letter));
         return [program = std::move(program)](MachineActions& machine) {
             return program.run(machine);
         };
     }
-    AXISCAL_TRY(auto program, LinuxcncProgram::parse(text, letter));
+    AXISCAL_TRY(auto program, LinuxcncProgram::parse(text, letter, plane));
     return [program = std::move(program)](MachineActions& machine) { return program.run(machine); };
 }
 
-CncRunner::CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock)
+CncRunner::CncRunner(const Scenario& scenario,
+                     CommandedAxis& axis,
+                     CommandedPlane& plane,
+                     CncLines& lines,
+                     SimClock clock)
     : scenario_{scenario}
     , axis_{axis}
+    , plane_{plane}
     , lines_{lines}
     , clock_{clock}
     , motion_fault_{scenario.cnc ? scenario.cnc->motion_fault : ""} {}
@@ -51,7 +57,8 @@ CncRunner::~CncRunner() {
 
 Result<void> CncRunner::start(const std::string& path) {
     AXISCAL_TRY(const std::string text, read_program(path));
-    AXISCAL_TRY(auto program, parse_program(text, is_marlin(path), scenario_.axis.letter));
+    AXISCAL_TRY(auto program, parse_program(text, is_marlin(path), scenario_.axis.letter,
+                                            scenario_.ballbar ? scenario_.ballbar->plane : ""));
     const std::lock_guard lock{mutex_};
     if (state_ == "running") return fail(Fault::busy, "a part program is running");
     if (thread_.joinable()) thread_.join();
@@ -144,6 +151,10 @@ void CncRunner::move(double target_mm, double feed_mm_per_min) {
     const double feed = feed_mm_per_min > 0 ? std::min(feed_mm_per_min, fastest) : fastest;
     const double end_s = axis_.move(clock_.now_s(), physical_mm(target_mm), feed / 60.0);
     if (!sleep_until(end_s)) axis_.halt(clock_.now_s());
+}
+
+void CncRunner::trace(const PlaneMove& way) {
+    sleep_until(plane_.move(clock_.now_s(), way));
 }
 
 void CncRunner::dwell(double seconds) {

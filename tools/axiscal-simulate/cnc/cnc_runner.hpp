@@ -19,14 +19,20 @@ namespace axiscal::simulate {
 /// A program that was understood; runs to its end. @errors refused where it aborts.
 using ProgramRun = std::function<Result<void>(MachineActions&)>;
 /// @errors bad_request with the number of the line that is not understood.
-Result<ProgramRun> parse_program(const std::string& text, bool marlin, char letter);
+/// `plane`: of a machine with a ballbar.
+Result<ProgramRun>
+parse_program(const std::string& text, bool marlin, char letter, const std::string& plane = {});
 Result<std::string> read_program(const std::string& path);
 /// Told by the name of the file: .gcode and .marlin are Marlin's.
 bool is_marlin(const std::string& path);
 
 class CncRunner final : private MachineActions {
 public:
-    CncRunner(const Scenario& scenario, CommandedAxis& axis, CncLines& lines, SimClock clock);
+    CncRunner(const Scenario& scenario,
+              CommandedAxis& axis,
+              CommandedPlane& plane,
+              CncLines& lines,
+              SimClock clock);
     ~CncRunner() override;
     CncRunner(const CncRunner&) = delete;
     CncRunner& operator=(const CncRunner&) = delete;
@@ -41,6 +47,7 @@ public:
 
 private:
     void move(double target_mm, double feed_mm_per_min) override;
+    void trace(const PlaneMove& way) override;
     void dwell(double seconds) override;
     void set_analog(int output, double value) override;
     void set_digital(int output, bool on) override;
@@ -59,6 +66,7 @@ private:
 
     Scenario scenario_;
     CommandedAxis& axis_;
+    CommandedPlane& plane_;
     CncLines& lines_;
     SimClock clock_;
     mutable std::mutex mutex_; ///< guards all below

@@ -23,6 +23,8 @@ using Codes = std::set<int>;
 /// Codes without effect on one linear axis in mm and mm/min.
 const Codes settled_g{170, 210, 400, 490, 540, 610, 611, 640, 900, 940};
 const Codes known_g{0, 10, 40, 800};
+/// Of a program for two axes: which plane, and centre words relative to the begin of an arc.
+const Codes settled_plane_g{180, 190, 911}, known_plane_g{20, 30};
 const Codes known_m{20, 300, 640, 650, 660, 680};
 
 struct Words {
@@ -85,14 +87,25 @@ std::string code_name(char letter, int tenths) {
     return tenths % 10 == 0 ? name : name + "." + std::to_string(tenths % 10);
 }
 
+/// X, Y, Z have I, J, K.
+char centre_letter(char axis) {
+    return static_cast<char>('i' + (axis - 'x'));
+}
+
 /// Every word must have somebody who uses it, as LinuxCNC demands.
-Result<void> check_words(const Words& w, int line, char axis) {
+Result<void> check_words(const Words& w, int line, char axis, const std::string& plane) {
+    const auto known_for_plane = [&](int g) {
+        return !plane.empty() && (settled_plane_g.contains(g) || known_plane_g.contains(g));
+    };
     for (const int g : w.g)
-        if (!settled_g.contains(g) && !known_g.contains(g))
+        if (!settled_g.contains(g) && !known_g.contains(g) && !known_for_plane(g))
             return at_line(line, code_name('g', g) + " is not understood");
     for (const int m : w.m)
         if (!known_m.contains(m)) return at_line(line, code_name('m', m) + " is not understood");
     std::set<char> used{'n', 'f', axis};
+    used.insert(plane.begin(), plane.end());
+    if (w.g.contains(20) || w.g.contains(30))
+        used.insert({'p', centre_letter(plane[0]), centre_letter(plane[1])});
     if (w.g.contains(40) || w.g.contains(640)) used.insert('p');
     if (w.m.contains(640) || w.m.contains(650)) used.insert('p');
     if (w.m.contains(660)) used.insert({'p', 'l', 'q'});
@@ -193,7 +206,7 @@ Result<void> LinuxcncProgram::check() const {
             if (!assigned) return assigned;
         } else if (block.kind == Kind::words) {
             AXISCAL_TRY(const Words words, read_words(block.text, block.line, state.parameters));
-            auto checked = check_words(words, block.line, axis_letter_);
+            auto checked = check_words(words, block.line, axis_letter_, plane_);
             if (!checked) return checked;
         } else if (!block.text.empty() && block.kind != Kind::abort) {
             auto tested = test(block, state);
@@ -203,8 +216,11 @@ Result<void> LinuxcncProgram::check() const {
     return {};
 }
 
-Result<LinuxcncProgram> LinuxcncProgram::parse(const std::string& text, char axis_letter) {
+Result<LinuxcncProgram>
+LinuxcncProgram::parse(const std::string& text, char axis_letter, const std::string& plane) {
     LinuxcncProgram program;
+    for (const char letter : plane)
+        program.plane_ += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
     program.axis_letter_ = static_cast<char>(std::tolower(static_cast<unsigned char>(axis_letter)));
     std::istringstream lines{text};
     int number = 0;
@@ -253,7 +269,7 @@ void LinuxcncProgram::skip_to_endif(State& state) const {
 Result<void>
 LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions& machine) const {
     AXISCAL_TRY(const Words w, read_words(block.text, block.line, state.parameters));
-    auto checked = check_words(w, block.line, axis_letter_);
+    auto checked = check_words(w, block.line, axis_letter_, plane_);
     if (!checked) return checked;
     const auto value = [&](char letter, double otherwise = 0) {
         const auto found = w.values.find(letter);
@@ -262,7 +278,7 @@ LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions&
     const auto whole = [&](char letter) { return static_cast<int>(std::lround(value(letter))); };
     state.feed_mm_per_min = value('f', state.feed_mm_per_min);
     if (w.g.contains(800)) state.motion.reset();
-    for (const int g : {0, 10})
+    for (const int g : {0, 10, 20, 30})
         if (w.g.contains(g)) state.motion = g;
     if (w.m.contains(640)) machine.set_digital(whole('p'), true);
     if (w.m.contains(650)) machine.set_digital(whole('p'), false);
@@ -276,7 +292,17 @@ LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions&
         state.parameters.values["5399"] = came ? (machine.input(whole('p')) ? 1 : 0) : -1;
     }
     if (w.g.contains(40)) machine.dwell(value('p'));
-    if (w.values.contains(axis_letter_)) {
+    if (!plane_.empty() && w.values.contains(plane_[0]) && w.values.contains(plane_[1])) {
+        if (!state.motion || *state.motion == 0 || !(state.feed_mm_per_min > 0))
+            return at_line(block.line, "a way in the plane needs G1, G2 or G3 and a feed");
+        const bool arc = *state.motion > 10;
+        machine.trace({{value(plane_[0]), value(plane_[1])},
+                       arc,
+                       *state.motion == 30,
+                       {value(centre_letter(plane_[0])), value(centre_letter(plane_[1]))},
+                       state.feed_mm_per_min,
+                       static_cast<int>(std::lround(value('p', 1)))});
+    } else if (w.values.contains(axis_letter_)) {
         if (!state.motion) return at_line(block.line, "an axis word without G0 or G1");
         if (*state.motion == 10 && !(state.feed_mm_per_min > 0))
             return at_line(block.line, "G1 with zero feed rate");

@@ -15,7 +15,10 @@ namespace axiscal::simulate {
 class LinuxcncProgram {
 public:
     /// @errors bad_request: "line 12: ...".
-    static Result<LinuxcncProgram> parse(const std::string& text, char axis_letter);
+    /// `plane`: letters of two axes ("ZX") whose ways and arcs (G1 G2 G3 with both words, centre
+    /// words relative to the begin) go to MachineActions::trace; "": none.
+    static Result<LinuxcncProgram>
+    parse(const std::string& text, char axis_letter, const std::string& plane = {});
     /// Runs to M2, the end of the file, (ABORT,...) or a stop. @errors refused for ABORT and for
     /// what only shows while running.
     Result<void> run(MachineActions& machine) const;
@@ -42,6 +45,7 @@ private:
     void skip_to_endif(State& state) const;
 
     char axis_letter_ = 'x';
+    std::string plane_; ///< lower case; empty: one axis alone
     std::vector<Block> blocks_;
 };
 

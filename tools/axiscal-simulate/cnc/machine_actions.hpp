@@ -1,6 +1,8 @@
 #pragma once
 // What a part program can ask of the machine. Calls return when the action is done.
 
+#include "cnc/commanded_plane.hpp"
+
 #include <string>
 
 namespace axiscal::simulate {
@@ -10,6 +12,8 @@ public:
     virtual ~MachineActions() = default;
     /// To an absolute coordinate; feed 0 is the rapid.
     virtual void move(double target_mm, double feed_mm_per_min) = 0;
+    /// A way in the plane; a machine of one axis has none.
+    virtual void trace(const PlaneMove& /*way*/) {}
     virtual void dwell(double seconds) = 0;
     virtual void set_analog(int output, double value) = 0;
     virtual void set_digital(int output, bool on) = 0;

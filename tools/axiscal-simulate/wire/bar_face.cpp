@@ -1,0 +1,69 @@
+#include "wire/bar_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+namespace axiscal::simulate {
+
+namespace {
+/// Play of an axis without lost motion; only keeps the state of the operator defined.
+constexpr double least_play_mm = 1e-7;
+
+double play_mm(double backlash_um) {
+    return std::max(backlash_um * 1e-3, least_play_mm);
+}
+
+LaserScenario counter_of(const BallbarScenario& bar) {
+    LaserScenario laser;
+    laser.kind = "umd2-heterodyne";
+    laser.path = bar.path;
+    laser.counts_per_cycle = 1;
+    return laser;
+}
+} // namespace
+
+TrueCircle::TrueCircle(const BallbarScenario& bar, std::uint64_t seed)
+    : bar_{bar}
+    , noise_{seed}
+    , first_{play_mm(bar.backlash_first_um)}
+    , second_{play_mm(bar.backlash_second_um)} {}
+
+double TrueCircle::reading_mm(PlanePoint drive, std::uint64_t sample) {
+    const double a = drive[0] - bar_.centre_first_mm, b = drive[1] - bar_.centre_second_mm;
+    // the slide trails the drive by half the lost motion: Play gives -1 after a forward way
+    const double first_lag = first_.follow(drive[0]) * bar_.backlash_first_um * 0.5e-3;
+    const double second_lag = second_.follow(drive[1]) * bar_.backlash_second_um * 0.5e-3;
+    const double cyclic =
+        bar_.cyclic_first_um * 1e-3 * std::sin(2 * std::numbers::pi * a / bar_.cyclic_period_mm);
+    // an angle of more than 90 degrees: a way along the second + axis goes back along the first
+    const double x = a * (1 + bar_.scale_first_um_per_m * 1e-6) -
+                     b * bar_.squareness_um_per_m * 1e-6 + first_lag + cyclic;
+    const double y = b * (1 + bar_.scale_second_um_per_m * 1e-6) + second_lag;
+    return std::hypot(x, y) - bar_.radius_mm +
+           bar_.noise_um * 1e-3 * noise_.normal(NoiseStream::axis, sample);
+}
+
+BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const CommandedPlane& plane)
+    : Face{"ballbar"}
+    , path_{scenario.ballbar->path}
+    , pty_{std::move(pty)}
+    , clock_{clock}
+    , plane_{plane}
+    , circle_{*scenario.ballbar, scenario.seed}
+    , laser_{counter_of(*scenario.ballbar)}
+    , counter_{laser_} {}
+
+void BarFace::run(std::stop_token stop) {
+    for (std::uint64_t sample = 0; !stop.stop_requested(); ++sample) {
+        const double due_s = static_cast<double>(sample) / counter_.rate_hz();
+        std::this_thread::sleep_until(clock_.at(due_s));
+        const double reading_mm = circle_.reading_mm(plane_.position(due_s), sample);
+        const double cycles = laser_.fold * reading_mm / (laser_.wavelength_nm * 1e-6);
+        const UmdRecord record = counter_.next(cycles);
+        if (behaviour() == Behaviour::on) pty_.write(encode(record));
+    }
+}
+
+} // namespace axiscal::simulate

@@ -1,0 +1,45 @@
+#pragma once
+// A ballbar whose length a µMD counter reads, on its pty: the simulated machine's circle with its
+// hidden errors. The counter was zeroed at the nominal radius.
+
+#include "cnc/commanded_plane.hpp"
+#include "seeded_noise.hpp"
+#include "sim_clock.hpp"
+#include "simulated_machine.hpp"
+#include "wire/face.hpp"
+#include "wire/pty.hpp"
+#include "wire/umd_counter.hpp"
+
+namespace axiscal::simulate {
+
+/// What the bar sees of two axes with errors. One thread.
+class TrueCircle {
+public:
+    TrueCircle(const BallbarScenario& bar, std::uint64_t seed);
+    /// Length of the bar minus the nominal radius when the drives stand here, mm.
+    double reading_mm(PlanePoint drive, std::uint64_t sample);
+
+private:
+    BallbarScenario bar_;
+    SeededNoise noise_;
+    Play first_, second_;
+};
+
+class BarFace final : public Face {
+public:
+    BarFace(const Scenario& scenario, Pty pty, SimClock clock, const CommandedPlane& plane);
+    /// Free running: record k belongs to the instant k / rate, however late the thread wakes.
+    void run(std::stop_token stop) override;
+    [[nodiscard]] nlohmann::json place() const override { return {{"path", path_}}; }
+
+private:
+    std::string path_;
+    Pty pty_;
+    SimClock clock_;
+    const CommandedPlane& plane_;
+    TrueCircle circle_;
+    LaserScenario laser_;
+    UmdCounter counter_;
+};
+
+} // namespace axiscal::simulate
