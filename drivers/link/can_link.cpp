@@ -29,8 +29,9 @@ namespace {
 constexpr std::size_t batch = 64;
 /// The kernel clamps it to net.core.rmem_max; half a second of a 1 kHz stream even then.
 constexpr int receive_buffer = 1 << 20;
-/// Older than this a stamp was made before the computer's wall clock was set.
-constexpr Duration oldest_stamp = std::chrono::seconds{2};
+/// Older than this a stamp was made before the computer's wall clock was set. A computer that stood
+/// still finds frames that waited for seconds, with right stamps.
+constexpr Duration oldest_stamp = std::chrono::minutes{1};
 /// The controller's queue is full while the bus is stuck; then it is asked again.
 constexpr Duration queue_pause = std::chrono::milliseconds{10};
 
