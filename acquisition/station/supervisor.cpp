@@ -138,8 +138,11 @@ Task<void> Supervisor::keep_running(Seat& seat) {
 
 void Supervisor::set_state(Seat& seat, InstrumentState state) {
     if (seat.view.state == state) return;
-    // The next outage tells its reason again, be it the same one.
-    if (state == InstrumentState::available) seat.told_note.clear();
+    // The next outage tells its reason again, be it the same one, and however soon it comes.
+    if (state == InstrumentState::available) {
+        seat.told_note.clear();
+        seat.told_at.reset();
+    }
     seat.view.state = state;
     seat.view.since = scheduler_.now();
     listener_.on_instrument_state(seat.view);

@@ -54,6 +54,18 @@ TEST_F(Supervision, EveryOutageTellsItsReasonOnce) {
     }
 }
 
+/// Notes of one state follow each other after two seconds only.
+TEST_F(Supervision, AnOutageSoonAfterAnotherTellsItsReasonToo) {
+    life.run(5s);
+    for (int outage = 1; outage <= 2; ++outage) {
+        life.air->unplugged = true;
+        life.run(600ms);
+        EXPECT_EQ(life.notes_with("unplugged"), outage);
+        life.air->unplugged = false;
+        life.run(1s);
+    }
+}
+
 TEST_F(Supervision, SilenceIsUnavailableAndBadValuesAreFaulty) {
     life.air->silent = true;
     life.laser->quality = Quality::beam_lost;
