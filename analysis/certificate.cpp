@@ -260,7 +260,8 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
                             {},
                             {},
                             std::move(revisions),
-                            std::move(compensated.set_aside)};
+                            std::move(compensated.set_aside),
+                            {}};
     fill_environment(certificate);
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);

@@ -3,6 +3,7 @@
 // Pure.
 
 #include "analysis/positioning_accuracy.hpp"
+#include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
 #include "analysis/thermal_compensation.hpp"
@@ -49,6 +50,7 @@ struct Certificate {
     RunUncertainty uncertainty;
     RunRevisions revisions;
     std::vector<SetAside> set_aside; ///< drawn, listed and counted; in no figure
+    RunAttachments attachments;      ///< of the same file; left empty by make_certificate()
 };
 
 /// The whole road from a closed run to its certificate.

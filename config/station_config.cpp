@@ -132,7 +132,7 @@ StationConfig read_station(SettingsDocument& document) {
     read_trigger(root.table("trigger"), units, config.cycle, config.trigger);
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
-    config.uncertainty = read_uncertainty(root, config.cycle.axis_kind);
+    config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);
     config.statements = read_statements(root.table("certificate"), units, config);
     std::stable_sort(config.warnings.begin(), config.warnings.end(),
                      [](const Refusal& a, const Refusal& b) { return a.line < b.line; });

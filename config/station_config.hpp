@@ -132,7 +132,7 @@ struct StationConfig {
     std::string station = "station";
     std::string state_directory = "/var/lib/axiscal"; ///< runs/, outbox/, token
     AxisConfig axis;
-    std::optional<RoleConfig> ballbar; ///< which channel measures the ballbar's length, if any
+    std::optional<RoleConfig> ballbar;      ///< which channel measures the ballbar's length, if any
     std::optional<CircularConfig> circular; ///< absent: no circular test
     CycleConfig cycle;
     CaptureConfig capture;
@@ -141,6 +141,8 @@ struct StationConfig {
     ConsoleConfig console;
     PublishConfig publish;
     std::optional<UncertaintySetup> uncertainty; ///< of a linear axis; absent: no such table
+    /// Drift test that E_VE comes from: its run id, or "latest"; empty: uncertainty->eve counts.
+    std::string eve_run;
     Statements statements;
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.

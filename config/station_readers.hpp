@@ -59,8 +59,9 @@ void read_trigger(Settings trigger,
                   AxisUnits units,
                   const CycleConfig& cycle,
                   TriggerConfig& config);
-/// Nothing without the table.
-std::optional<UncertaintySetup> read_uncertainty(Settings root, AxisKind kind);
+/// Nothing without the table. `eve_run`: StationConfig::eve_run.
+std::optional<UncertaintySetup>
+read_uncertainty(Settings root, AxisKind kind, std::string& eve_run);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.

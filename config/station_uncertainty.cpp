@@ -49,7 +49,8 @@ void read_targets(Settings target, UncertaintySetup& setup) {
 
 } // namespace
 
-std::optional<UncertaintySetup> read_uncertainty(Settings root, AxisKind kind) {
+std::optional<UncertaintySetup>
+read_uncertainty(Settings root, AxisKind kind, std::string& eve_run) {
     const bool stated = root.has("uncertainty");
     Settings table = root.table("uncertainty");
     if (stated && kind == AxisKind::rotary) {
@@ -61,6 +62,8 @@ std::optional<UncertaintySetup> read_uncertainty(Settings root, AxisKind kind) {
     read_device(table, setup);
     read_alignment(table, setup);
     read_machine_side(table, setup);
+    refuse_beside(table, "eve", "eve_run");
+    eve_run = table.text("eve_run", "");
     read_targets(table.table("target"), setup);
     return stated ? std::optional{std::move(setup)} : std::nullopt;
 }

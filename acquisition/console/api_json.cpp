@@ -74,6 +74,20 @@ Json to_json(const RunStatus& run) {
             {"certificate", run.certificate}};
 }
 
+Json to_json(const DriftView& drift) {
+    return {{"id", drift.run_id},
+            {"state", drift.state},
+            {"file", drift.file},
+            {"certificate", drift.certificate},
+            {"place_mm", drift.place_mm},
+            {"taken", drift.taken},
+            {"missing", drift.missing},
+            {"planned", drift.planned},
+            {"range_um", or_null(drift.range_um)},
+            {"seconds_left", or_null(drift.seconds_left)},
+            {"sentence", drift.sentence}};
+}
+
 Json trigger_json(const StationStatus& status) {
     const PortCounters& counters = status.trigger_counters;
     return {{"port", status.trigger},
@@ -152,6 +166,7 @@ nlohmann::ordered_json to_json(const StationStatus& status) {
             {"trigger", trigger_json(status)},
             {"run", status.run ? to_json(*status.run) : Json(nullptr)},
             {"run_open", status.run_open},
+            {"drift", status.drift ? to_json(*status.drift) : Json(nullptr)},
             {"outbox_entries", status.outbox.waiting},
             {"outbox", to_json(status.outbox)},
             {"notes", status.notes}};

@@ -2,7 +2,9 @@
 #include "acquisition/console/http_face.hpp"
 
 #include "acquisition/console/access.hpp"
+#include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
+#include "acquisition/console/drift_json.hpp"
 #include "drivers/spawn.hpp"
 
 #include <boost/asio/as_tuple.hpp>
@@ -224,6 +226,8 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
     if (request.method() != http::verb::get)
         co_return answer(request, http::status::method_not_allowed,
                          sentence(405, "GET reads, POST changes"));
+    if (request.target() == "/v1/alignment")
+        co_return answer(request, http::status::ok, to_json(station.alignment()));
     const StationStatus status = station.status();
     if (request.target() == "/v1/status")
         co_return answer(request, http::status::ok, to_json(status));
@@ -236,9 +240,10 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
     }
     co_return answer(request, http::status::not_found,
                      sentence(404, "known are GET /v1/status, GET /v1/instruments, GET "
-                                   "/v1/preflight, POST /v1/run, POST /v1/run/trigger, POST "
-                                   "/v1/run/abort, POST /v1/run/retake, POST /v1/run/exclude, POST "
-                                   "/v1/preflight"));
+                                   "/v1/preflight, GET /v1/alignment, POST /v1/run, POST "
+                                   "/v1/run/trigger, POST /v1/run/abort, POST /v1/run/retake, POST "
+                                   "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+                                   "/v1/drift"));
 }
 
 Task<Response> HttpFace::Impl::change(Request request) {
@@ -275,9 +280,25 @@ Task<Response> HttpFace::Impl::change(Request request) {
         if (!done) co_return answer(request, done.error());
         co_return answer(request, http::status::ok, {{"run", "aborted"}});
     }
+    if (target == "/v1/drift") {
+        auto wanted = drift_request_from_json(request.body());
+        if (!wanted) co_return answer(request, wanted.error());
+        DriftRequest order = *std::move(wanted);
+        const auto run = co_await station.drift(std::move(order));
+        if (!run) co_return answer(request, run.error());
+        co_return answer(request, http::status::created, {{"run", *run}});
+    }
+    if (target == "/v1/alignment") {
+        const auto order = alignment_order_from_json(request.body());
+        if (!order) co_return answer(request, order.error());
+        const auto done = station.align(*order);
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::ok, to_json(station.alignment()));
+    }
     co_return answer(request, http::status::not_found,
                      sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/abort, "
-                                   "/v1/run/retake, /v1/run/exclude, /v1/preflight"));
+                                   "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
+                                   "/v1/alignment, /v1/drift"));
 }
 
 Task<Response> HttpFace::Impl::revise(Request request) {

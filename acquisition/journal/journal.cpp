@@ -250,11 +250,16 @@ Journal::Journal(Scheduler& scheduler, JournalThread thread, JournalClock& clock
 Journal::~Journal() = default;
 
 Task<Result<void>> Journal::open(std::string path, RunRecord header) {
+    return open(std::move(path), std::move(header), RunAttachments{});
+}
+
+Task<Result<void>> Journal::open(std::string path, RunRecord header, RunAttachments attachments) {
     Worker* worker = worker_.get();
     auto shared = std::make_shared<const RunRecord>(std::move(header));
-    std::function<Result<void>()> work = [worker, path, shared]() -> Result<void> {
+    auto beside = std::make_shared<const RunAttachments>(std::move(attachments));
+    std::function<Result<void>()> work = [worker, path, shared, beside]() -> Result<void> {
         AXISCAL_CHECK(worker->may_open());
-        return worker->take(RunFileWriter::create(path, *shared));
+        return worker->take(RunFileWriter::create(path, *shared, *beside));
     };
     co_return co_await perform<Worker, void>(worker, std::move(work));
 }
@@ -355,6 +360,14 @@ Task<Result<JournalReceipt>> Journal::receipt_of_closed(std::string path) {
     const auto last = co_await perform<Worker, LastRequest>(worker, std::move(work));
     if (!last) co_return tl::unexpected<Error>(last.error());
     co_return JournalReceipt{last->sequence, last->step};
+}
+
+Task<Result<StoredDrift>>
+Journal::find_drift(std::string folder, std::string which, std::string axis) {
+    std::function<Result<StoredDrift>()> work = [folder, which, axis] {
+        return axiscal::find_drift(folder, which, axis);
+    };
+    co_return co_await perform<Worker, StoredDrift>(worker_.get(), std::move(work));
 }
 
 void Journal::note(EventRecord event) {

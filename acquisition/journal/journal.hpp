@@ -3,6 +3,7 @@
 
 #include "acquisition/journal/journal_clock.hpp"
 #include "analysis/circular/circular_setup.hpp"
+#include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
 #include "analysis/stream_record.hpp"
@@ -19,6 +20,7 @@ namespace axiscal {
 
 struct RunBatch;
 class RunFileWriter;
+struct StoredDrift;
 struct StoredResult;
 
 /// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
@@ -43,6 +45,8 @@ public:
 
     /// A new run file. @errors Fault::refused when the name is taken, Fault::busy while another
     /// run is open, Fault::not_durable.
+    Task<Result<void>> open(std::string path, RunRecord header, RunAttachments attachments);
+    /// With nothing beside the run.
     Task<Result<void>> open(std::string path, RunRecord header);
     /// Goes on with a run file that was left open. @errors as RunFileWriter::reopen.
     Task<Result<void>> reopen(std::string path);
@@ -68,6 +72,9 @@ public:
     /// For what the newest request of a closed run made durable.
     /// @errors Fault::not_found when no request did; Fault::refused while it is open.
     Task<Result<JournalReceipt>> receipt_of_closed(std::string path);
+
+    /// As find_drift(), off the loop.
+    Task<Result<StoredDrift>> find_drift(std::string folder, std::string which, std::string axis);
 
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);

@@ -122,6 +122,7 @@ void MissingRows::gather_header_evidence() {
         if (row.table->name == "statement" && !statements_.contains(text_at(row.row, 0)))
             miss("statement", "name=" + text_at(row.row, 0));
     if (count_of("uncertainty") == 0 && count_of("uncertainty_target") > 0) miss("uncertainty", "");
+    if (count_of("alignment") == 0 && count_of("alignment_place") > 0) miss("alignment", "");
     for (const std::string& name : referred_instruments_)
         if (!instruments_.contains(name)) miss("instrument", "name=" + name);
     referred_channels_.insert(channels_.empty() ? 0 : *channels_.rbegin());
@@ -144,6 +145,7 @@ void MissingRows::settle_header(Hole& hole) {
     std::vector<std::string> candidates;
     for (std::size_t place = hole.before; place <= last; ++place) {
         const std::string name{chained_tables()[place].name};
+        if (name.starts_with("alignment") && count_of("alignment") == 0) continue; // of format 3
         const bool single = name == "uncertainty" || name == "statement" ||
                             std::ranges::find(singles, name) != singles.end();
         if (!single || count_of(name) == 0) candidates.push_back(name);

@@ -36,6 +36,15 @@ constexpr std::array tables{
           "name, driver, maker, model, serial, firmware, certificate_number, calibrated_on, due_on",
           "ttttttttt"},
     Table{"channel", "id, name, instrument, place, kind, medium, correction", "itttttr"},
+    Table{"alignment",
+          "began_utc_ns, ended_utc_ns, instrument, serial, travel_m, reached_m, readings, lost, "
+          "restarts, far_distance_m, far_highest_m, far_last_m, far_scatter_m, far_blocks, "
+          "far_passed_maximum, spot_offset_m",
+          "iittrriiiRRRRIIR", 3},
+    Table{"alignment_place",
+          "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr", 3},
+    Table{"drift", "duration_ns, interval_ns, place_m", "iir", 3},
+    Table{"eve_source", "run_id", "t", 3},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
           "device_count",
@@ -208,6 +217,27 @@ ChainedRow row_of_channel(const ChannelRecord& channel) {
                                text(name_of(medium)), correction});
 }
 
+ChainedRow row_of_alignment(const AlignmentRecord& alignment) {
+    const auto& [began, ended, instrument, serial, travel, reached, readings, lost, restarts, far,
+                 spot_offset, places] = alignment;
+    Row row{began,        ended,           instrument,  serial,         travel.si(),
+            reached.si(), whole(readings), whole(lost), whole(restarts)};
+    if (far) {
+        const auto& [distance, highest, last, scatter, blocks, passed] = *far;
+        row.insert(row.end(), {distance.si(), highest.si(), last.si(), scatter.si(), whole(blocks),
+                               whole(passed)});
+    } else {
+        row.resize(row.size() + 6);
+    }
+    row.push_back(si_or_nothing(spot_offset));
+    return chained("alignment", std::move(row));
+}
+
+ChainedRow row_of_place(const AlignmentPlace& place) {
+    const auto& [begin, end, readings, weakest, mean, last] = place;
+    return chained("alignment_place", {begin.si(), end.si(), whole(readings), weakest, mean, last});
+}
+
 Direction read_direction(RowReader& in) {
     return in.choice({Direction::positive, Direction::negative});
 }
@@ -347,6 +377,57 @@ void read_channel(RunRecord& run, RowReader& in) {
     channel.medium = in.choice({Medium::none, Medium::air, Medium::material});
     channel.correction = in.real();
     run.channels.push_back(std::move(channel));
+}
+
+void read_alignment(RecordedRun& run, RowReader& in) {
+    AlignmentRecord alignment;
+    alignment.began_utc_ns = in.integer();
+    alignment.ended_utc_ns = in.integer();
+    alignment.instrument = in.text();
+    alignment.serial = in.text();
+    alignment.travel = in.length();
+    alignment.reached = in.length();
+    alignment.readings = in.number<int>();
+    alignment.lost = in.number<int>();
+    alignment.restarts = in.number<int>();
+    std::optional<Length> distance, highest, last, scatter;
+    for (auto* length : {&distance, &highest, &last, &scatter})
+        read_optional(*length, in);
+    const auto blocks = in.optional_integer(), passed = in.optional_integer();
+    if (distance && highest && last && scatter && blocks && passed)
+        alignment.far =
+            FarRest{*distance, *highest, *last, *scatter, static_cast<int>(*blocks), *passed != 0};
+    else if (distance || highest || last || scatter || blocks || passed)
+        in.reject("states a part of the far rest");
+    read_optional(alignment.spot_offset, in);
+    if (run.attachments.alignment) return in.reject("stands there twice");
+    run.attachments.alignment = std::move(alignment);
+}
+
+void read_alignment_place(RecordedRun& run, RowReader& in) {
+    AlignmentPlace place;
+    place.begin = in.length();
+    place.end = in.length();
+    place.readings = in.number<int>();
+    place.weakest_percent = in.real();
+    place.mean_percent = in.real();
+    place.last_percent = in.real();
+    auto& alignment = run.attachments.alignment;
+    if (!alignment) alignment.emplace(); // the writer checks each row by itself
+    alignment->places.push_back(place);
+}
+
+void read_drift(RecordedRun& run, RowReader& in) {
+    DriftSetup drift;
+    drift.duration = Duration{in.integer()};
+    drift.interval = Duration{in.integer()};
+    drift.place = in.length();
+    if (run.attachments.drift) return in.reject("stands there twice");
+    run.attachments.drift = drift;
+}
+
+void read_eve_source(RecordedRun& run, RowReader& in) {
+    run.attachments.eve_source = in.text();
 }
 
 void read_datum(RunRecord& run, RowReader& in) {
@@ -554,6 +635,10 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     measured<read_statement>,
     measured<read_instrument>,
     measured<read_channel>,
+    read_alignment,
+    read_alignment_place,
+    read_drift,
+    read_eve_source,
     measured<read_datum>,
     measured<read_point>,
     measured<read_environment>,
@@ -580,7 +665,7 @@ const Table& table_named(std::string_view name) {
     return *std::ranges::find(tables, name, &Table::name);
 }
 
-std::vector<ChainedRow> header_rows(const RunRecord& header) {
+std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachments& attachments) {
     const auto& [before, utc_ns, after] = header.opened;
     std::vector<ChainedRow> rows;
     rows.push_back(chained("run", {header.run_id, header.software_version, header.station,
@@ -605,6 +690,16 @@ std::vector<ChainedRow> header_rows(const RunRecord& header) {
         rows.push_back(row_of_instrument(instrument));
     for (const auto& channel : header.channels)
         rows.push_back(row_of_channel(channel));
+    const auto& [alignment, drift, eve_source] = attachments;
+    if (alignment) {
+        rows.push_back(row_of_alignment(*alignment));
+        for (const AlignmentPlace& place : alignment->places)
+            rows.push_back(row_of_place(place));
+    }
+    if (drift)
+        rows.push_back(chained("drift", {whole(drift->duration.count()),
+                                         whole(drift->interval.count()), drift->place.si()}));
+    if (!eve_source.empty()) rows.push_back(chained("eve_source", {eve_source}));
     return rows;
 }
 

@@ -4,6 +4,7 @@
 
 #include "acquisition/journal/row.hpp"
 #include "analysis/circular/circular_setup.hpp"
+#include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
 #include "analysis/stream_record.hpp"
@@ -25,6 +26,7 @@ struct RecordedRun : RunRecord {
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
     RunRevisions revisions;
+    RunAttachments attachments;
 };
 
 struct ChainedRow {
@@ -38,7 +40,8 @@ const Table& table_named(std::string_view name);
 
 /// The rows written when the file is made, in order; points, datums, environment, events and
 /// closing of `header` are not among them.
-std::vector<ChainedRow> header_rows(const RunRecord& header);
+std::vector<ChainedRow> header_rows(const RunRecord& header,
+                                    const RunAttachments& attachments = {});
 ChainedRow row_of(const DatumRecord& datum);
 ChainedRow row_of(const PointRecord& point);
 ChainedRow row_of(const EnvironmentReading& reading);

@@ -85,7 +85,9 @@ Result<RunFileWriter> RunFileWriter::attach(const std::string& path) {
     return RunFileWriter{path, std::move(database)};
 }
 
-Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRecord& header) {
+Result<RunFileWriter> RunFileWriter::create(const std::string& path,
+                                            const RunRecord& header,
+                                            const RunAttachments& attachments) {
     const std::string unfinished = path + ".new";
     if (std::filesystem::exists(path))
         return fail(Fault::refused, path + " exists already: a run file is never overwritten");
@@ -99,8 +101,8 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path, const RunRe
             "PRAGMA application_id=" + std::to_string(run_file_application_id) +
             "; PRAGMA user_version=" + std::to_string(run_file_version) + ";";
         // One transaction: a disk that takes 10 ms for a sync is not asked for it table by table.
-        AXISCAL_CHECK(
-            writer.transact(header_rows(header), mark + run_file_schema(run_file_version)));
+        AXISCAL_CHECK(writer.transact(header_rows(header, attachments),
+                                      mark + run_file_schema(run_file_version)));
         return writer.head_;
     }();
     if (!head) return tl::unexpected<Error>(head.error());

@@ -46,7 +46,9 @@ public:
     /// Makes the file with everything of `header` that is known before the first point. The name
     /// appears only with the whole header in it and is never taken from another file.
     /// @errors Fault::refused when the name is taken; Fault::not_durable, Fault::bad_run_file.
-    static Result<RunFileWriter> create(const std::string& path, const RunRecord& header);
+    static Result<RunFileWriter> create(const std::string& path,
+                                        const RunRecord& header,
+                                        const RunAttachments& attachments = {});
     /// Goes on with an open file; all that it holds is verified and synced first.
     /// @errors Fault::refused when the run is closed; Fault::bad_run_file.
     static Result<RunFileWriter> reopen(const std::string& path);
@@ -112,6 +114,7 @@ struct RunFileContents {
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
+    RunAttachments attachments;
     bool closed = false;
     std::int64_t links = 0;
     Digest chain_head{}; ///< proves every row before it
@@ -150,11 +153,20 @@ struct RunSummary {
     int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;
     bool evaluated = false; ///< a result is stored since the last closing
+    bool drift = false;     ///< a drift test
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Folder of its certificate. A run that was added to after its first one gets another: nothing
 /// that was issued is replaced.
 std::string certificate_name(const RunSummary& run);
+/// A stored result of a drift test.
+struct StoredDrift {
+    std::string run_id, document;
+};
+/// `which`: a run id, or "latest": the newest one of `axis`. Only complete tests of this axis that
+/// were evaluated count. @errors Fault::not_found, with the way out.
+Result<StoredDrift>
+find_drift(const std::string& folder, const std::string& which, const std::string& axis);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
 std::vector<RunSummary> list_run_files(const std::string& folder);
 /// Paths of those that are still open, to be resumed or closed.

@@ -246,6 +246,7 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
     contents.circular = std::move(recorded.circular);
     contents.streams = std::move(recorded.streams);
     contents.blocks = std::move(recorded.blocks);
+    contents.attachments = std::move(recorded.attachments);
     contents.run = std::move(static_cast<RunRecord&>(recorded));
     return contents;
 }
@@ -312,6 +313,11 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(const auto closings, database->integer_of("SELECT count(*) FROM closing"));
     summary.evaluated = results != 0 && results >= closings;
     summary.closings = static_cast<int>(closings);
+    AXISCAL_TRY(const auto format, database->integer_of("PRAGMA user_version"));
+    if (format >= 3) {
+        AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
+        summary.drift = drifts != 0;
+    }
     return summary;
 }
 
@@ -348,6 +354,23 @@ std::vector<RunSummary> list_run_files(const std::string& folder) {
     }
     std::ranges::sort(summaries, {}, &RunSummary::path);
     return summaries;
+}
+
+Result<StoredDrift>
+find_drift(const std::string& folder, const std::string& which, const std::string& axis) {
+    std::optional<RunSummary> found;
+    for (RunSummary& run : list_run_files(folder)) {
+        const bool counts = run.drift && run.complete && run.evaluated && run.axis == axis;
+        const bool wanted = which == "latest" ? !found || run.opened_utc_ns > found->opened_utc_ns
+                                              : run.run_id == which;
+        if (counts && wanted) found = std::move(run);
+    }
+    if (!found)
+        return fail(Fault::not_found, "uncertainty.eve_run = \"" + which + "\" names no complete " +
+                                          "drift test of axis " + axis + " in " + folder +
+                                          "; 'axiscal drift' makes one");
+    AXISCAL_TRY(StoredResult stored, read_stored_result(found->path));
+    return StoredDrift{found->run_id, std::move(stored.document)};
 }
 
 std::vector<std::string> open_run_files(const std::string& folder) {

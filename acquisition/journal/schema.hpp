@@ -1,5 +1,5 @@
 #pragma once
-// schema.sql, schema_2.sql and schema_3.sql as text, put into the program by CMake.
+// The schema files beside this one as text, put into the program by CMake.
 
 #include <string>
 

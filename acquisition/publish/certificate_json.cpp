@@ -1,5 +1,6 @@
 #include "acquisition/publish/certificate_json.hpp"
 
+#include "acquisition/publish/alignment_json.hpp"
 #include "acquisition/publish/record_json.hpp"
 #include "acquisition/publish/result_json.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
@@ -153,6 +154,7 @@ Json run_of(const Certificate& certificate) {
     object["plan"] = plan_of(certificate);
     object.update(setup_of(run));
     object["instruments"] = instruments_json(run.instruments, run_date_of(run));
+    object["alignment"] = alignment_to_json(certificate.attachments.alignment);
     object["datums"] = datums_of(run);
     object["deviations"]["sign"] = "actual minus target";
     object["deviations"]["forward"] = certificate.deviations.forward();

@@ -51,9 +51,15 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     AXISCAL_TRY(std::string sha256, sha256_of_file(run_file));
     AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
     if (!contents.closed) return still_open(run_file);
+    if (contents.attachments.drift)
+        return fail(Fault::refused, run_file + " is a drift test: it has no points");
     AXISCAL_TRY(Certificate certificate,
                 make_certificate(std::move(contents.run), std::move(contents.revisions),
                                  std::move(sha256)));
+    certificate.attachments = std::move(contents.attachments);
+    if (!certificate.attachments.eve_source.empty())
+        certificate.remarks.push_back("E_VE is the range of the drift test " +
+                                      certificate.attachments.eve_source + ".");
     certificate.result_digest = result_digest(certificate.result);
     // A run that was added to is evaluated anew: the stored result is of what it held before.
     if (contents.results < certificate.revisions.closings) return certificate;

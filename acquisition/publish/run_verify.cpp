@@ -6,6 +6,7 @@
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
+#include "acquisition/publish/drift_document.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 
 #include <array>
@@ -123,6 +124,12 @@ Result<Json> document_of_run_file(const std::string& run_file, std::string& dige
         AXISCAL_TRY(const CircularCertificate made, circular_certificate_of_run_file(run_file));
         digest = made.result_digest;
         return circular_certificate_to_json(made);
+    }
+    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
+    if (summary.drift) {
+        AXISCAL_TRY(const DriftDocument made, drift_of_run_file(run_file));
+        digest = made.result_digest;
+        return drift_to_json(made);
     }
     AXISCAL_TRY(const Certificate made, certificate_of_run_file(run_file));
     digest = made.result_digest;

@@ -119,7 +119,7 @@ Task<Result<void>> Station::start() {
 Task<void> Station::stop() {
     stopping_ = true;
     end_port_.emit(boost::asio::cancellation_type::terminal);
-    if (recording()) {
+    if (recording() || drift_open()) {
         perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                              "The daemon was stopped; the run stays open.", Fault::none, 0}});
         co_await journal_.flush();
@@ -184,6 +184,7 @@ void Station::on_sample(const Sample& sample) {
 void Station::take_reading(const Sample& sample) {
     history_.push(sample);
     watch_set_up(sample);
+    watch_alignment(sample);
     if (!datum_ || !recording()) return;
     if (sample.epoch != datum_epoch_) {
         if (!std::exchange(datum_lost_told_, true))
@@ -213,7 +214,7 @@ void Station::on_instrument_note(const InstrumentView& view) {
 
 void Station::record_instrument(const std::string& sentence, Fault fault) {
     note(sentence);
-    if (recording())
+    if (recording() || drift_open())
         perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, sentence, fault, 0}});
 }
 

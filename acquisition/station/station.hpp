@@ -4,6 +4,7 @@
 //
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
+#include "acquisition/capture/alignment_watch.hpp"
 #include "acquisition/capture/environment_watch.hpp"
 #include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/sample_history.hpp"
@@ -13,6 +14,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/run_machine.hpp"
+#include "acquisition/station/drift_recorder.hpp"
 #include "acquisition/station/preflight.hpp"
 #include "acquisition/station/roles.hpp"
 #include "acquisition/station/station_face.hpp"
@@ -61,6 +63,9 @@ public:
     preflight(const ArmRequest& request) const override;
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
     Task<Result<int>> exclude(RevisionRequest request) override;
+    Task<Result<std::string>> drift(DriftRequest request) override;
+    [[nodiscard]] AlignmentView alignment() const override;
+    Result<void> align(AlignmentOrder order) override;
 
 private:
     /// The run that is open, or the last one.
@@ -76,6 +81,15 @@ private:
         /// Points that became durable under this daemon, for the time that is left.
         int taken = 0;
         MonotonicTime first_taken, last_taken;
+    };
+
+    /// The drift test that is open, or the last one.
+    struct CurrentDrift {
+        std::string run_id, path;
+        DriftRecorder recorder;
+        bool closing = false, closed = false, complete = false;
+        std::string reason, certificate;
+        std::optional<Error> no_certificate;
     };
 
     // SupervisorListener, TriggerSink
@@ -188,6 +202,29 @@ private:
     [[nodiscard]] std::string laser_serial() const;
     [[nodiscard]] const StationChannel& channel_of(int id) const;
 
+    // station_drift.cpp
+    Task<Result<std::string>> open_drift(DriftRequest request);
+    [[nodiscard]] Result<DriftSetup> drift_setup_of(const DriftRequest& request,
+                                                    const RunPlan& plan) const;
+    [[nodiscard]] std::vector<ChannelRecord> every_channel() const;
+    /// Ends with the test of this id: another one may begin at once.
+    Task<void> record_drift(std::string run_id);
+    void note_drift();
+    Task<void> close_drift(bool complete, std::string reason);
+    [[nodiscard]] bool drift_open() const { return drift_ && !drift_->closed; }
+    [[nodiscard]] DriftView drift_view() const;
+    /// E_VE of the drift test that the station file points to, if it does.
+    Task<Result<void>> adopt_eve(RunRecord& header, RunAttachments& attachments);
+
+    // station_align.cpp
+    void watch_alignment(const Sample& sample);
+    Result<void> keep_alignment(std::optional<double> spot_offset_mm);
+    [[nodiscard]] AlignmentRecord alignment_so_far() const;
+    [[nodiscard]] std::optional<double> strength_now() const;
+    /// The last one kept, where it is of the laser that is there now. One that is still going on is
+    /// kept first.
+    std::optional<AlignmentRecord> alignment_for_run();
+
     // station_view.cpp
     void publish_to_port();
     [[nodiscard]] AxisView axis_view() const;
@@ -243,6 +280,10 @@ private:
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
     double live_scale_ = 0;         ///< the last EnvironmentNow known; for live positions only
+    std::optional<CurrentDrift> drift_;
+    std::optional<AlignmentWatch> aligning_;
+    std::int64_t aligning_since_utc_ns_ = 0;
+    std::optional<AlignmentRecord> alignment_; ///< the last one kept since the start
     std::string port_note_, refused_note_;
     std::deque<std::string> notes_;
     boost::asio::cancellation_signal end_port_;

@@ -7,6 +7,7 @@
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "drivers/spawn.hpp"
 
 #include <algorithm>
 #include <random>
@@ -46,6 +47,9 @@ Result<void> Station::ready_to_measure() const {
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
                                      " is open; finish it or 'axiscal abort' it first");
+    if (drift_open())
+        return fail(Fault::busy, "drift test " + drift_->run_id +
+                                     " is going on; let it end or 'axiscal abort' it first");
     const MonotonicTime now = scheduler_.now();
     AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
     const auto reading = history_.newest();
@@ -84,10 +88,15 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
+    RunAttachments attachments;
+    attachments.alignment = alignment_for_run();
+    if (auto adopted = co_await adopt_eve(header, attachments); !adopted)
+        co_return tl::unexpected<Error>(adopted.error());
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
     RunRecord copy = header;
-    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened) {
+    if (auto opened = co_await journal_.open(path, std::move(copy), std::move(attachments));
+        !opened) {
         Error why = opened.error();
         why.detail += " " + way_out(why.cause, config_.state_directory);
         co_return tl::unexpected<Error>(std::move(why));
@@ -155,6 +164,11 @@ Result<void> Station::trigger() {
 }
 
 Result<void> Station::abort(std::string reason) {
+    if (drift_open()) {
+        if (drift_->closing) return fail(Fault::busy, "the drift test is being closed");
+        spawn(scheduler_, close_drift(false, std::move(reason)));
+        return {};
+    }
     if (!recording()) return fail(Fault::no_run_armed, "there is nothing to abort");
     if (circular_)
         end_circular({false, std::move(reason), Fault::none});
@@ -176,6 +190,13 @@ bool Station::instruments_returned() const {
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
+    if (contents.attachments.drift) {
+        co_await close_left_over(path,
+                                 "Nobody watched the resting axis while the station was away.",
+                                 Fault::datum_lost, false);
+        left_over_fault_.reset(); // no CNC waits for it
+        co_return Result<void>{};
+    }
     RunRecord run = std::move(contents.run);
     // Reopened for points to be taken again: what was measured before still makes a whole run.
     const bool whole = contents.revisions.closings > 0 && check_complete(run);

@@ -16,6 +16,9 @@ constexpr Duration bar_limit = std::chrono::seconds{2}; ///< an older reading is
 } // namespace
 
 Result<void> Station::ready_for_circles() const {
+    if (drift_open())
+        return fail(Fault::busy, "drift test " + drift_->run_id +
+                                     " is going on; let it end or 'axiscal abort' it first");
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +

@@ -4,6 +4,7 @@
 #include "acquisition/run/run_events.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
+#include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
 #include "drivers/sample.hpp"
@@ -57,6 +58,17 @@ struct RunStatus {
     std::string certificate; ///< folder of the finished certificate, when there is one
 };
 
+/// The drift test that goes on, or the last one since the start.
+struct DriftView {
+    std::string run_id, state; ///< recording | complete | incomplete
+    std::string file, certificate;
+    double place_mm = 0;
+    int taken = 0, missing = 0, planned = 0; ///< readings of the laser
+    std::optional<double> range_um;          ///< so far, of the bare readings
+    std::optional<double> seconds_left;
+    std::string sentence; ///< empty when all is well
+};
+
 struct StationStatus {
     std::string station, version, utc;
     AxisView axis;
@@ -67,6 +79,7 @@ struct StationStatus {
     bool cnc_silent = false;
     std::optional<RunStatus> run; ///< the open run, or the last one since start
     bool run_open = false;
+    std::optional<DriftView> drift;
     OutboxView outbox;
     std::vector<std::string> notes; ///< latest last, at most 20
 };
@@ -97,6 +110,26 @@ struct RetakeAnswer {
     std::uint16_t last_request = 0; ///< the first of these bears the number after it
 };
 
+/// The beam while it is aligned, or how it was left.
+struct AlignmentView {
+    bool running = false;
+    std::optional<AlignmentRecord> record; ///< of the one that is going on, else the last one kept
+    std::optional<double> distance_mm, strength_percent; ///< now, while it is going on
+    bool at_rest = false;
+};
+enum class AlignmentAction : std::uint8_t { begin, keep, drop };
+struct AlignmentOrder {
+    AlignmentAction action = AlignmentAction::begin;
+    std::optional<double> spot_offset_mm; ///< with `keep`: walk of the return spot, as seen
+};
+
+/// A drift test: the axis rests at `place_mm`, every channel is read at the interval.
+struct DriftRequest {
+    Duration duration = std::chrono::minutes{30}, interval = std::chrono::seconds{1};
+    std::optional<double> place_mm; ///< default: the end of the travel far from the interferometer
+    std::map<std::string, std::string> statements;
+};
+
 /// Answers of the state-changing calls. Loop-bound.
 class StationFace {
 public:
@@ -115,6 +148,12 @@ public:
     virtual Task<Result<RetakeAnswer>> retake(RevisionRequest request) = 0;
     /// @returns how many readings were left out. Durable on return.
     virtual Task<Result<int>> exclude(RevisionRequest request) = 0;
+    /// Begins a drift test; returns its run id when its file is made. abort() ends it.
+    virtual Task<Result<std::string>> drift(DriftRequest request) = 0;
+    [[nodiscard]] virtual AlignmentView alignment() const = 0;
+    /// begin: watch the beam from now on; a watch that is going on starts anew. keep: it ends, and
+    /// what it showed stands in the run files from now on. drop: it ends, the last one kept holds.
+    virtual Result<void> align(AlignmentOrder order) = 0;
 };
 
 } // namespace axiscal

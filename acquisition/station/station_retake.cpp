@@ -24,6 +24,7 @@ Result<void> Station::run_may_be_revised() const {
                     "an earlier order could not be written, and only a new start of axiscald tells "
                     "what the run file holds of it");
     if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
+    if (drift_open()) return fail(Fault::busy, "a drift test is going on; let it end");
     if (run_->closing) return fail(Fault::busy, "the run is being closed; ask again");
     return {};
 }

@@ -192,6 +192,13 @@ Task<void> Station::certify(std::string run_id, std::string path) {
     note(entry ? "Certificate written: " + *entry
                : "No certificate for run " + run_id + ": " + describe(entry.error()) +
                      " 'axiscal export " + path + "' tries again.");
+    if (drift_ && drift_->run_id == run_id) {
+        if (entry)
+            drift_->certificate = *entry;
+        else
+            drift_->no_certificate = entry.error();
+        co_return;
+    }
     if (!run_ || run_->header.run_id != run_id) co_return;
     if (entry)
         run_->certificate = *entry;

@@ -102,7 +102,8 @@ double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t
 
 double SimulatedMachine::cycles(double slide_mm, double seconds) {
     const LaserScenario& laser = scenario_.laser;
-    const double length_mm = laser.dead_path_mm + laser.sign * (slide_mm - laser.zero_mm);
+    const double way_mm = laser.sign * (slide_mm - laser.zero_mm);
+    const double length_mm = laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_);
     const double index =
         1.0 + refractivity(air_at(scenario_.air, seconds), nm(laser.wavelength_nm));
     const double optical_mm = index * length_mm;

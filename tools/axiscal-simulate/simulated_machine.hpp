@@ -61,6 +61,9 @@ public:
     double cycles(double slide_mm, double seconds);
     /// The counter starts anew: the next sample is its zero.
     void zero_counter() { zeroed_ = false; }
+    /// The beam turns about the interferometer by this angle to the motion: of the way from the
+    /// near end, where the axis stands at zero_mm, it sees the cosine.
+    void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
 
 private:
     double approach_offset_mm(double drive_mm, double dt_s);
@@ -70,7 +73,8 @@ private:
     SeededNoise noise_;
     Play play_;
     bool moving_ = false, started_ = false, zeroed_ = false;
-    double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, optical_zero_mm_ = 0;
+    double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, optical_zero_mm_ = 0,
+           beam_angle_rad_ = 0;
     std::uint64_t stops_ = 0;
 };
 

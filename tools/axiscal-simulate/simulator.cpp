@@ -147,6 +147,12 @@ Result<void> Simulator::obey_laser(const std::string& word, std::istream& argume
         return fail(Fault::bad_request, "the beam is on or off");
     if (word == "beam") return laser_->set_beam(state == "on"), Result<void>{};
     if (word == "restart-counter") return laser_->restart_counter(), Result<void>{};
+    if (word == "steer") {
+        double milliradians = 0;
+        arguments >> milliradians;
+        if (!arguments) return fail(Fault::bad_request, "steer needs milliradians");
+        return laser_->steer(milliradians * 1e-3), Result<void>{};
+    }
     int number = 0;
     arguments >> number;
     if (!arguments) return fail(Fault::bad_request, word + " needs a number");
@@ -196,7 +202,7 @@ Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& ar
         return fail(Fault::not_found, "no sensor is named \"" + name + "\"");
     }
     if (word == "beam" || word == "restart-counter" || word == "skip" || word == "fields" ||
-        word == "error-mask")
+        word == "error-mask" || word == "steer")
         return done(obey_laser(word, arguments));
     if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect" ||
         word == "hold" || word == "go")

@@ -34,8 +34,8 @@ public:
     Result<void> write_truth(const std::string& path);
 
     /// One line of the control channel; the answer is one JSON object:
-    /// run [FILE], stop, beam off|on, restart-counter, skip N, fields 8|16, error-mask N,
-    /// sensor NAME off|on|garbage|flood, motion-fault KIND|none, connect HOST PORT, hold N,
+    /// run [FILE], stop, beam off|on, restart-counter, skip N, fields 8|16, error-mask N, steer
+    /// MRAD, sensor NAME off|on|garbage|flood, motion-fault KIND|none, connect HOST PORT, hold N,
     /// go, status, truth FILE, quit.
     nlohmann::json command(const std::string& line);
     [[nodiscard]] nlohmann::json places() const;

@@ -1,9 +1,11 @@
 // The command line. Each command is documented where it is parsed: `axiscal COMMAND --help`.
 #include "config/measure.hpp"
+#include "tools/axiscal/align_command.hpp"
 #include "tools/axiscal/conformance.hpp"
 #include "tools/axiscal/daemon_commands.hpp"
 #include "tools/axiscal/devices_command.hpp"
 #include "tools/axiscal/doctor_command.hpp"
+#include "tools/axiscal/drift_command.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/tape_commands.hpp"
@@ -24,6 +26,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
   axiscal check-config /etc/axiscal/station.toml     is the station file right?
   axiscal doctor                                     is this PC right? how is it mended?
   axiscal devices                                    what is plugged in? are laser and sensors there?
+  axiscal align                                      align the beam; kept for the certificate
   axiscal program --config station.toml --out .      part program for the CNC; load and start it:
                                                      the axis goes to its datum and waits
   axiscal preflight                                  is all as it must be? axiscal arm asks the same
@@ -43,6 +46,8 @@ struct Options {
     std::string file, out = ".", reason, certificate;
     bool until_published = false, drivers = false;
     ArmOrder arm;
+    AlignOrder align;
+    DriftOrder drift;
     std::vector<std::string> statements, overrides;
     RevisionOrder revision;
     bool exclude_instead = false;
@@ -144,6 +149,59 @@ void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
     });
 }
 
+constexpr const char* align_footer =
+    R"(With nothing more: watches the beam until a line is typed. Begin with the axis at its near end, drive to
+the far end, let it stand there and steer the beam through its highest reading and back, with each tilt.
+Then Enter keeps what was seen: it stands in every run file and certificate from then on. q and Enter drops it.)";
+
+void add_align_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* align = app.add_subcommand(
+        "align", "Align the beam: strength and reading along the travel, live; cosine error");
+    align
+        ->add_option("ACTION", options.align.action,
+                     "live, or for scripts one of begin, show, keep, drop")
+        ->check(CLI::IsMember({"live", "begin", "show", "keep", "drop"}))
+        ->capture_default_str();
+    align
+        ->add_option("--spot-offset", options.align.spot_offset_mm,
+                     "walk of the return spot over the travel, in mm, as seen")
+        ->check(CLI::Range(-100.0, 100.0));
+    align->footer(align_footer);
+    align->callback([&] {
+        chosen = [&] { return command_align(client_of(options), options.align, options.json); };
+    });
+    daemon_options(*align, options);
+}
+
+constexpr const char* drift_footer =
+    R"(Let the axis stand where it will be measured longest from the interferometer, servo on, as for the run, and
+leave it alone. No CNC takes part. The range of what is read, at 20 degC, is E_VE: point [uncertainty] eve_run of
+the station file to the test, and later runs carry it in their budget. 'axiscal abort' ends the test early.)";
+
+void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* drift = app.add_subcommand(
+        "drift", "Record every channel while the axis rests: E_VE, ETVE, temperatures");
+    drift->add_option("--duration", options.drift.duration, "as long as a run takes, or hours")
+        ->capture_default_str();
+    drift->add_option("--interval", options.drift.interval, "between two readings")
+        ->capture_default_str();
+    drift->add_option("--at", options.drift.place_mm,
+                      "coordinate in mm at which the axis stands; default: the end of the travel "
+                      "far from the interferometer");
+    drift->add_flag("--wait", options.drift.wait, "wait for the end and the certificate");
+    drift->add_option("--state-that", options.statements, "KEY=TEXT for the certificate");
+    drift->footer(drift_footer);
+    drift->callback([&] {
+        chosen = [&] {
+            if (split_at_equals(options.statements, options.drift.statements))
+                return command_drift(client_of(options), options.drift, options.json);
+            std::cerr << "--state-that needs KEY=TEXT, as in operator=\"Shift 2\"\n";
+            return static_cast<int>(exit_usage);
+        };
+    });
+    daemon_options(*drift, options);
+}
+
 constexpr const char* devices_footer = R"(Examples:
   axiscal devices                     instruments of the station, then all that is plugged in
   axiscal devices --as vaisala        one kind only, with the lines to add to the station file
@@ -190,7 +248,8 @@ void add_daemon_commands(CLI::App& app, Options& options, Command& chosen) {
         ->check(CLI::ExistingFile);
     arm->add_option("--seed", options.arm.seed,
                     "seed of the targets' random parts, as the part program says");
-    arm->add_option("--pass", options.arm.pass, "whole, stretch on an axis over 2000 mm, or circular")
+    arm->add_option("--pass", options.arm.pass,
+                    "whole, stretch on an axis over 2000 mm, or circular")
         ->capture_default_str();
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");
@@ -468,6 +527,8 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", AXISCAL_VERSION);
     add_devices_command(app, options, chosen);
     add_daemon_commands(app, options, chosen);
+    add_align_command(app, options, chosen);
+    add_drift_command(app, options, chosen);
     add_offline_commands(app, options, chosen);
     add_conformance_command(app, options, chosen);
     add_selftest_command(app, options, chosen);

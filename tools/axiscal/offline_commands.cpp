@@ -6,6 +6,7 @@
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
+#include "acquisition/publish/drift_document.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -67,6 +68,13 @@ int analyze_circular_run(const std::string& path) {
 }
 
 int analyze_run(const std::string& path) {
+    const auto summary = summarize_run_file(path);
+    if (summary && summary->drift) {
+        const auto document = drift_of_run_file(path);
+        if (!document) return complain(document.error());
+        std::cout << drift_json_text(*document);
+        return exit_ok;
+    }
     const auto circular = is_circular_run(path);
     if (!circular) return complain(circular.error());
     if (*circular) return analyze_circular_run(path);

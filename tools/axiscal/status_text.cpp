@@ -64,6 +64,21 @@ std::string run_text(const Json& status) {
     return text;
 }
 
+std::string drift_text(const Json& drift) {
+    std::string text =
+        "Drift        " + drift.at("id").get<std::string>() + ", " +
+        drift.at("state").get<std::string>() +
+        format(", %d of %d readings", drift.at("taken").get<int>(), drift.at("planned").get<int>());
+    if (drift.at("missing") != 0) text += format(", %d missing", drift.at("missing").get<int>());
+    text += ", range as read " + number_or_dashes(drift.at("range_um"), "%.2f", "µm");
+    if (drift.at("seconds_left").is_number())
+        text += ", " + clock_text(drift.at("seconds_left")) + " left";
+    text += "\n";
+    if (!drift.at("sentence").get<std::string>().empty())
+        text += "             " + drift.at("sentence").get<std::string>() + "\n";
+    return text;
+}
+
 /// A channel that nobody needs and that never said a number (a sensor the instrument was built
 /// without) only takes up a line.
 bool worth_showing(const Json& channel) {
@@ -150,6 +165,7 @@ std::string status_text(const Json& status) {
     std::string text = "Station      " + status.at("station").get<std::string>() + "   " +
                        status.at("utc").get<std::string>() + "\n";
     text += run_text(status);
+    if (!status.at("drift").is_null()) text += drift_text(status.at("drift"));
     text += "Axis " + axis.at("name").get<std::string>() + "       " +
             number_or_dashes(axis.at("position_mm"), "%.4f", "mm") + "   deviation " +
             number_or_dashes(axis.at("deviation_um"), "%+.2f", "µm") + "   spread " +

@@ -63,4 +63,16 @@ Result<void> write_circular_files(const CircularCertificate& certificate,
     return write_all(papers, source_file, certificate.file_sha256, folder);
 }
 
+Result<void> write_drift_files(const DriftDocument& document,
+                               const std::string& run_file,
+                               const std::string& folder) {
+    const std::pair<const char*, std::string> files[]{
+        {certificate_json_name, drift_json_text(document)},
+        {certificate_csv_name, drift_csv(document)}};
+    for (const auto& [name, content] : files)
+        if (auto written = write_synced(folder + "/" + name, content); !written) return written;
+    const std::string name = std::filesystem::path(run_file).filename();
+    return copy_verified(run_file, folder + "/" + name, document.run_file_sha256);
+}
+
 } // namespace axiscal

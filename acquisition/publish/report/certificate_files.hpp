@@ -1,6 +1,7 @@
 #pragma once
 // From a closed run file to the files that leave the station.
 
+#include "acquisition/publish/drift_document.hpp"
 #include "analysis/certificate.hpp"
 #include "analysis/circular/circular_certificate.hpp"
 
@@ -25,5 +26,9 @@ Result<void> write_certificate_files(const Certificate& certificate,
 Result<void> write_circular_files(const CircularCertificate& certificate,
                                   const std::string& source_file,
                                   const std::string& folder);
+/// The same of a drift test: certificate.json, .csv with every reading, and the run file.
+Result<void> write_drift_files(const DriftDocument& document,
+                               const std::string& run_file,
+                               const std::string& folder);
 
 } // namespace axiscal

@@ -24,4 +24,7 @@ void draw_condition_pages(Sheet& sheet,
 /// The budget: what is stated, each term, each parameter, U against its target.
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 
+/// How the beam was aligned, and what its angle costs; nothing where nobody recorded it.
+void draw_alignment(Sheet& sheet, const Certificate& certificate);
+
 } // namespace axiscal

@@ -205,7 +205,9 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
          {"Positions of idle axes", stated(said.idle_axes)},
          {"Note on the sensors", stated(said.sensor_note)},
          {"Station", stated(run.station)},
-         {"Beam", beam_words(run.laser)}},
+         {"Beam", beam_words(run.laser)},
+         {"Alignment of the beam",
+          certificate.attachments.alignment ? "recorded: see below" : "not recorded"}},
         2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
 }
@@ -224,6 +226,7 @@ void draw_condition_pages(Sheet& sheet,
     draw_compensation_table(sheet, certificate);
     draw_uncertainty(sheet, certificate);
     draw_cycle(sheet, certificate);
+    draw_alignment(sheet, certificate);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, certificate.run.instruments, run_date_of(certificate.run));
     draw_remarks(sheet, certificate.remarks, shortened);

@@ -444,11 +444,20 @@ TEST(StationUncertainty, ReadsTheOtherWaysToStateIt) {
     EXPECT_EQ(setup.eve_model, EveModel::difference);
 }
 
+TEST(StationUncertainty, PointsToADriftTest) {
+    const Reading reading = read_uncertainty_table("[uncertainty]\neve_run = \"latest\"");
+    EXPECT_EQ(reading.told, "");
+    EXPECT_EQ(reading.config.eve_run, "latest");
+    EXPECT_FALSE(reading.config.uncertainty.value().eve);
+    EXPECT_EQ(read_text(example_text()).config.eve_run, "");
+}
+
 TEST(StationUncertainty, RefusesWhatContradictsItselfOrHasNoUnit) {
     const std::pair<const char*, const char*> cases[]{
         {"device = \"1 um\"\ndevice_width = \"1 um\"", "uncertainty.device_width: stands beside"},
         {"misalignment = \"1 mm\"\nmisalignment_angle = \"1 mrad\"",
          "uncertainty.misalignment_angle: stands beside"},
+        {"eve = \"1 um\"\neve_run = \"latest\"", "uncertainty.eve_run: stands beside"},
         {"device_k = 3", "uncertainty.device_k: belongs to device"},
         {"device = 0.5", "uncertainty.device: is a bare number"},
         {"device = \"0.7 um/K\"", "\"um/K\" is no unit of a length or a length for each metre"},

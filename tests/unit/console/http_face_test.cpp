@@ -54,7 +54,8 @@ public:
     preflight(const ArmRequest& request) const override {
         const auto reason = request.overrides.find("soak");
         return std::vector<PreflightRecord>{
-            {"soak", false, false, "Wait.", reason == request.overrides.end() ? "" : reason->second}};
+            {"soak", false, false, "Wait.",
+             reason == request.overrides.end() ? "" : reason->second}};
     }
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override {
         revision = request;
@@ -69,8 +70,22 @@ public:
         co_return 1;
     }
 
+    Task<Result<std::string>> drift(DriftRequest request) override {
+        drifted = std::move(request);
+        co_return "bench-1-drift";
+    }
+    [[nodiscard]] AlignmentView alignment() const override { return aligned; }
+    Result<void> align(AlignmentOrder order) override {
+        ordered = order;
+        aligned.running = order.action == AlignmentAction::begin;
+        return {};
+    }
+
     ArmRequest armed;
     RevisionRequest revision;
+    AlignmentView aligned;
+    std::optional<DriftRequest> drifted;
+    std::optional<AlignmentOrder> ordered;
     std::string reason_given;
 };
 
@@ -260,6 +275,55 @@ TEST_F(HttpDoor, AbortHandsTheReasonOver) {
     EXPECT_TRUE(over_socket("POST", "/v1/run/abort", R"({"reason":"coolant"})")
                     .starts_with("HTTP/1.1 200"));
     EXPECT_EQ(station.reason_given, "coolant");
+}
+
+TEST_F(HttpDoor, AlignsByOrderAndShowsWhatIsSeen) {
+    AlignmentRecord record;
+    record.serial = "S-1";
+    record.reached = record.travel = metre(1);
+    record.far = FarRest{metre(1), um(9), um(8), um(0.1), 30, true};
+    record.places = {{mm(0), mm(40), 10, 80, 85, 90}};
+    station.aligned.record = record;
+    EXPECT_NE(
+        over_socket("POST", "/v1/alignment", R"({"action":"begin"})").find("\"running\":true"),
+        std::string::npos);
+    const auto kept =
+        over_socket("POST", "/v1/alignment", R"({"action":"keep","spot_offset_mm":1.5})");
+    ASSERT_TRUE(station.ordered);
+    EXPECT_EQ(station.ordered->action, AlignmentAction::keep);
+    EXPECT_EQ(station.ordered->spot_offset_mm, 1.5);
+    const auto shown = nlohmann::json::parse(kept.substr(kept.find("\r\n\r\n")));
+    EXPECT_NEAR(shown["record"]["cosine"]["error_um"].get<double>(), 1, 1e-6);
+    EXPECT_NEAR(shown["record"]["cosine"]["bound_um"].get<double>(), 1.1, 1e-6);
+    EXPECT_EQ(shown["record"]["places"][0]["weakest_percent"], 80);
+    EXPECT_TRUE(over_tcp("GET", "/v1/alignment").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(HttpDoor, BeginsADriftTestByItsOrder) {
+    EXPECT_TRUE(over_socket("POST", "/v1/drift",
+                            R"({"duration_s":600,"interval_s":0.5,"place_mm":900,)"
+                            R"("statements":{"operator":"Shift 2"}})")
+                    .starts_with("HTTP/1.1 201"));
+    ASSERT_TRUE(station.drifted);
+    EXPECT_EQ(station.drifted->duration, std::chrono::minutes{10});
+    EXPECT_EQ(station.drifted->interval, std::chrono::milliseconds{500});
+    EXPECT_EQ(station.drifted->place_mm, 900);
+    EXPECT_EQ(station.drifted->statements.at("operator"), "Shift 2");
+    EXPECT_TRUE(over_socket("POST", "/v1/drift").starts_with("HTTP/1.1 201"));
+    EXPECT_EQ(station.drifted->duration, std::chrono::minutes{30});
+    for (const char* body : {R"({"duration_s":"1 h"})", R"({"interval_s":0})", R"({"place":1})",
+                             R"({"statements":{"colour":"red"}})", "[]"})
+        EXPECT_TRUE(over_socket("POST", "/v1/drift", body).starts_with("HTTP/1.1 400")) << body;
+}
+
+TEST_F(HttpDoor, RefusesAnAlignmentOrderByItsField) {
+    for (const char* body : {R"({"action":"start"})", R"({})", R"({"action":"keep","spot":1})",
+                             R"({"action":"begin","spot_offset_mm":1})",
+                             R"({"action":"keep","spot_offset_mm":"1"})", "[]"})
+        EXPECT_TRUE(over_socket("POST", "/v1/alignment", body).starts_with("HTTP/1.1 400")) << body;
+    EXPECT_TRUE(
+        over_tcp("POST", "/v1/alignment", "", R"({"action":"begin"})").starts_with("HTTP/1.1 401"));
+    EXPECT_FALSE(station.ordered);
 }
 
 TEST_F(HttpDoor, GarbageAndOversizedBodiesHurtNobody) {

@@ -2,6 +2,7 @@
 // Seeded run records with every field filled, and a comparison of every bit, field by field,
 // that knows nothing of rows and columns.
 
+#include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 
 #include <bit>
@@ -44,6 +45,15 @@ public:
                                     static_cast<ChannelKind>(pick(6)), static_cast<Medium>(pick(3)),
                                     number()});
         return run;
+    }
+
+    RunAttachments attachments() {
+        RunAttachments beside;
+        if (pick(2) == 0) fill_alignment(beside.alignment.emplace());
+        if (pick(2) == 0)
+            beside.drift = DriftSetup{Duration{integer()}, Duration{integer()}, length()};
+        if (pick(2) == 0) beside.eve_source = text();
+        return beside;
     }
 
     DatumRecord datum() {
@@ -138,6 +148,19 @@ private:
         plan.overrun = length(), plan.near_tolerance = length(), plan.datum = length();
         for (int i = pick(30); i > 0; --i)
             plan.points.push_back({pick(99), pick(99), direction(), pick(9)});
+    }
+
+    void fill_alignment(AlignmentRecord& alignment) {
+        alignment.began_utc_ns = integer(), alignment.ended_utc_ns = integer();
+        alignment.instrument = text(), alignment.serial = text();
+        alignment.travel = length(), alignment.reached = length();
+        alignment.readings = pick(1000), alignment.lost = pick(9), alignment.restarts = pick(9);
+        if (pick(2) == 0)
+            alignment.far = FarRest{length(), length(), length(), length(), pick(99), pick(2) == 0};
+        alignment.spot_offset = perhaps<Length>();
+        for (int i = pick(9); i > 0; --i)
+            alignment.places.push_back(
+                {length(), length(), pick(999), number(), number(), number()});
     }
 
     template <class Amount> std::optional<Amount> perhaps() {

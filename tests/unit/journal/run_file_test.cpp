@@ -265,7 +265,9 @@ void make_format_1(const std::string& path) {
     run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; DROP TABLE circular; "
                   "DROP TABLE circular_bar; DROP TABLE circular_uncertainty; DROP TABLE stream; "
                   "DROP TABLE stream_block; DROP TABLE preflight; DROP TABLE retake; "
-                  "DROP TABLE retake_point; DROP TABLE exclusion; PRAGMA user_version=1");
+                  "DROP TABLE retake_point; DROP TABLE exclusion; DROP TABLE alignment; "
+                  "DROP TABLE alignment_place; DROP TABLE drift; DROP TABLE eve_source; "
+                  "PRAGMA user_version=1");
 }
 
 TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
@@ -296,6 +298,54 @@ TEST(RunFile, IsRefusedUnderTheNumberOfAnotherFormat) {
     run_sql(old, "PRAGMA user_version = 2");
     EXPECT_NE(refusal_of(path).find("tables are not those"), std::string::npos);
     EXPECT_NE(refusal_of(old).find("tables are not those"), std::string::npos);
+}
+
+TEST(RunFile, BringsBackWhatStandsBesideTheRun) {
+    const ScratchFolder scratch;
+    for (unsigned seed = 0; seed < 30; ++seed) {
+        RandomRun random{seed};
+        const auto path = scratch.file(std::to_string(seed) + ".axiscal");
+        const RunRecord run = random.header();
+        const RunAttachments beside = random.attachments();
+        ASSERT_TRUE(RunFileWriter::create(path, run, beside));
+        const auto read = read_run_file_contents(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(run, read->run));
+        EXPECT_TRUE(same_bits(beside, read->attachments));
+        EXPECT_EQ(summarize_run_file(path)->drift, beside.drift.has_value());
+    }
+}
+
+RunAttachments some_attachments() {
+    RunAttachments beside;
+    beside.alignment.emplace().far = FarRest{metre(1), um(8), um(2), um(1), 9, true};
+    beside.alignment->places = {{mm(0), mm(40), 100, 71, 80, 90}};
+    beside.drift = DriftSetup{std::chrono::minutes{30}, std::chrono::seconds{1}, mm(900)};
+    beside.eve_source = "bench-20261121T100000Z-X";
+    return beside;
+}
+
+TEST(RunFile, ChainsWhatStandsBesideTheRun) {
+    const ScratchFolder scratch;
+    for (const std::string change :
+         {"UPDATE alignment SET far_last_m = 1e-9", "UPDATE alignment SET lost = lost + 1",
+          "DELETE FROM alignment", "DELETE FROM alignment_place",
+          "UPDATE alignment_place SET weakest_percent = 99.0", "UPDATE drift SET place_m = 0.0",
+          "DELETE FROM drift", "UPDATE eve_source SET run_id = 'another'"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        ASSERT_TRUE(RunFileWriter::create(path, RandomRun{23}.header(), some_attachments()));
+        EXPECT_TRUE(read_run_file(path)) << change;
+        run_sql(path, change);
+        EXPECT_FALSE(read_run_file(path)) << change;
+    }
+}
+
+TEST(RunFile, RefusesAFarRestInParts) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    ASSERT_TRUE(RunFileWriter::create(path, RandomRun{24}.header(), some_attachments()));
+    run_sql(path, "UPDATE alignment SET far_scatter_m = NULL");
+    EXPECT_FALSE(read_run_file(path));
 }
 
 TEST(RunFile, ChainsTheUncertaintyStatement) {

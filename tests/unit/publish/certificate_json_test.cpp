@@ -29,6 +29,21 @@ TEST(CertificateJson, IsTheResultDocumentWithRunEnvironmentAndCompensation) {
     EXPECT_EQ(document.at("run").at("instruments").at(0).at("serial"), "L-0042");
 }
 
+TEST(CertificateJson, ShowsHowTheBeamWasAligned) {
+    Certificate certificate = test::certificate_of(test::synthetic_run());
+    EXPECT_TRUE(certificate_to_json(certificate).at("run").at("alignment").is_null());
+    AlignmentRecord& alignment = certificate.attachments.alignment.emplace();
+    alignment.reached = metre(1);
+    alignment.far = FarRest{metre(1), um(9), um(7.5), um(0.25), 40, true};
+    alignment.places = {{mm(0), mm(40), 9, 61, 70, 72}};
+    const Json shown = certificate_to_json(certificate).at("run").at("alignment");
+    EXPECT_NEAR(shown.at("cosine_error").at("error_um"), 1.5, 1e-9);
+    EXPECT_NEAR(shown.at("cosine_error").at("bound_um"), 1.75, 1e-9);
+    EXPECT_NEAR(shown.at("cosine_error").at("angle_mrad"), std::sqrt(3.0), 1e-5); // sqrt(2 e / D)
+    EXPECT_EQ(shown.at("strength").at(0).at("weakest_percent"), 61);
+    EXPECT_TRUE(shown.at("cosine_error_by_spot").is_null());
+}
+
 TEST(CertificateJson, SaysPreliminaryForEachParameter) {
     const Json document = certificate_to_json(test::certificate_of(test::synthetic_run()));
     EXPECT_EQ(document.at("preliminary"), true);

@@ -176,6 +176,28 @@ TEST_F(Report, PrintsTheSimulatedUBesideTheFormula) {
     EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("simulated")));
 }
 
+TEST_F(Report, SaysHowTheBeamWasAligned) {
+    Certificate certificate = test::certificate_of(test::synthetic_run());
+    const auto text = [&] {
+        return test::text_of(test::write_pdf(folder_, *render_certificate_pdf(certificate)));
+    };
+    EXPECT_THAT(text(), HasSubstr("not recorded"));
+    AlignmentRecord& alignment = certificate.attachments.alignment.emplace();
+    alignment.travel = mm(1000), alignment.reached = mm(998.4);
+    alignment.far = FarRest{mm(998.4), um(41.3), um(40.05), um(0.06), 90, true};
+    alignment.places = {{mm(0), mm(40), 9, 88, 90, 91}, {mm(960), mm(1000), 9, 63, 71, 72}};
+    alignment.spot_offset = mm(2);
+    for (const char* words : {"Travel seen", "998.4 mm of 1000.0 mm", "90 % near, 71 % far",
+                              "weakest 63 % at 960 to 1000 mm", "1.25 µm below the highest",
+                              "1.25 µm over 998 mm, at most 1.31 µm", "return spot (2.00 mm)"})
+        EXPECT_THAT(text(), HasSubstr(words));
+    EXPECT_EQ(count(text(), "not recorded"), 0);
+    alignment.far->passed_maximum = false;
+    alignment.places.clear();
+    EXPECT_THAT(text(), HasSubstr("or more: the maximum was not passed"));
+    EXPECT_THAT(text(), HasSubstr("not told by the instrument"));
+}
+
 TEST_F(Report, HoldsUAgainstItsStatedTarget) {
     const std::string text = test::text_of(render(stated_run()));
     EXPECT_THAT(text, HasSubstr("U is above its stated target U_T for R."));

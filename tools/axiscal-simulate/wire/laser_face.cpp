@@ -89,6 +89,11 @@ void LaserFace::set_fields(int fields) {
     counter_.set_fields(fields);
 }
 
+void LaserFace::steer(double angle_rad) {
+    const std::lock_guard lock{mutex_};
+    machine_.steer(angle_rad);
+}
+
 void LaserFace::set_error_mask(int mask) {
     const std::lock_guard lock{mutex_};
     counter_.set_error_mask(mask);

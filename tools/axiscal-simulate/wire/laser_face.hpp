@@ -32,6 +32,7 @@ public:
     void skip_records(int count);
     void set_fields(int fields);
     void set_error_mask(int mask);
+    void steer(double angle_rad);
 
 private:
     void step(double drive_mm);

@@ -1,0 +1,53 @@
+#include "acquisition/console/drift_json.hpp"
+
+#include "acquisition/console/api_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double longest_s = 14.0 * 24 * 3600, farthest_mm = 1e5;
+
+Result<void> read_span(const Json& value, const std::string& key, Duration& span) {
+    constexpr double shortest_s = 0.05;
+    const bool fits =
+        value.is_number() && value.get<double>() >= shortest_s && value.get<double>() <= longest_s;
+    if (!fits) return refuse(Fault::bad_request, key, "is a number of seconds, 0.05 to two weeks");
+    span = from_seconds(value.get<double>());
+    return {};
+}
+
+Result<void> read_drift_field(const std::string& key, const Json& value, DriftRequest& request) {
+    if (key == "duration_s") return read_span(value, key, request.duration);
+    if (key == "interval_s") return read_span(value, key, request.interval);
+    if (key == "place_mm") {
+        if (!value.is_number() || !(std::fabs(value.get<double>()) <= farthest_mm))
+            return refuse(Fault::bad_request, key, "is a coordinate in mm");
+        return request.place_mm = value.get<double>(), Result<void>{};
+    }
+    if (key != "statements")
+        return refuse(Fault::bad_request, key,
+                      "is unknown; known are duration_s, interval_s, place_mm, statements");
+    // Statements are those of a run, read by the same rules.
+    AXISCAL_TRY(ArmRequest run, arm_request_from_json(Json{{"statements", value}}.dump()));
+    request.statements = std::move(run.statements);
+    return {};
+}
+
+} // namespace
+
+Result<DriftRequest> drift_request_from_json(const std::string& body) {
+    const Json parsed = Json::parse(body.empty() ? "{}" : body, nullptr, false);
+    if (!parsed.is_object()) return refuse(Fault::bad_request, "body", "must be a JSON object");
+    DriftRequest request;
+    for (const auto& [key, value] : parsed.items())
+        AXISCAL_CHECK(read_drift_field(key, value, request));
+    return request;
+}
+
+} // namespace axiscal

@@ -1,0 +1,14 @@
+#pragma once
+// The order of a drift test, from the JSON of docs/api.md. Pure.
+
+#include "acquisition/station/station_face.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// {"duration_s": 1800, "interval_s": 1, "place_mm": 900, "statements": {...}}; each may be left
+/// out. @errors Fault::bad_request naming the field.
+Result<DriftRequest> drift_request_from_json(const std::string& body);
+
+} // namespace axiscal

@@ -1,0 +1,183 @@
+#include "acquisition/publish/drift_document.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/row.hpp"
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/alignment_json.hpp"
+
+#include <array>
+#include <bit>
+#include <charconv>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json stated_or_null(const std::string& text) {
+    return text.empty() ? Json{} : Json(text);
+}
+
+/// SHA-256 of the figures, bit for bit.
+std::string digest_of(const RunDrift& drift) {
+    std::string bytes = "axiscal.drift/1";
+    for (const double figure :
+         {drift.eve.range, drift.eve.u_eve, drift.window.range, drift.window_min,
+          drift.as_read.range, drift.end_change, static_cast<double>(drift.axis.times.size())})
+        put_u64(bytes, std::bit_cast<std::uint64_t>(figure));
+    return sha256_hex(bytes);
+}
+
+Json range_of(const DriftSeries& series, const DriftRange& found) {
+    Json object;
+    object["value"] = found.range;
+    object["from_min"] = series.times[found.first];
+    object["to_min"] = series.times[found.last];
+    return object;
+}
+
+Json parameters_of(const RunDrift& drift) {
+    Json object;
+    object["E_VE"] = range_of(drift.axis, drift.eve);
+    object["E_VE"]["u"] = drift.eve.u_eve;
+    object["ETVE"] = range_of(drift.axis, drift.window);
+    object["ETVE"]["window_min"] = drift.window_min;
+    object["end_change"]["value"] = drift.end_change;
+    object["E_VE_as_read"]["value"] = drift.as_read.range;
+    return object;
+}
+
+Json channel_of(const ChannelDrift& channel) {
+    Json object;
+    object["channel"] = channel.name;
+    object["place"] = stated_or_null(channel.place);
+    object["quantity"] = name_of(channel.kind);
+    object["unit"] = channel.unit;
+    const DriftSeries& series = channel.series;
+    object["readings"] = series.readings.size();
+    if (series.readings.empty()) return object;
+    object["first"] = series.readings.front();
+    object["last"] = series.readings.back();
+    object["range"] = range_of(series, channel.total);
+    object["window"] = range_of(series, channel.window);
+    return object;
+}
+
+Json run_of(const DriftDocument& document) {
+    const RunRecord& run = document.run;
+    const Statements& said = run.statements;
+    Json object;
+    object["id"] = run.run_id;
+    object["station"] = run.station;
+    object["started"] = iso8601_utc(run.opened.utc_ns);
+    object["finished"] = iso8601_utc(run.closed.utc_ns);
+    object["software_version"] = run.software_version;
+    object["run_file_sha256"] = document.run_file_sha256;
+    object["config_sha256"] = run.config_hash;
+    object["result_digest"] = document.result_digest;
+    Json& statements = object["statements"];
+    statements["certificate_number"] = stated_or_null(said.certificate_number);
+    statements["laboratory"] = stated_or_null(said.laboratory);
+    statements["place"] = stated_or_null(said.place);
+    statements["machine"] = stated_or_null(said.machine);
+    statements["machine_serial"] = stated_or_null(said.machine_serial);
+    statements["axis"] = stated_or_null(said.axis);
+    statements["operator"] = stated_or_null(said.operator_name);
+    statements["state"] = stated_or_null(said.state);
+    statements["warm_up"] = stated_or_null(said.warm_up);
+    statements["idle_axes"] = stated_or_null(said.idle_axes);
+    object["laser"] = run.laser.instrument;
+    object["dead_path_mm"] = run.laser.dead_path.in(mm);
+    object["datum_mm"] = run.plan.datum.in(mm);
+    object["alignment"] = alignment_to_json(document.attachments.alignment);
+    return object;
+}
+
+void put_number(std::string& text, double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text.append(digits.data(), end);
+}
+
+void put_series(std::string& text,
+                const std::string& name,
+                const std::string& unit,
+                const DriftSeries& series) {
+    std::string head = "\"";
+    for (const char letter : name)
+        head += letter == '"' ? std::string{"\"\""} : std::string{letter};
+    head += "\"," + unit + ",";
+    for (std::size_t i = 0; i < series.times.size(); ++i) {
+        text += head;
+        put_number(text, series.times[i]);
+        text += ',';
+        put_number(text, series.readings[i]);
+        text += "\r\n";
+    }
+}
+
+} // namespace
+
+Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
+    DriftDocument document;
+    AXISCAL_TRY(document.run_file_sha256, sha256_of_file(run_file));
+    AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
+    if (!contents.closed)
+        return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
+    if (!contents.attachments.drift) return fail(Fault::refused, run_file + " is no drift test");
+    AXISCAL_TRY(document.drift, evaluate_drift(contents.run, *contents.attachments.drift));
+    document.run = std::move(contents.run);
+    document.attachments = std::move(contents.attachments);
+    document.result_digest = digest_of(document.drift);
+    const auto kept = read_stored_result(run_file);
+    if (!kept && kept.error().fault != Fault::not_found) return tl::unexpected<Error>(kept.error());
+    if (kept && kept->digest != document.result_digest)
+        return fail(Fault::bad_run_file,
+                    run_file + ": the figures recomputed now (" + document.result_digest +
+                        ") are not those of its first evaluation (" + kept->digest + ")");
+    return document;
+}
+
+Result<void> seal_drift(const std::string& run_file) {
+    if (read_stored_result(run_file)) return {};
+    AXISCAL_TRY(const DriftDocument document, drift_of_run_file(run_file));
+    Json figures;
+    figures["format"] = "axiscal.drift/1";
+    figures["unit"] = "um";
+    figures["parameters"] = parameters_of(document.drift);
+    return store_result(run_file, {document.result_digest, figures.dump()});
+}
+
+Json drift_to_json(const DriftDocument& document) {
+    const RunDrift& drift = document.drift;
+    Json object;
+    object["format"] = "axiscal.drift/1";
+    object["standard"] = "ISO 230-2 E_VE, ISO 230-3 ETVE";
+    object["unit"] = "um";
+    object["parameters"] = parameters_of(drift);
+    object["test"]["place_mm"] = drift.setup.place.in(mm);
+    object["test"]["duration_s"] = seconds_of(drift.setup.duration);
+    object["test"]["interval_s"] = seconds_of(drift.setup.interval);
+    object["test"]["readings"] = drift.axis.times.size();
+    object["test"]["missing"] = drift.missing;
+    object["test"]["without_air"] = drift.without_air;
+    object["channels"] = Json::array();
+    for (const ChannelDrift& channel : drift.channels)
+        object["channels"].push_back(channel_of(channel));
+    object["run"] = run_of(document);
+    return object;
+}
+
+std::string drift_json_text(const DriftDocument& document) {
+    return drift_to_json(document).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string drift_csv(const DriftDocument& document) {
+    std::string text = "channel,unit,minute,value\r\n";
+    put_series(text, "axis at 20 degC", "um", document.drift.axis);
+    for (const ChannelDrift& channel : document.drift.channels)
+        put_series(text, channel.name, channel.unit, channel.series);
+    return text;
+}
+
+} // namespace axiscal

@@ -1,0 +1,34 @@
+#pragma once
+// A closed drift test as the documents that leave the station. Pure, but for reading the run file.
+
+#include "analysis/drift/run_drift.hpp"
+#include "analysis/run_attachments.hpp"
+#include "analysis/run_record.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace axiscal {
+
+struct DriftDocument {
+    RunRecord run;
+    RunAttachments attachments;
+    RunDrift drift;
+    std::string run_file_sha256, result_digest;
+};
+
+/// Reads and verifies the run file and computes everything, as certificate_of_run_file does.
+/// @errors Fault::refused when it is no drift test; Fault::incomplete_run; Fault::bad_run_file,
+/// also for figures that are not those stored; Fault::not_found.
+Result<DriftDocument> drift_of_run_file(const std::string& run_file);
+
+/// The first evaluation: stores digest and figures in the closed run file, once.
+Result<void> seal_drift(const std::string& run_file);
+
+nlohmann::ordered_json drift_to_json(const DriftDocument& document);
+std::string drift_json_text(const DriftDocument& document);
+/// Every reading: channel, unit, minute, value. Lengths as change against the first, in um.
+std::string drift_csv(const DriftDocument& document);
+
+} // namespace axiscal

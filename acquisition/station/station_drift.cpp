@@ -1,0 +1,176 @@
+// The drift test: every channel against time while the axis rests, without a CNC.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/station/run_header.hpp"
+#include "drivers/spawn.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration look_every = std::chrono::milliseconds{50}; // an abort is heard within it
+constexpr const char* lost_zero = "The laser's counter lost its zero: the readings cannot be "
+                                  "compared any more.";
+
+} // namespace
+
+/// The far end of the travel: the reading rises away from the interferometer.
+Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const RunPlan& plan) const {
+    if (plan.axis_kind == AxisKind::rotary)
+        return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
+    if (request.interval <= Duration{} || request.duration < 2 * request.interval)
+        return refuse(Fault::bad_request, "duration", "is shorter than two intervals");
+    if (request.interval < config_.capture.window)
+        return refuse(Fault::bad_request, "interval",
+                      "is shorter than capture.window, over which each reading is a mean");
+    const Length low = config_.cycle.travel_low, high = config_.cycle.travel_high;
+    const Length far = config_.axis.sign > 0 ? high : low;
+    const Length place = request.place_mm ? mm(*request.place_mm) : far;
+    if (place < low || place > high)
+        return refuse(Fault::bad_request, "place_mm", "lies outside the travel of the axis");
+    return DriftSetup{request.duration, request.interval, place};
+}
+
+/// The laser that measures the axis first. A thermometer that no run uses stands without a medium:
+/// it must not count as air or material of the axis. Other sensors of the weather are left out.
+std::vector<ChannelRecord> Station::every_channel() const {
+    const std::vector<int> environment = roles_.environment();
+    std::vector<ChannelRecord> records;
+    for (const StationChannel& channel : supervisor_.channels()) {
+        ChannelRecord record{channel.id,   channel.shown,  channel.instrument_name, channel.place,
+                             channel.kind, channel.medium, channel.correction};
+        const bool used = channel.id == roles_.laser ||
+                          std::ranges::find(environment, channel.id) != environment.end();
+        const bool weather = channel.kind == ChannelKind::pressure ||
+                             channel.kind == ChannelKind::humidity ||
+                             channel.kind == ChannelKind::carbon_dioxide;
+        if (!used && weather) continue;
+        if (!used) record.medium = Medium::none;
+        records.push_back(std::move(record));
+    }
+    std::ranges::stable_partition(
+        records, [this](const ChannelRecord& record) { return record.id == roles_.laser; });
+    return records;
+}
+
+Task<Result<std::string>> Station::drift(DriftRequest request) {
+    if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
+    arming_ = true;
+    auto opened = co_await open_drift(std::move(request));
+    arming_ = false;
+    co_return opened;
+}
+
+Task<Result<std::string>> Station::open_drift(DriftRequest request) {
+    ArmRequest statements;
+    statements.statements = request.statements;
+    AXISCAL_CO_TRY(RunPlan plan, plan_for(statements));
+    AXISCAL_CO_TRY(const DriftSetup setup, drift_setup_of(request, plan));
+    plan.pass = "drift";
+    plan.targets.clear();
+    plan.points.clear();
+    plan.remark.clear();
+    const RunHeaderParts parts{
+        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        boot_id_, config_hash_};
+    AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, statements));
+    header.run_id += "-drift";
+    header.channels = every_channel();
+    const std::string id = header.run_id;
+    std::string path = config_.state_directory + "/runs/" + id + std::string{run_file_ending};
+    RunAttachments attachments;
+    attachments.alignment = alignment_for_run();
+    attachments.drift = setup;
+    if (auto opened = co_await journal_.open(path, std::move(header), std::move(attachments));
+        !opened)
+        co_return tl::unexpected<Error>(opened.error());
+    const auto newest = history_.newest();
+    DriftRecorder recorder{setup, roles_.laser, newest ? newest->epoch : 0, scheduler_.now()};
+    drift_.emplace(
+        CurrentDrift{id, std::move(path), std::move(recorder), false, false, false, {}, {}, {}});
+    note("Drift test " + id + " has begun: leave the axis alone.");
+    spawn(scheduler_, record_drift(id));
+    co_return id;
+}
+
+Task<void> Station::record_drift(std::string run_id) {
+    const auto goes_on = [&] { return !stopping_ && drift_->run_id == run_id && !drift_->closing; };
+    while (goes_on() && !drift_->recorder.is_over()) {
+        const MonotonicTime now = scheduler_.now(), due = drift_->recorder.next_due();
+        if (now >= due)
+            note_drift();
+        else
+            co_await scheduler_.sleep_for(std::min(due - now, look_every));
+        if (goes_on() && drift_->recorder.zero_is_lost()) co_await close_drift(false, lost_zero);
+        if (const auto why = journal_.failure(); why && goes_on())
+            co_await close_drift(false, disk_in_words(*why));
+    }
+    if (goes_on()) co_await close_drift(true, "");
+}
+
+void Station::note_drift() {
+    const DriftLimits limits{config_.capture.window, config_.axis.air.oldest,
+                             config_.capture.minimum_samples};
+    auto readings = drift_->recorder.take(scheduler_.now(), history_, latest_, limits);
+    const std::vector<ChannelRecord> recorded = every_channel();
+    std::erase_if(readings, [&](const EnvironmentReading& reading) {
+        return std::ranges::find(recorded, reading.channel, &ChannelRecord::id) == recorded.end();
+    });
+    if (!readings.empty()) journal_.note(std::move(readings));
+}
+
+Task<void> Station::close_drift(bool complete, std::string reason) {
+    if (std::exchange(drift_->closing, true)) co_return;
+    const Result<void> closed = co_await journal_.close(complete, reason);
+    if (!closed) {
+        reason = "The run file could not be closed: " + disk_in_words(closed.error());
+        co_await journal_.let_go(); // the next test or run has a file of its own
+    }
+    note("Drift test " + drift_->run_id +
+         (complete && closed ? " is complete." : " is closed as incomplete: " + reason));
+    drift_->reason = std::move(reason);
+    drift_->complete = complete && closed;
+    drift_->closed = true;
+    if (drift_->complete) co_await certify(drift_->run_id, drift_->path);
+}
+
+DriftView Station::drift_view() const {
+    const DriftRecorder& recorder = drift_->recorder;
+    DriftView view;
+    view.run_id = drift_->run_id;
+    view.state = !drift_->closed ? "recording" : drift_->complete ? "complete" : "incomplete";
+    view.file = drift_->path;
+    view.certificate = drift_->certificate;
+    view.place_mm = recorder.setup().place.in(mm);
+    view.taken = recorder.taken();
+    view.missing = recorder.missing();
+    view.planned = recorder.planned();
+    if (const auto range = recorder.range()) view.range_um = range->in(um);
+    if (!drift_->closed)
+        view.seconds_left = std::max(0.0, seconds_of(recorder.end() - scheduler_.now()));
+    view.sentence = drift_->no_certificate ? describe(*drift_->no_certificate) : drift_->reason;
+    return view;
+}
+
+Task<Result<void>> Station::adopt_eve(RunRecord& header, RunAttachments& attachments) {
+    if (config_.eve_run.empty()) co_return Result<void>{};
+    const auto found = co_await journal_.find_drift(config_.state_directory + "/runs",
+                                                    config_.eve_run, header.statements.axis);
+    if (!found) co_return tl::unexpected<Error>(found.error());
+    const auto document = nlohmann::json::parse(found->document, nullptr, false);
+    const nlohmann::json::json_pointer place{"/parameters/E_VE/value"};
+    const bool known = document.is_object() && document.contains(place) &&
+                       document[place].is_number() && document[place].get<double>() >= 0;
+    if (!known)
+        co_return fail(Fault::bad_run_file, "the drift test " + found->run_id + " states no E_VE");
+    if (!header.uncertainty) header.uncertainty.emplace();
+    header.uncertainty->eve = um(document[place].get<double>());
+    attachments.eve_source = found->run_id;
+    co_return Result<void>{};
+}
+
+} // namespace axiscal

@@ -1,0 +1,83 @@
+"""A drift test of a machine that creeps, and the budget of the run after it."""
+
+import csv
+import json
+from pathlib import Path
+
+import bench
+from bench import expect, sentence
+
+CREEP_UM_PER_H = 600.0  # of the axis at rest; the station is not told
+DURATION_S, INTERVAL_S = 12.0, 0.5
+
+
+@sentence("DriftTestFindsTheCreepAndFeedsTheBudgetOfTheNextRun")
+def drift(b):
+    b.scenario["errors"]["drift_um_per_hour"] = CREEP_UM_PER_H
+    b.station["uncertainty"] = {
+        "device": "0.7 um/m", "misalignment": "1 mm", "temperature_width": "0.5 K",
+        "eve_run": "latest",
+    }
+    b.start()
+    ended = json.loads(
+        b.axiscal("drift", "--duration", f"{DURATION_S} s", "--interval", f"{INTERVAL_S} s",
+                  "--at", "0", "--wait", "--json", "--state-that", "operator=Shift 2")
+    )
+    expect(ended["state"] == "complete" and ended["missing"] == 0, f"{ended}")
+    folder = Path(ended["certificate"])
+    found = json.loads((folder / "certificate.json").read_text())
+    eve = found["parameters"]["E_VE"]["value"]
+    # The first reading lies one interval after the begin, the last one at the end. 0.1 um of noise
+    # a sample, a hundred in a window: 0.01 um a reading, the range of 24 of them four times that;
+    # air and material change by 0.02 um on 150 mm in this time.
+    truth = CREEP_UM_PER_H / 3600 * (DURATION_S - INTERVAL_S)
+    expect(abs(eve - truth) < 0.1, f"E_VE {eve} um, the axis crept {truth} um")
+    expect(found["test"]["readings"] == DURATION_S / INTERVAL_S, f"{found['test']}")
+    expect(found["run"]["statements"]["operator"] == "Shift 2", f"{found['run']['statements']}")
+    names = {channel["channel"] for channel in found["channels"]}
+    expect({"air temperature", "contact 1", "contact 2"} <= names, f"{names}")
+    rows = list(csv.DictReader((folder / "certificate.csv").open(newline="")))
+    axis = [row for row in rows if row["channel"] == "axis at 20 degC"]
+    expect(len(axis) == found["test"]["readings"], f"{len(axis)} rows")
+    checked = json.loads(b.axiscal("verify", ended["file"], "--certificate",
+                                   folder / "certificate.json", "--json"))
+    expect(checked["findings"] == [] and checked["certificate_findings"] == [], f"{checked}")
+    expect(checked["result_digest"] == found["run"]["result_digest"], f"{checked}")
+    expect(json.loads(b.axiscal("analyze", ended["file"]))["parameters"] == found["parameters"],
+           "analyze gives other figures")
+
+    b.write_program()
+    b.go_to_datum()
+    b.arm()
+    certificate = b.finish()
+    expect(certificate["run"]["uncertainty"]["eve_um"] == eve, f"{certificate['run']}")
+    expect(any(ended["id"] in remark for remark in certificate["run"]["remarks"]),
+           f"{certificate['run']['remarks']}")
+    # u(B) = u_EVE sqrt(2 / n) with u_EVE = E_VE / (2 sqrt 3) and n = 2; U = 2 u, in mm.
+    U = certificate["parameters"]["B"]["expanded_uncertainty"]["value"]
+    expect(abs(U * 1e3 - 2 * eve / (2 * 3 ** 0.5)) < 1e-6, f"U(B) = {U} mm, E_VE {eve} um")
+
+
+@sentence("DriftTestIsAbortedAndArmingWithoutOneIsRefused")
+def aborted(b):
+    b.station["uncertainty"] = {"eve_run": "latest"}
+    b.start()
+    begun = json.loads(b.axiscal("drift", "--duration", "1 h", "--json"))
+    bench.wait_until("readings are taken", lambda: b.status()["drift"]["taken"] > 1, 30)
+    b.axiscal("arm", code=4)
+    expect("is going on" in b.complaint, b.complaint)
+    expect("of 3600 readings" in b.axiscal("status"), "status shows the test")
+    b.axiscal("abort", "--reason", "somebody moved the table")
+    bench.wait_until(
+        "the test is closed", lambda: b.status()["drift"]["state"] == "incomplete", 30
+    )
+    expect(b.status()["drift"]["id"] == begun["run"], f"{b.status()['drift']}")
+    b.axiscal("analyze", b.status()["drift"]["file"], code=3)
+    expect("somebody moved the table" in b.complaint, b.complaint)
+    b.axiscal("arm", code=4)
+    expect("axiscal drift" in b.complaint, b.complaint)
+    b.axiscal("drift", "--duration", "ten", code=2)
+
+
+if __name__ == "__main__":
+    bench.main()

@@ -1,0 +1,107 @@
+// The beam aligned before a run: what is kept stands in the run file.
+#include "tests/unit/station/station_bench.hpp"
+
+namespace axiscal::testing {
+namespace {
+
+class StationAligns : public ::testing::Test {
+protected:
+    void SetUp() override { shop.shorten(); }
+    static AlignmentOrder order(AlignmentAction action, std::optional<double> spot_mm = {}) {
+        return {action, spot_mm};
+    }
+    void drive(Life& life, double to_mm) {
+        shop.axis.go(to_mm, life.scheduler.now());
+        life.run(5s);
+    }
+    std::optional<AlignmentRecord> alignment_of_run() {
+        const auto contents = read_run_file_contents(shop.run_files().at(0));
+        EXPECT_TRUE(contents);
+        return contents ? contents->attachments.alignment : std::nullopt;
+    }
+    Shop shop;
+};
+
+TEST_F(StationAligns, TheLastAlignmentStandsInTheRunFile) {
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    EXPECT_TRUE(life.station->alignment().running);
+    drive(life, 0);
+    drive(life, 1000);
+    EXPECT_TRUE(life.station->alignment().at_rest);
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::keep, 1.5)));
+    EXPECT_FALSE(life.station->alignment().running);
+    ASSERT_TRUE(life.arm());
+    const auto kept = alignment_of_run();
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->serial, "S-1");
+    EXPECT_EQ(kept->travel, mm(1000));
+    ASSERT_TRUE(kept->far);
+    // The bench's laser reads in vacuum wavelengths: longer by 2.7e-4.
+    EXPECT_NEAR(kept->far->distance.in(mm), 1000.27, 1e-6);
+    EXPECT_EQ(kept->spot_offset, mm(1.5));
+    EXPECT_GT(kept->ended_utc_ns, kept->began_utc_ns);
+}
+
+TEST_F(StationAligns, AnAlignmentThatGoesOnIsKeptByArming) {
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    drive(life, 500);
+    ASSERT_TRUE(life.arm());
+    EXPECT_TRUE(alignment_of_run());
+    EXPECT_FALSE(life.station->alignment().running);
+}
+
+TEST_F(StationAligns, ADroppedOneLeavesTheLastOneKept) {
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    life.run(1s); // at the near end
+    drive(life, 600);
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::keep)));
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    drive(life, 100);
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::drop)));
+    ASSERT_TRUE(life.station->alignment().record);
+    EXPECT_NEAR(life.station->alignment().record->reached.in(mm), 600 * (1 + 2.7e-4), 1e-6);
+}
+
+TEST_F(StationAligns, WithoutOneTheRunFileHasNone) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    EXPECT_FALSE(alignment_of_run());
+}
+
+TEST_F(StationAligns, ThatOfAnotherLaserIsNotTheRunsOwn) {
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    drive(life, 500);
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::keep)));
+    life.laser->unplugged = true;
+    life.run(5s);
+    life.laser->serial = "S-2";
+    life.laser->unplugged = false;
+    life.run(20s);
+    ASSERT_TRUE(life.arm());
+    EXPECT_FALSE(alignment_of_run());
+}
+
+TEST_F(StationAligns, IsRefusedWhileARunIsOpen) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const auto refused = life.station->align(order(AlignmentAction::begin));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::busy);
+}
+
+TEST_F(StationAligns, NothingCanBeKeptThatWasNotSeen) {
+    Life life{shop};
+    EXPECT_EQ(life.station->align(order(AlignmentAction::keep)).error().fault, Fault::not_found);
+    life.laser->quality = Quality::beam_lost;
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    life.run(2s);
+    EXPECT_EQ(life.station->align(order(AlignmentAction::keep)).error().fault, Fault::beam_lost);
+    EXPECT_TRUE(life.station->alignment().running);
+}
+
+} // namespace
+} // namespace axiscal::testing

@@ -1,0 +1,202 @@
+// The drift test from its order to its file, and what it does to later runs.
+#include "analysis/drift/run_drift.hpp"
+#include "tests/unit/station/report_script.hpp"
+#include "tests/unit/station/station_bench.hpp"
+
+namespace axiscal::testing {
+namespace {
+
+class StationDrifts : public ::testing::Test {
+protected:
+    void SetUp() override { shop.shorten(); }
+    static std::shared_ptr<std::optional<Result<std::string>>> begin(Life& life,
+                                                                     DriftRequest request) {
+        auto answer = std::make_shared<std::optional<Result<std::string>>>();
+        boost::asio::co_spawn(
+            life.scheduler.loop(), life.station->drift(std::move(request)),
+            [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
+        life.run(100ms);
+        return answer;
+    }
+    static DriftRequest short_test() {
+        DriftRequest request;
+        request.duration = 60s;
+        request.interval = 1s;
+        return request;
+    }
+    RunFileContents contents() {
+        const auto read = read_run_file_contents(shop.run_files().at(0));
+        EXPECT_TRUE(read) << (read ? "" : describe(read.error()));
+        return read.value_or(RunFileContents{});
+    }
+    Shop shop;
+};
+
+TEST_F(StationDrifts, RecordsEveryChannelWithoutACnc) {
+    Life life{shop};
+    shop.axis.go(900, life.scheduler.now());
+    life.run(5s);
+    DriftRequest request = short_test();
+    request.place_mm = 900;
+    request.statements["operator"] = "Shift 2";
+    const auto id = begin(life, request);
+    ASSERT_TRUE(*id && **id);
+    EXPECT_TRUE((**id)->ends_with("-drift"));
+    EXPECT_EQ(life.status().drift->state, "recording");
+    life.run(70s);
+    EXPECT_EQ(life.status().drift->state, "complete");
+    const RunFileContents file = contents();
+    EXPECT_TRUE(file.closed && file.run.complete);
+    ASSERT_TRUE(file.attachments.drift);
+    EXPECT_EQ(file.attachments.drift->place, mm(900));
+    EXPECT_EQ(file.attachments.drift->duration, 60s);
+    EXPECT_EQ(file.run.statements.operator_name, "Shift 2");
+    EXPECT_EQ(file.run.channels.size(), 6U);
+    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    ASSERT_TRUE(drift) << describe(drift.error());
+    EXPECT_EQ(drift->axis.times.size(), 60U);
+    EXPECT_EQ(drift->missing, 0);
+    EXPECT_NEAR(drift->eve.range, 0, 1e-6); // nothing moves on this bench
+    for (const ChannelDrift& channel : drift->channels)
+        EXPECT_GE(channel.series.times.size(), 59U) << channel.name;
+}
+
+TEST_F(StationDrifts, SeesTheAxisCreep) {
+    Life life{shop};
+    shop.axis.go(900, life.scheduler.now());
+    life.run(5s);
+    shop.axis.go(900, life.scheduler.now()); // it rests: the speed is of the next move
+    shop.axis.speed_mm_per_s = 1e-4;         // 0.1 um/s
+    shop.axis.go(901, life.scheduler.now());
+    begin(life, short_test());
+    life.run(70s);
+    const RunFileContents file = contents();
+    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    ASSERT_TRUE(drift);
+    // 59 intervals of 1 s; in air 22.6 degC warm steel: 3e-5 shorter. The bench's light is
+    // longer by 2.7e-4, its air nearly as much.
+    EXPECT_NEAR(drift->eve.range, 5.9, 0.001);
+    EXPECT_NEAR(life.status().drift->range_um.value(), 5.9, 0.01);
+}
+
+TEST_F(StationDrifts, StandsAtTheFarEndUnlessSaidOtherwise) {
+    Life life{shop};
+    begin(life, short_test());
+    EXPECT_EQ(life.status().drift->place_mm, 1000);
+    ASSERT_TRUE(life.station->abort("enough"));
+    life.run(1s);
+    EXPECT_EQ(life.status().drift->state, "incomplete");
+    EXPECT_EQ(life.status().drift->sentence, "enough");
+    EXPECT_FALSE(contents().run.complete);
+}
+
+TEST_F(StationDrifts, RunsAndAlignmentsWaitForItsEnd) {
+    Life life{shop};
+    begin(life, short_test());
+    EXPECT_EQ(life.arm().error().fault, Fault::busy);
+    EXPECT_EQ(life.station->align({AlignmentAction::begin, {}}).error().fault, Fault::busy);
+    EXPECT_EQ((**begin(life, short_test())).error().fault, Fault::busy);
+    life.run(70s);
+    EXPECT_TRUE(life.arm());
+    EXPECT_EQ((**begin(life, short_test())).error().fault, Fault::busy);
+}
+
+TEST_F(StationDrifts, RefusesWhatCannotBeATest) {
+    Life life{shop};
+    DriftRequest request = short_test();
+    request.interval = 100ms; // shorter than the window of a reading
+    EXPECT_EQ((**begin(life, request)).error().field, "interval");
+    request = short_test();
+    request.duration = 1500ms;
+    EXPECT_EQ((**begin(life, request)).error().field, "duration");
+    request = short_test();
+    request.place_mm = 1001;
+    EXPECT_EQ((**begin(life, request)).error().field, "place_mm");
+    request = short_test();
+    request.statements["colour"] = "red";
+    EXPECT_EQ((**begin(life, request)).error().fault, Fault::bad_request);
+    EXPECT_TRUE(shop.run_files().empty());
+}
+
+TEST_F(StationDrifts, ALostZeroEndsItAndSaysSo) {
+    Life life{shop};
+    begin(life, short_test());
+    life.run(10s);
+    ++life.laser->epoch;
+    life.run(5s);
+    EXPECT_EQ(life.status().drift->state, "incomplete");
+    EXPECT_NE(life.status().drift->sentence.find("lost its zero"), std::string::npos);
+}
+
+TEST_F(StationDrifts, ASilentLaserLeavesGapsThatAreCounted) {
+    Life life{shop};
+    begin(life, short_test());
+    life.run(10s);
+    life.laser->silent = true;
+    life.run(10s);
+    life.laser->silent = false;
+    life.run(50s);
+    const DriftView view = *life.status().drift;
+    EXPECT_EQ(view.state, "complete");
+    EXPECT_NEAR(view.missing, 10, 1);
+    EXPECT_EQ(view.taken + view.missing, 60);
+}
+
+TEST_F(StationDrifts, ADaemonThatWentAwayClosesItAsIncomplete) {
+    {
+        Life life{shop};
+        begin(life, short_test());
+        life.run(10s);
+    }
+    Life again{shop};
+    EXPECT_FALSE(again.status().run);
+    const RunFileContents file = contents();
+    EXPECT_TRUE(file.closed);
+    EXPECT_FALSE(file.run.complete);
+    EXPECT_NE(file.run.closing_reason.find("Nobody watched"), std::string::npos);
+    EXPECT_TRUE(again.arm());
+}
+
+/// What axiscal-report leaves behind, without it.
+void store_eve(const std::string& path, double um) {
+    const std::string document = R"({"format":"axiscal.drift/1","parameters":{"E_VE":{"value":)" +
+                                 std::to_string(um) + "}}}";
+    ASSERT_TRUE(store_result(path, {sha256_hex(document), document}));
+}
+
+TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
+    shop.config.eve_run = "latest";
+    Life life{shop};
+    const auto refused = life.arm();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::not_found);
+    EXPECT_NE(refused.error().detail.find("axiscal drift"), std::string::npos);
+    const auto id = begin(life, short_test());
+    life.run(70s);
+    EXPECT_FALSE(life.arm()) << "complete, but not evaluated yet";
+    store_eve(shop.run_files().at(0), 1.25);
+    ASSERT_TRUE(life.arm());
+    for (const std::string& path : shop.run_files()) {
+        const auto file = read_run_file_contents(path);
+        if (file->attachments.drift) continue;
+        ASSERT_TRUE(file->run.uncertainty && file->run.uncertainty->eve);
+        EXPECT_NEAR(file->run.uncertainty->eve->in(um), 1.25, 1e-9);
+        EXPECT_EQ(file->attachments.eve_source, **id);
+    }
+}
+
+TEST_F(StationDrifts, OfAnotherAxisIsNotTheRunsOwn) {
+    shop.config.eve_run = "latest";
+    {
+        Life life{shop};
+        begin(life, short_test());
+        life.run(70s);
+        store_eve(shop.run_files().at(0), 1.25);
+    }
+    shop.config.axis.name = "Y";
+    Life again{shop};
+    EXPECT_EQ(again.arm().error().fault, Fault::not_found);
+}
+
+} // namespace
+} // namespace axiscal::testing

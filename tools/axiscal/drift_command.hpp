@@ -1,0 +1,21 @@
+#pragma once
+// `axiscal drift`: every channel against time while the axis rests.
+
+#include "tools/axiscal/station_client.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace axiscal {
+
+struct DriftOrder {
+    std::string duration = "30 min", interval = "1 s"; ///< with their units
+    std::optional<double> place_mm;
+    bool wait = false; ///< until the test has ended and its certificate is written
+    std::map<std::string, std::string> statements;
+};
+/// Exit: 0 begun, or complete with `wait`; 6 ended incomplete; 2 for a duration that is none.
+int command_drift(const StationClient& client, const DriftOrder& order, bool json);
+
+} // namespace axiscal
