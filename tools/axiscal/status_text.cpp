@@ -165,7 +165,9 @@ std::string status_text(const Json& status) {
     std::string text = "Station      " + status.at("station").get<std::string>() + "   " +
                        status.at("utc").get<std::string>() + "\n";
     text += run_text(status);
-    if (!status.at("drift").is_null()) text += drift_text(status.at("drift"));
+    // A daemon of before the drift test sends none.
+    if (status.contains("drift") && !status.at("drift").is_null())
+        text += drift_text(status.at("drift"));
     text += "Axis " + axis.at("name").get<std::string>() + "       " +
             number_or_dashes(axis.at("position_mm"), "%.4f", "mm") + "   deviation " +
             number_or_dashes(axis.at("deviation_um"), "%+.2f", "µm") + "   spread " +
