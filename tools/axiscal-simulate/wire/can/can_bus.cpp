@@ -12,7 +12,10 @@
 #include <net/if.h>
 #include <numbers>
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sstream>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -43,6 +46,15 @@ Result<int> open_socket(const std::string& interface) {
     const std::error_code cause{errno, std::generic_category()};
     if (handle >= 0) ::close(handle);
     return fail(Fault::io, "no CAN interface " + interface, cause);
+}
+
+/// A device does not wait for this computer: where it is allowed, its thread comes before all others
+/// and its pages stay.
+void be_prompt() {
+    sched_param urgent{};
+    urgent.sched_priority = ::sched_get_priority_min(SCHED_FIFO);
+    ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &urgent);
+    ::mlockall(MCL_CURRENT | MCL_FUTURE);
 }
 
 } // namespace
@@ -142,6 +154,7 @@ void CanBus::flood(double now_s) {
 }
 
 void CanBus::live(const std::stop_token& stop) {
+    be_prompt();
     while (!stop.stop_requested()) {
         double due_s = clock_.now_s() + longest_look_s;
         {
@@ -186,7 +199,8 @@ nlohmann::json CanBus::status() {
     nlohmann::json devices = nlohmann::json::object();
     for (const Device& device : devices_)
         devices[device.called] = {{"node", device.node->number()},
-                                  {"pdos", device.node->pdos_sent()}};
+                                  {"pdos", device.node->pdos_sent()},
+                                  {"skipped", device.node->pdos_skipped()}};
     return {{"ready", true}, {"devices", devices}, {"foreign", foreign_}, {"refused", refused_}};
 }
 

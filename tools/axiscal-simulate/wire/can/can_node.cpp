@@ -9,7 +9,7 @@ namespace axiscal::simulate {
 namespace {
 
 constexpr int most_tpdos = 8;
-constexpr double forgotten_s = 1; ///< what was due longer ago is never sent
+constexpr double forgotten_s = 0.02; ///< what was due longer ago is never sent
 constexpr std::uint32_t no_object = 0x06020000, no_sub = 0x06090011, read_only = 0x06010002,
                         wrong_length = 0x06070010, unknown_command = 0x05040001;
 
@@ -213,8 +213,10 @@ CanMessage CanNode::pdo(int number, double now_s) const {
 
 void CanNode::send_pdos(double now_s, std::vector<CanMessage>& sent) {
     for (auto& [number, due_s] : next_pdo_s_) {
-        if (now_s - due_s > forgotten_s) due_s = now_s;
-        for (; due_s <= now_s; due_s += pdo_period_s(number)) {
+        const double period_s = pdo_period_s(number);
+        for (; now_s - due_s > forgotten_s; due_s += period_s)
+            ++pdos_skipped_;
+        for (; due_s <= now_s; due_s += period_s) {
             sent.push_back(pdo(number, due_s));
             ++pdos_sent_;
         }

@@ -41,13 +41,14 @@ public:
     void power_off() { state_ = off; }
     /// Answers to one frame of the bus.
     std::vector<CanMessage> take(const CanMessage& frame, double now_s);
-    /// What it sends by itself until now. One that was not asked for more than a second goes on
-    /// from now.
+    /// What it sends by itself until now. A real device sends in time or not at all: what was due more
+    /// than 20 ms ago, because this computer stood still, is skipped and counted.
     std::vector<CanMessage> advance(double now_s);
     [[nodiscard]] double next_due_s() const; ///< infinity: nothing by itself
     /// An emergency message, sent with the next advance().
     void tell_emergency(std::uint16_t code, std::uint8_t error_register, const Bytes& maker);
     [[nodiscard]] std::uint64_t pdos_sent() const { return pdos_sent_; }
+    [[nodiscard]] std::uint64_t pdos_skipped() const { return pdos_skipped_; }
     [[nodiscard]] int number() const { return static_cast<int>(node_); }
 
 private:
@@ -86,7 +87,7 @@ private:
     std::vector<CanMessage> waiting_; ///< boot-up, emergencies
     std::map<int, double> next_pdo_s_;
     double next_beat_s_ = 0;
-    std::uint64_t pdos_sent_ = 0;
+    std::uint64_t pdos_sent_ = 0, pdos_skipped_ = 0;
 };
 
 } // namespace axiscal::simulate

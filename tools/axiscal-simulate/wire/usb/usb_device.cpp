@@ -10,4 +10,8 @@ UsbAnswer UsbDevice::in(std::uint8_t, std::size_t) {
     return UsbAnswer::stall();
 }
 
+Result<void> UsbDevice::obey(const std::string& word) {
+    return fail(Fault::bad_request, "a device of this kind knows no \"" + word + "\"");
+}
+
 } // namespace axiscal::simulate

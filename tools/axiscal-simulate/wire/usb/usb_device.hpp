@@ -83,8 +83,10 @@ public:
     [[nodiscard]] virtual std::chrono::milliseconds pace() const {
         return std::chrono::milliseconds{5};
     }
-    /// What the host has set (line speed, latency), for people; the one thread-safe member.
+    /// What the host has set (line speed, latency), for people. Thread-safe, as is obey().
     [[nodiscard]] virtual std::string state() const { return {}; }
+    /// What can happen to a device of this kind only. @errors bad_request for an unknown word.
+    virtual Result<void> obey(const std::string& word);
 };
 
 } // namespace axiscal::simulate

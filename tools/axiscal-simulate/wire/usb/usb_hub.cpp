@@ -38,6 +38,10 @@ Result<void> UsbHub::obey(const std::string& word, std::istream& arguments) {
         return fail(Fault::not_found, "no device is called \"" + name + "\"");
     if (word == "plug") return (*found)->plug();
     if (word == "unplug") return (*found)->unplug(), Result<void>{};
+    if (word == "tell") {
+        arguments >> fault;
+        return (*found)->obey(fault);
+    }
     if (word != "fault") return fail(Fault::bad_request, "\"" + word + "\" is no command");
     arguments >> fault >> number;
     return (*found)->faults().set(fault, number);

@@ -1,6 +1,8 @@
 #include "wire/usb/usb_instruments.hpp"
 
 #include "simulated_machine.hpp"
+#include "wire/can/can_instruments.hpp"
+#include "wire/usb/gs_usb_device.hpp"
 #include "wire/usb/temper_device.hpp"
 #include "wire/usb/u6_device.hpp"
 #include "wire/usb/usbtenki_device.hpp"
@@ -56,6 +58,26 @@ Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWor
         return show;
     };
     return std::make_unique<TemperDevice>(wish.text("firmware", "TEMPerX_V3.3"), std::move(shown));
+}
+
+Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWorld& world) {
+    AXISCAL_TRY(const double mm, number(wish, "mm", "1"));
+    const auto none = [](double) { return 0; };
+    CanTransWorld warm{[thermal = world.scenario.thermal](double seconds) {
+                           return material_at(thermal, seconds).in_celsius();
+                       },
+                       none};
+    TemposonicsWorld far;
+    far.metres = [mm](double) { return 1e-3 * mm; };
+    far.area = none;
+    std::vector<std::unique_ptr<CanNode>> nodes;
+    nodes.push_back(make_cantrans(125, std::move(warm)));
+    nodes.push_back(make_temposonics(127, std::move(far)));
+    for (const auto& node : nodes)
+        node->power_on(world.clock.now_s());
+    return std::make_unique<GsUsbDevice>(
+        wish.text("serial", "003A00295553501420393933"),
+        [clock = world.clock] { return clock.now_s(); }, std::move(nodes));
 }
 
 } // namespace axiscal::simulate

@@ -11,5 +11,8 @@ Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbW
 Result<std::unique_ptr<UsbDevice>> make_labjack_u6(const UsbWish& wish, const UsbWorld& world);
 /// TEMPer whose probe touches the scenario's material, stick in its air. Setting: firmware.
 Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWorld& world);
+/// CAN adapter with a transducer (node 127, at `mm`) and a thermometer (node 125) on its bus. Setting:
+/// serial.
+Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWorld& world);
 
 } // namespace axiscal::simulate

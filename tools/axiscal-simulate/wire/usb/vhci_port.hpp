@@ -24,6 +24,7 @@ public:
     [[nodiscard]] bool plugged() const { return pump_.joinable(); }
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] std::string state() const { return device_->state(); }
+    Result<void> obey(const std::string& word) { return device_->obey(word); }
     UsbFaults& faults() { return faults_; }
 
 private:
