@@ -52,8 +52,10 @@ std::vector<ChannelRecord> Station::every_channel() const {
         if (!used) record.medium = Medium::none;
         records.push_back(std::move(record));
     }
-    std::ranges::stable_partition(
-        records, [this](const ChannelRecord& record) { return record.id == roles_.laser; });
+    // clang 14 does not take the ranges' own.
+    std::stable_partition(records.begin(), records.end(), [this](const ChannelRecord& record) {
+        return record.id == roles_.laser;
+    });
     return records;
 }
 

@@ -63,7 +63,7 @@ read_cia404_input(const Cia404Input& input, const PdoLayout& layout, const CanFr
     }
     double value = 0;
     if (input.is_float())
-        value = std::bit_cast<float>(static_cast<std::uint32_t>(*raw));
+        value = static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(*raw)));
     else
         value = static_cast<double>(sign_extended(*raw, layout.bits_of(input.value))) /
                 std::pow(10.0, input.digits);

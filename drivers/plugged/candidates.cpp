@@ -13,10 +13,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view serial_prefix = "serial:";
 
-/// Both names lead to one device node.
+/// Both names lead to one device node. By their paths: std::filesystem::equivalent compares no
+/// devices.
 bool same_node(const std::string& name, const std::string& other) {
+    if (name == other) return true;
     std::error_code error;
-    return name == other || (fs::exists(name, error) && fs::equivalent(name, other, error));
+    const fs::path node = fs::canonical(name, error);
+    return !error && node == fs::canonical(other, error) && !error;
 }
 
 bool same_terminal(const PluggedDevice& device, const std::string& link) {

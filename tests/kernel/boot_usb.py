@@ -115,15 +115,19 @@ def found(station):
     told = json.loads(run(PROGRAMS / "axiscal", "devices", "--json", "--socket", station.socket, "--config",
                           station.folder / "station.toml"))
     known = {one["in_station"]: one for one in told["plugged"] if one["in_station"]}
-    expect(set(known) == {"laser", *NAMES}, f"known are {sorted(known)}")
+    expect(set(known) == {"laser", "air", "material"}, f"known are {sorted(known)}")
     expect(known["air"]["usb"]["serial"] == "A10234", f"{known['air']}")
     expect(known["laser"]["kernel_driver"] == "cdc_acm", f"{known['laser']}")
     expect(known["material"]["node"].startswith("/dev/hidraw"), f"{known['material']}")
     for one in known.values():
         expect(one["missing"] == [], f"{one}")
         expect(Path(one["node"]).exists(), f"{one}")
-    [decoy] = [one for one in told["plugged"] if one["usb"] and one["usb"]["serial"] == "470099999"]
-    expect(decoy["in_station"] is None and 'link = "usb:470099999"' in decoy["could_be"][0]["block"], f"{decoy}")
+    # A U6 tells its number only when it is opened: ballbar and decoy differ by their sockets alone.
+    bars = [one for one in told["plugged"] if one["usb"] and one["usb"]["id"] == "0cd5:0006"]
+    expect(len(bars) == 2, f"{told['plugged']}")
+    for one in bars:
+        expect(one["in_station"] is None and one["could_be"][0]["driver"] == "labjack-u6", f"{one}")
+        expect('link = "usb-port:' in one["could_be"][0]["block"], f"{one}")
 
 
 @check("BallbarStreamsAtOneKilohertzWithoutAGap")

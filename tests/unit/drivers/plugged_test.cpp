@@ -2,6 +2,7 @@
 #include "drivers/plugged/candidates.hpp"
 #include "drivers/registry.hpp"
 #include "tests/support/made_instrument.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
 #include "tests/support/sysfs_tree.hpp"
 
@@ -189,6 +190,23 @@ TEST_F(Plugged, DeviceOfTheStationIsKnownUnderWhateverNameItIsWritten) {
     EXPECT_EQ(known_as(laser, station_of("[[instrument]]\nname = \"x\"\nlink = "
                                          "\"serial:/dev/ttyACM0\"\n")),
               "");
+}
+
+/// Of device nodes std::filesystem::equivalent says nothing: the kernel's own by-id names never
+/// met.
+TEST_F(Plugged, DeviceNodeIsKnownUnderALinkToIt) {
+    PluggedDevice line;
+    line.node = "/dev/null";
+    const testing::ScratchFolder scratch;
+    const std::string link = scratch.path() + "/usb-maker-line";
+    ASSERT_EQ(::symlink("/dev/null", link.c_str()), 0);
+    const auto known = [&](const std::string& name) {
+        return known_as(
+            line, station_of("[[instrument]]\nname = \"x\"\nlink = \"serial:" + name + "\"\n"));
+    };
+    EXPECT_EQ(known(link), "x");
+    EXPECT_EQ(known("/dev/zero"), "");
+    EXPECT_EQ(known(scratch.path() + "/nowhere"), "");
 }
 
 TEST_F(Plugged, SticksOfTheStationAreKnownByNumberBySocketAndAsTheOnlyOne) {
