@@ -1,6 +1,7 @@
 #pragma once
-// Virtual time: what lasts for minutes on a tape passes in milliseconds. The loop is polled until
-// nothing is ready, then time jumps to the next sleeper. No wall clock is involved. Loop-bound.
+// Virtual time: what lasts for minutes on a tape, or a week in a test, passes in moments. The loop
+// is polled until nothing is ready, then time jumps to the next sleeper. No wall clock is involved.
+// Loop-bound.
 
 #include "drivers/scheduler.hpp"
 
