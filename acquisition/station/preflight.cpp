@@ -161,15 +161,15 @@ std::optional<double> air_share_of(const DriftSeries& material, const DriftSerie
         beside.push_back(value_at(air, time));
     const auto sensor = residuals_of(material.times, material.readings);
     const auto driver = residuals_of(material.times, beside);
-    double aa = 0, am = 0, mm_ = 0;
+    double aa = 0, as = 0, ss = 0;
     for (std::size_t i = 0; i < sensor.size(); ++i) {
         aa += driver[i] * driver[i];
-        am += driver[i] * sensor[i];
-        mm_ += sensor[i] * sensor[i];
+        as += driver[i] * sensor[i];
+        ss += sensor[i] * sensor[i];
     }
     const bool moves = std::sqrt(aa / static_cast<double>(sensor.size())) >= telling_change_K;
-    if (!moves || mm_ <= 0 || am / std::sqrt(aa * mm_) < telling_correlation) return std::nullopt;
-    return am / aa;
+    if (!moves || ss <= 0 || as / std::sqrt(aa * ss) < telling_correlation) return std::nullopt;
+    return as / aa;
 }
 
 PreflightRecord check_contact(const PreflightFacts& facts) {

@@ -1,0 +1,63 @@
+#pragma once
+// What a person wrote behind `axiscal`: one record for every command, and who fills it.
+
+#include "tools/axiscal/align_command.hpp"
+#include "tools/axiscal/conformance.hpp"
+#include "tools/axiscal/daemon_commands.hpp"
+#include "tools/axiscal/devices_command.hpp"
+#include "tools/axiscal/doctor_command.hpp"
+#include "tools/axiscal/drift_command.hpp"
+#include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/tape_commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <map>
+
+namespace axiscal {
+
+struct Options {
+    bool json = false;
+    DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
+    std::string token_file;
+    std::string config = "/etc/axiscal/station.toml";
+    std::string file, out = ".", reason, certificate;
+    bool until_published = false, drivers = false;
+    ArmOrder arm;
+    AlignOrder align;
+    DriftOrder drift;
+    std::vector<std::string> statements, overrides;
+    RevisionOrder revision;
+    bool exclude_instead = false;
+    ProgramRequest program;
+    ConformanceOrder conformance;
+    DevicesRequest devices;
+    DoctorRequest doctor;
+    RecordRequest record;
+    ReplayRequest replay;
+    SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
+};
+
+/// What will be done once every word is read; its result is the exit code.
+using Command = std::function<int()>;
+
+/// Each adds the commands of one subject to `app`; the one that was called is put into `chosen`.
+void add_run_commands(CLI::App& app, Options& options, Command& chosen);
+void add_rest_commands(CLI::App& app, Options& options, Command& chosen);
+void add_instrument_commands(CLI::App& app, Options& options, Command& chosen);
+void add_tape_commands(CLI::App& app, Options& options, Command& chosen);
+void add_paper_commands(CLI::App& app, Options& options, Command& chosen);
+
+/// The daemon that `options` names.
+StationClient client_of(Options& options);
+/// --socket, --host and --token-file.
+void daemon_options(CLI::App& command, Options& options);
+/// "KEY=TEXT" words into `into`. False when one has no '='.
+bool split_at_equals(const std::vector<std::string>& given,
+                     std::map<std::string, std::string>& into);
+/// --state-that and --override into the arm order; tells what is wrong.
+/// @returns an exit code
+int split_statements(Options& options);
+
+} // namespace axiscal

@@ -1,0 +1,104 @@
+// Commands over files; none needs the daemon.
+#include "tools/axiscal/arguments/options.hpp"
+
+namespace axiscal {
+namespace {
+
+constexpr const char* verify_footer =
+    R"(Exit codes: 0 every row is as it was written, the figures computed anew are those that were stored, and
+the certificate says the same; 8 something is not, and each row is named with its table and number;
+3 the file is no run file, or its pages are damaged; 1 it cannot be read.
+A run that is still open can be verified as well. See docs/run-file.md for what the chain can show.)";
+
+void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* analyze = app.add_subcommand(
+        "analyze",
+        "Figures of a run file, or of a JSON case (docs/analysis.md); told apart by content");
+    analyze
+        ->add_option("FILE", options.file,
+                     "RUN.axiscal or CASE.json; - reads a case from standard input")
+        ->required();
+    analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
+
+    auto* program = app.add_subcommand("program", "Write the part program of the planned cycle");
+    program->add_option("--config", options.config, "station file")->capture_default_str();
+    program->add_option("--dialect", options.program.dialect,
+                        "linuxcnc or marlin; default linuxcnc");
+    program->add_option("--out", options.program.out_directory, "folder for the files")
+        ->default_val(".");
+    program->add_option(
+        "--seed", options.program.seed,
+        "seed of the targets' random parts; default: the station file's, or a new one");
+    program
+        ->add_option("--retake", options.program.run_file,
+                     "run file: write the program of the points that are to be taken again")
+        ->check(CLI::ExistingFile);
+    program->callback([&] {
+        chosen = [&] {
+            options.program.station_file = options.config;
+            return command_program(options.program, options.json);
+        };
+    });
+
+    auto* write = app.add_subcommand(
+        "export", "certificate.json, .csv and .pdf of a closed run file, or of a circular case");
+    write->add_option("RUN", options.file, "run file, or the JSON of a circular case")->required();
+    write->add_option("--out", options.out, "folder to write into")->capture_default_str();
+    write->callback(
+        [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });
+
+    auto* verify = app.add_subcommand(
+        "verify", "Is a run file what was written? Names each changed, missing or added row");
+    verify->add_option("RUN", options.file, "run file")->required();
+    verify->add_option("--certificate", options.certificate,
+                       "certificate.json to hold against it; default: the one beside it, if it is "
+                       "of the same run");
+    verify->footer(verify_footer);
+    verify->callback([&] {
+        chosen = [&] { return command_verify(options.file, options.certificate, options.json); };
+    });
+
+    auto* check = app.add_subcommand("check-config",
+                                     "Every refusal of a station file at once, with its line");
+    check->add_option("FILE", options.config, "station file")->capture_default_str();
+    check->callback(
+        [&] { chosen = [&] { return command_check_config(options.config, options.json); }; });
+}
+
+constexpr const char* conformance_footer = R"(Examples:
+  axiscal conformance                                        this program, every case, every figure
+  axiscal conformance --brief --against "python3 mine.py"    another program, only what disagrees
+  axiscal conformance --only 'circle-*' positioning-hand-1   some cases
+
+Another program reads one case as JSON from standard input, writes the result as JSON to standard output
+and ends with 0. One that crashes, hangs or writes anything else fails that case; the next one is run.
+Figures stand as: digits of agreement, place in the result, value. The last line counts cases by the
+origin of their figures. Exit 7: a figure disagrees. Exit 3: a file is no case. See docs/conformance.md.)";
+
+void add_conformance_command(CLI::App& app, Options& options, Command& chosen) {
+    ConformanceOrder& order = options.conformance;
+    auto* command = app.add_subcommand(
+        "conformance", "Hold this program, or another, against cases with known figures");
+    command->add_option("--against", order.command,
+                        "another program, as a line for the shell; default: this one");
+    command->add_option("--cases", order.folder,
+                        "folder of cases; default: $AXISCAL_CONFORMANCE_PATH, else the installed");
+    command->add_option("--only", order.only, "ids of cases, or patterns as 'circle-*'");
+    command
+        ->add_option("--timeout", order.seconds, "seconds that another program may take for a case")
+        ->check(CLI::Range(0.001, 86400.0))
+        ->capture_default_str();
+    command->add_flag("--brief", order.brief, "print only what disagrees, and the last line");
+    command->footer(conformance_footer);
+    command->callback(
+        [&] { chosen = [&] { return command_conformance(options.conformance, options.json); }; });
+}
+
+} // namespace
+
+void add_paper_commands(CLI::App& app, Options& options, Command& chosen) {
+    add_offline_commands(app, options, chosen);
+    add_conformance_command(app, options, chosen);
+}
+
+} // namespace axiscal

@@ -1,0 +1,127 @@
+// Commands that drive a run.
+#include "tools/axiscal/arguments/options.hpp"
+#include "tools/axiscal/exit_code.hpp"
+
+#include <iostream>
+
+namespace axiscal {
+namespace {
+
+void arming_options(CLI::App& command, Options& options) {
+    command.add_option(
+        "--state-that", options.statements,
+        "KEY=TEXT for the certificate: operator, state (as found, raw, as left), customer, ...");
+    command.add_option("--override", options.overrides,
+                       "NAME=REASON: arm although this pre-flight check fails; the certificate "
+                       "prints the reason");
+}
+
+void revision_options(CLI::App& command, Options& options) {
+    command.add_option("--target", options.revision.target, "target, from 1; left out: every one")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--direction", options.revision.direction, "up or down; left out: both")
+        ->check(CLI::IsMember({"up", "down"}));
+    command.add_option("--cycle", options.revision.cycle, "approach, from 1; left out: every one")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--reason", options.revision.reason, "stands on the certificate")
+        ->required();
+}
+
+void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* retake = app.add_subcommand(
+        "retake", "Take points again: a target, a direction, a cycle, or several of them together; "
+                  "in the open run, or in the last one while its set-up stands");
+    revision_options(*retake, options);
+    retake->add_flag("--exclude", options.exclude_instead, "leave them out instead, as 'exclude'");
+    retake->callback([&] {
+        chosen = [&] {
+            return options.exclude_instead
+                       ? command_exclude(client_of(options), options.revision, options.json)
+                       : command_retake(client_of(options), options.revision, options.json);
+        };
+    });
+    auto* exclude = app.add_subcommand(
+        "exclude",
+        "Leave readings out of every figure, with a reason; they stay in the run file and "
+        "are drawn and counted on the certificate");
+    revision_options(*exclude, options);
+    exclude->callback([&] {
+        chosen = [&] {
+            return command_exclude(client_of(options), options.revision, options.json);
+        };
+    });
+}
+
+void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* arm = app.add_subcommand(
+        "arm", "Open a run: the axis stands at its datum, the reading is tied there");
+    arm->add_option("--datum", options.arm.datum_mm,
+                    "coordinate in mm (deg) where the axis stands now; default: the plan's datum");
+    arm->add_option("--program", options.arm.program,
+                    "the part program; its header names seed and pass")
+        ->check(CLI::ExistingFile);
+    arm->add_option("--seed", options.arm.seed,
+                    "seed of the targets' random parts, as the part program says");
+    arm->add_option("--pass", options.arm.pass,
+                    "whole, stretch on an axis over 2000 mm, or circular")
+        ->capture_default_str();
+    arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
+                  "wait for the CNC's prepare command instead of tying now");
+    arming_options(*arm, options);
+    arm->callback([&] {
+        chosen = [&] {
+            const int usage = split_statements(options);
+            return usage != exit_ok ? usage
+                                    : command_arm(client_of(options), options.arm, options.json);
+        };
+    });
+
+    auto* preflight = app.add_subcommand(
+        "preflight", "Every check before arming with its verdict, without arming; 4: one fails");
+    arming_options(*preflight, options);
+    preflight->callback([&] {
+        chosen = [&] {
+            const int usage = split_statements(options);
+            return usage != exit_ok
+                       ? usage
+                       : command_preflight(client_of(options), options.arm, options.json);
+        };
+    });
+}
+
+void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
+    app.add_subcommand("status", "The station now: run, axis, channels, instruments")
+        ->callback(
+            [&] { chosen = [&] { return command_status(client_of(options), options.json); }; });
+    auto* watch = app.add_subcommand(
+        "watch",
+        "Live: next target, reading, temperatures, strength, time left; ends with the run");
+    watch->add_flag("--until-published", options.until_published, "wait for the certificate too");
+    watch->callback([&] {
+        chosen = [&] {
+            return command_watch(client_of(options), options.json, options.until_published);
+        };
+    });
+    app.add_subcommand("trigger",
+                       "Capture the next point now; it is marked manual on the certificate")
+        ->callback(
+            [&] { chosen = [&] { return command_trigger(client_of(options), options.json); }; });
+    auto* abort = app.add_subcommand("abort", "Close the run as incomplete; its file is kept");
+    abort->add_option("--reason", options.reason, "stands in the run file");
+    abort->callback([&] {
+        chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
+    });
+}
+
+} // namespace
+
+void add_run_commands(CLI::App& app, Options& options, Command& chosen) {
+    add_arm_commands(app, options, chosen);
+    add_revision_commands(app, options, chosen);
+    add_watch_commands(app, options, chosen);
+    for (const char* name :
+         {"arm", "preflight", "retake", "exclude", "status", "watch", "trigger", "abort"})
+        daemon_options(*app.get_subcommand(name), options);
+}
+
+} // namespace axiscal

@@ -1,0 +1,68 @@
+// Commands that keep what passes over a wire, and play it again.
+#include "tools/axiscal/arguments/options.hpp"
+
+namespace axiscal {
+namespace {
+
+constexpr const char* record_footer = R"(Example, with the daemon stopped (it holds the wire):
+  sudo systemctl stop axiscald
+  axiscal record --instrument air --out air.tape --for 60 --who "Shift 2" --what "warm-up, then still"
+  axiscal replay --print air.tape
+A good tape holds the start, a while of usual readings, and what goes wrong in practice: beam cut, probe
+pulled, cable out and in again. The header keeps maker, model, serial number, firmware, who, when, and the
+driver's keys of the station file; no other instrument is touched. docs/add-an-instrument.md tells what
+becomes of it.
+Serial, TCP, Modbus, USB, HID and CAN instruments can be recorded; those that the kernel reads for us (1-Wire,
+counter) have no wire of their own.)";
+
+constexpr const char* replay_footer =
+    R"(On a wire, for the unmodified daemon (serial and TCP instruments):
+  axiscal replay air.tape --link /tmp/air        then: link = "serial:/tmp/air" in a station file
+  axiscal replay ids.tape --port 9090            then: link = "tcp:127.0.0.1:9090"
+It waits for what the daemon must write, and answers as late as on the tape (--fast: at once). Exit 7 when
+the daemon writes something else.
+Through the driver, in this process and in virtual time:
+  axiscal replay --print air.tape                what the driver makes of it
+  axiscal replay air.tape --expect air.expected  exit 7 with the first line that differs
+  axiscal replay air.tape --rebuild air.expected writes it anew; read the difference before you keep it)";
+
+} // namespace
+
+void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
+    RecordRequest& record = options.record;
+    auto* keep = app.add_subcommand(
+        "record",
+        "Write what passes over an instrument's wire to a tape; axiscald must be stopped");
+    keep->add_option("--config", record.station_file, "station file")->capture_default_str();
+    keep->add_option("--instrument", record.instrument, "its name in the station file")->required();
+    keep->add_option("--out", record.tape, "tape to write; never one that is there")->required();
+    keep->add_option("--for", record.seconds, "seconds; Ctrl-C ends it earlier")
+        ->check(CLI::Range(0.1, 86400.0))
+        ->capture_default_str();
+    keep->add_option("--who", record.who, "who records");
+    keep->add_option("--what", record.what, "what is done meanwhile");
+    keep->add_option("--origin", record.origin, "device, or simulator for one that is none")
+        ->check(CLI::IsMember({"device", "simulator"}))
+        ->capture_default_str();
+    keep->footer(record_footer);
+    keep->callback([&] { chosen = [&] { return command_record(options.record, options.json); }; });
+
+    ReplayRequest& replay = options.replay;
+    auto* play = app.add_subcommand(
+        "replay", "Play a tape on a wire for the daemon, or through its driver at once");
+    play->add_option("TAPE", replay.tape, "what axiscal record wrote")->required();
+    play->add_option("--wire", replay.wire, "pty or tcp; default: as it was recorded")
+        ->check(CLI::IsMember({"pty", "tcp"}));
+    play->add_option("--link", replay.link, "pty: name for it, a symbolic link");
+    play->add_option("--port", replay.port, "tcp: port on 127.0.0.1; default: a free one")
+        ->check(CLI::Range(0, 65535));
+    play->add_flag("--fast", replay.fast, "without the times of the tape");
+    play->add_flag("--hold", replay.hold, "keep the wire open after the end, until Ctrl-C");
+    play->add_flag("--print", replay.print, "print what the driver makes of it; no wire");
+    play->add_option("--expect", replay.expected, "compare that with a file; no wire");
+    play->add_option("--rebuild", replay.rebuild, "write that to a file; no wire");
+    play->footer(replay_footer);
+    play->callback([&] { chosen = [&] { return command_replay(options.replay, options.json); }; });
+}
+
+} // namespace axiscal
