@@ -42,9 +42,10 @@ Account caller() {
     account.is_service = false;
     account.user = ::geteuid();
     account.name = name_of_user(account.user);
-    const int count = ::getgroups(0, nullptr);
+    const int room = std::max(::getgroups(0, nullptr), 0);
+    account.groups.resize(static_cast<std::size_t>(room));
+    const int count = ::getgroups(room, account.groups.data());
     account.groups.resize(static_cast<std::size_t>(std::max(count, 0)));
-    ::getgroups(count, account.groups.data());
     account.groups.push_back(::getegid());
     return account;
 }
