@@ -221,7 +221,8 @@ void draw_mark(Canvas& canvas,
     const double outward = mark.side == ZoneSide::outer ? 1 : -1;
     constexpr double away = 7.5;
     for (int step = 0; step < 16; ++step) {
-        const double shift = (step % 2 == 0 ? 1 : -1) * ((step + 1) / 2) * away;
+        const int places_aside = (step + 1) / 2 * (step % 2 == 0 ? 1 : -1); // 0 -1 1 -2 2 ...
+        const double shift = places_aside * away;
         const PagePoint by = polar({0, 0}, away * outward, mark.at.angle_rad);
         const PagePoint along = polar({0, 0}, shift, mark.at.angle_rad + quarter);
         const PagePoint middle{at.x + by.x + along.x, at.y + by.y + along.y};
