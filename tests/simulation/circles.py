@@ -57,7 +57,7 @@ def measure(b):
 
     wait_until("every circle was driven", ended, 90)
     expect(b.run()["step"] == program["circles"], f"{b.run()}")
-    wait_until("the certificate is written", lambda: b.run()["certificate"], 60)
+    wait_until("the certificate is written", lambda: b.run()["certificate"], 240)
     certificate = b.certificate()
     again = json.loads(b.axiscal("analyze", b.run()["file"]))  # next year's recomputation
     expect(again["diagnosis"] == certificate["diagnosis"], "analyze finds what the certificate says")
