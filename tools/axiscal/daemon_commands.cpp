@@ -39,8 +39,10 @@ std::string checks_text(const Json& checks) {
                                                   : "overridden";
         std::string name = check.at("name").get<std::string>();
         name.resize(std::max<std::size_t>(name.size(), 13), ' ');
-        text += "  " + word + "  " + name + " " + check.at("verdict").get<std::string>() + "\n";
-        if (!passed && !reason.empty()) text += "              because: " + reason + "\n";
+        text.append("  ").append(word).append("  ").append(name).append(" ");
+        text.append(check.at("verdict").get<std::string>()).append("\n");
+        if (!passed && !reason.empty())
+            text.append("              because: ").append(reason).append("\n");
     }
     return text;
 }
