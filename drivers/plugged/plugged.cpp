@@ -91,7 +91,7 @@ std::string driver_above(const fs::path& tty) {
     std::error_code error;
     fs::path device = fs::canonical(tty / "device", error);
     for (int step = 0; !error && step < 3; ++step, device = device.parent_path())
-        if (const std::string name = sysfs::target_name(device / "driver"); !name.empty())
+        if (std::string name = sysfs::target_name(device / "driver"); !name.empty())
             return name;
     return {};
 }
