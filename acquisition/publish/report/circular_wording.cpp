@@ -53,7 +53,7 @@ constexpr std::array<const char*, 8> order{"G_ccw",     "G_cw",     "G_b",      
 
 std::string symbol_with_index(const std::string& key, const CircularCertificate& certificate) {
     const AxisNames& axes = certificate.measured.axes;
-    const std::string symbol = symbol_of(key, certificate.measured.test.source);
+    std::string symbol = symbol_of(key, certificate.measured.test.source);
     if (key == "G_b" || key == "D") return symbol;
     const std::string extreme = key.starts_with("F_max")   ? " max"
                                 : key.starts_with("F_min") ? " min"
@@ -204,7 +204,7 @@ std::string sentence_on_paper(std::string words) {
 
 std::string iso_date_of(const CircularMeasurement& measured) {
     constexpr std::size_t letters = 10;
-    const std::string date = measured.started_utc.substr(0, letters);
+    std::string date = measured.started_utc.substr(0, letters);
     if (date.size() != letters) return {};
     for (std::size_t i = 0; i < letters; ++i) {
         const bool dash = i == 4 || i == 7;
