@@ -182,7 +182,10 @@ Result<void> CanBus::obey(const std::string& word, std::istream& arguments) {
     std::string name;
     arguments >> name;
     const std::lock_guard lock{mutex_};
-    if (word == "flood") return flood_hz_ = std::atof(name.c_str()), Result<void>{};
+    if (word == "flood") {
+        if (std::istringstream{name} >> flood_hz_) return {};
+        return fail(Fault::bad_request, "flood needs frames a second, not \"" + name + "\"");
+    }
     const auto found = std::find_if(devices_.begin(), devices_.end(),
                                     [&](const Device& device) { return device.called == name; });
     if (found == devices_.end())
