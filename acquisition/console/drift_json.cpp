@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace axiscal {
@@ -22,6 +23,13 @@ Result<void> read_span(const Json& value, const std::string& key, Duration& span
     return {};
 }
 
+/// Asked before the value is written anew: writing goes down into each nest, and a body holds one
+/// so deep that it takes the whole stack.
+bool is_table_of_texts(const Json& value) {
+    return value.is_object() &&
+           std::all_of(value.begin(), value.end(), [](const Json& one) { return one.is_string(); });
+}
+
 Result<void> read_drift_field(const std::string& key, const Json& value, DriftRequest& request) {
     if (key == "duration_s") return read_span(value, key, request.duration);
     if (key == "interval_s") return read_span(value, key, request.interval);
@@ -33,6 +41,8 @@ Result<void> read_drift_field(const std::string& key, const Json& value, DriftRe
     if (key != "statements")
         return refuse(Fault::bad_request, key,
                       "is unknown; known are duration_s, interval_s, place_mm, statements");
+    if (!is_table_of_texts(value))
+        return refuse(Fault::bad_request, key, "must be an object of texts");
     // Statements are those of a run, read by the same rules.
     AXISCAL_TRY(ArmRequest run, arm_request_from_json(Json{{"statements", value}}.dump()));
     request.statements = std::move(run.statements);

@@ -11,6 +11,8 @@ namespace axiscal {
 namespace {
 
 constexpr int level = 3; ///< zstd's usual one: 300 MB/s and more
+/// Of a stream in a file: a thousand a second for thirty years.
+constexpr std::int64_t most_blocks = 1'000'000'000'000;
 constexpr char values_as_they_are = 1, values_as_differences = 2;
 
 /// Small numbers of either sign become small numbers.
@@ -166,6 +168,7 @@ Result<StreamSamples> samples_of(std::span<const StreamBlock> blocks, int stream
     std::int64_t next = 0;
     for (const StreamBlock& block : blocks) {
         if (block.stream != stream) continue;
+        if (block.index > most_blocks) return bad(block, "tells an impossible place");
         if (block.index < next && stands_before(blocks, block)) continue;
         AXISCAL_TRY(StreamChunk chunk, unpacked(block));
         if (block.index < next) return bad(block, "comes out of order");

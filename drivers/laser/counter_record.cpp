@@ -46,7 +46,9 @@ std::int64_t CountUnwrapper::sign_extended(std::uint64_t value) const {
 std::int64_t CountUnwrapper::unwrap(std::uint64_t value) {
     const std::int64_t step = total_ ? sign_extended(value - last_) : sign_extended(value);
     last_ = value;
-    total_ = total_.value_or(0) + step;
+    // A register of 64 bits is the long number itself and comes round with it.
+    const auto total = static_cast<std::uint64_t>(total_.value_or(0));
+    total_ = static_cast<std::int64_t>(total + static_cast<std::uint64_t>(step));
     return *total_;
 }
 

@@ -16,7 +16,9 @@ constexpr std::int64_t umd1_error_bits = 0x7E00;
 } // namespace
 
 void UmdFacts::learn(std::int64_t code, std::int64_t data) {
-    if (firmware_word_) ++records_since_firmware_;
+    // Counted only as far as it is asked for: a month of records is more than an int holds.
+    if (firmware_word_ && records_since_firmware_ < records_to_wait_for_flags)
+        ++records_since_firmware_;
     if (code == code_rate && data > 0) rate_Hz_ = static_cast<double>(data) / 100;
     if (code == code_firmware && data > 0) firmware_word_ = data;
     if (code == code_flags) flags_ = data;

@@ -1,11 +1,41 @@
 // Bodies of the requests that change state.
 
+#include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
+#include "acquisition/console/drift_json.hpp"
 #include "tests/fuzz/judge.hpp"
 
 #include <cmath>
 
 using namespace axiscal;
+
+namespace {
+
+template <class T> void told(const Result<T>& request) {
+    if (!request) fuzz::require(!request.error().detail.empty(), "a refusal has a reason");
+}
+
+void judge_alignment(const std::string& body) {
+    const auto order = alignment_order_from_json(body);
+    told(order);
+    if (order && order->spot_offset_mm)
+        fuzz::require(std::fabs(*order->spot_offset_mm) <= 100, "a spot is on its screen");
+}
+
+void judge_drift(const std::string& body) {
+    const auto request = drift_request_from_json(body);
+    told(request);
+    if (request && request->place_mm)
+        fuzz::require(std::fabs(*request->place_mm) <= 1e5, "a place lies on an axis");
+}
+
+void judge_revision(const std::string& body) {
+    const auto request = revision_request_from_json(body);
+    told(request);
+    if (request) fuzz::require(!request->reason.empty(), "an order of a person has its reason");
+}
+
+} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string body{fuzz::as_text(data, size)};
@@ -15,7 +45,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
         fuzz::require(!request.error().detail.empty(), "a refusal has a reason");
     }
-    if (const auto reason = abort_reason_from_json(body); !reason)
-        fuzz::require(!reason.error().detail.empty(), "a refusal has a reason");
+    told(abort_reason_from_json(body));
+    judge_alignment(body);
+    judge_drift(body);
+    judge_revision(body);
     return 0;
 }

@@ -1,8 +1,9 @@
 // A run file that was changed. Input: changes of six bytes (offset 3, cut when 255, length, value)
-// to a good file, made once; a whole file when it begins as one. Read, summarized, or refused with
-// a reason.
+// to a good file, made once; a whole file when it begins as one. Read, summarized and verified, or
+// refused with a reason.
 
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_file_verify.hpp"
 #include "tests/fuzz/judge.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
@@ -74,5 +75,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(!contents.error().detail.empty(), "a refused file has a reason");
     if (const auto summary = summarize_run_file(path); !summary)
         fuzz::require(!summary.error().detail.empty(), "a refused file has a reason");
+    if (const auto chain = verify_chain(path); !chain)
+        fuzz::require(!chain.error().detail.empty(), "a refused file has a reason");
+    else
+        fuzz::require(chain->findings.size() <= ChainReport::most_findings, "findings are bounded");
     return 0;
 }

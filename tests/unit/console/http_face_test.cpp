@@ -329,6 +329,11 @@ TEST_F(HttpDoor, RefusesAnAlignmentOrderByItsField) {
 TEST_F(HttpDoor, GarbageAndOversizedBodiesHurtNobody) {
     EXPECT_TRUE(over_socket("POST", "/v1/run", "[1,2").starts_with("HTTP/1.1 400"));
     over_socket("POST", "/v1/run", std::string(200'000, 'x'));
+    const std::string nest = std::string(30'000, '[') + std::string(30'000, ']');
+    for (const char* order : {"/v1/run", "/v1/drift"})
+        EXPECT_TRUE(over_socket("POST", order, R"({"statements":)" + nest + "}")
+                        .starts_with("HTTP/1.1 400"))
+            << order;
     EXPECT_TRUE(
         over_tcp("DELETE", "/v1/run", "Authorization: Bearer " + std::string(64, 't') + "\r\n")
             .starts_with("HTTP/1.1 405"));

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,6 +54,14 @@ TEST(CounterRecord, ComesWholeHoweverThePipeCutsIt) {
         ASSERT_EQ(records.size(), 1U) << cut;
         EXPECT_EQ(records[0].value, 1000U);
     }
+}
+
+TEST(CountUnwrapper, ComesRoundWithARegisterOf64Bits) {
+    CountUnwrapper whole{64};
+    constexpr auto highest = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(whole.unwrap(static_cast<std::uint64_t>(highest)), highest);
+    EXPECT_EQ(whole.unwrap(static_cast<std::uint64_t>(highest) + 1),
+              std::numeric_limits<std::int64_t>::min());
 }
 
 TEST(CountUnwrapper, FollowsARegisterOverBothEnds) {

@@ -8,6 +8,8 @@
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>
+
+#include <limits>
 #include <sqlite3.h>
 
 #include <bit>
@@ -116,6 +118,16 @@ TEST(StreamPacking, DamagedBytesAreRefusedNotBelieved) {
     StreamBlock cut = good;
     cut.packed.resize(cut.packed.size() / 2);
     EXPECT_FALSE(unpacked(cut));
+}
+
+TEST(StreamPacking, ABlockAtAnImpossiblePlaceIsRefused) {
+    constexpr auto farthest = std::numeric_limits<std::int64_t>::max();
+    for (const std::int64_t index : {farthest, farthest - 1, std::int64_t{-1}}) {
+        StreamChunk chunk = chunk_of(ballbar_values(10));
+        chunk.head.index = index;
+        const std::vector<StreamBlock> alone{packed(chunk)};
+        EXPECT_FALSE(samples_of(alone, 0)) << index;
+    }
 }
 
 TEST(StreamPacking, HolesAndDroppedBlocksAreKeptAsGaps) {
