@@ -96,11 +96,13 @@ int live(const Options& options, Simulator& world) {
     return 0;
 }
 
-/// A real CNC's position stream: it speaks for itself, and each of its lines is a laser sample.
+/// A real CNC's position stream: it speaks for itself, and each of its lines is a sample of laser
+/// and ballbar.
 void let_another_drive(Scenario& scenario) {
     constexpr double stream_hz = 1000; // LinuxCNC's servo cycle
     scenario.cnc.reset();
     scenario.laser.rate_hz = stream_hz;
+    if (scenario.ballbar) scenario.ballbar->rate_hz = stream_hz;
 }
 
 int open_and_live(const Options& options) {
@@ -162,8 +164,10 @@ int run(int argc, char** argv) {
     app.add_option("--truth", options.truth, "write the hidden truth of the program here");
     app.add_option("--control", options.control, "Unix socket for commands");
     app.add_option("--positions", options.positions,
-                   "drive the laser from a 1 kHz stream (the scenario's [cnc] rests); - is stdin");
-    app.add_option("--positions-field", options.positions_field, "which value of a line, from 1");
+                   "drive laser and ballbar from a 1 kHz stream (the scenario's [cnc] rests); - is "
+                   "stdin");
+    app.add_option("--positions-field", options.positions_field,
+                   "which value of a line is the laser's axis, from 1");
     app.add_option("--cnc-port", options.cnc_port, "the daemon's Modbus TCP port");
     app.add_flag("--run", options.run, "run the program at once");
     CLI::App* truth = app.add_subcommand("truth", "only compute the truth");

@@ -214,6 +214,8 @@ void read_ballbar(Fields& f, BallbarScenario& bar) {
     f.read("cyclic_first_um", bar.cyclic_first_um);
     f.positive("cyclic_period_mm", bar.cyclic_period_mm);
     f.read("noise_um", bar.noise_um);
+    f.read("rate_hz", bar.rate_hz);
+    if (bar.rate_hz && !(*bar.rate_hz > 0)) f.refuse("rate_hz", "must be above 0");
     if (bar.path.empty()) f.refuse("path", "is missing");
 }
 

@@ -1,7 +1,6 @@
 #include "simulator.hpp"
 
 #include "truth.hpp"
-#include "wire/bar_face.hpp"
 #include "wire/ids_face.hpp"
 #include "wire/sensor_faces.hpp"
 
@@ -54,7 +53,9 @@ Result<void> Simulator::open_faces() {
     }
     if (scenario_.ballbar) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.ballbar->path));
-        sensors_.push_back(std::make_unique<BarFace>(scenario_, std::move(pty), clock_, plane_));
+        auto bar = std::make_unique<BarFace>(scenario_, std::move(pty), clock_, plane_);
+        bar_ = bar.get();
+        sensors_.push_back(std::move(bar));
     }
     if (!scenario_.cnc) return {};
     runner_ = std::make_unique<CncRunner>(scenario_, axis_, plane_, lines_, clock_);
@@ -77,9 +78,11 @@ Result<void> Simulator::open_faces() {
 void Simulator::start(bool external_positions) {
     if (laser_ && !external_positions)
         threads_.emplace_back([this](const std::stop_token& stop) { laser_->run(stop); });
-    for (const auto& sensor : sensors_)
+    for (const auto& sensor : sensors_) {
+        if (sensor.get() == bar_ && external_positions) continue;
         threads_.emplace_back(
             [face = sensor.get()](const std::stop_token& stop) { face->run(stop); });
+    }
     if (cable_) threads_.emplace_back([this](const std::stop_token& stop) { cable_->run(stop); });
     if (exchange_)
         threads_.emplace_back([this](const std::stop_token& stop) { exchange_->run(stop); });
@@ -92,11 +95,23 @@ std::string Simulator::feed_lines(const std::string& text, int field) {
         begin = end + 1;
         double number = 0, position_mm = 0;
         fields >> number; // the CNC's own count of servo cycles
-        for (int i = 0; i < field; ++i)
-            fields >> position_mm;
-        if (fields && laser_) laser_->feed(position_mm); // "overrun" and the like are no samples
+        std::vector<double> positions_mm;
+        while (fields >> position_mm)
+            positions_mm.push_back(position_mm);
+        feed_faces(positions_mm, field); // "overrun" and the like are no samples
     }
     return text.substr(begin);
+}
+
+void Simulator::feed_faces(const std::vector<double>& positions_mm, int field) {
+    constexpr std::size_t axes = 3; // X, Y, Z come first
+    const auto of_laser = static_cast<std::size_t>(field) - 1;
+    if (laser_ && of_laser < positions_mm.size()) laser_->feed(positions_mm[of_laser]);
+    if (bar_ == nullptr || positions_mm.size() < axes) return;
+    const auto drive_mm = [&](std::size_t which) {
+        return positions_mm[static_cast<std::size_t>(scenario_.ballbar->plane[which] - 'X')];
+    };
+    bar_->feed({drive_mm(0), drive_mm(1)});
 }
 
 void Simulator::feed_positions(int descriptor, int field) {

@@ -3,6 +3,7 @@
 
 #include "cnc/cnc_exchange.hpp"
 #include "cnc/cnc_runner.hpp"
+#include "wire/bar_face.hpp"
 #include "wire/laser_face.hpp"
 #include "wire/serial_cable.hpp"
 
@@ -22,10 +23,10 @@ public:
     Simulator(const Simulator&) = delete;
     Simulator& operator=(const Simulator&) = delete;
 
-    /// Starts the threads; with external positions the laser waits for feed_positions().
+    /// Starts the threads; with external positions laser and ballbar wait for feed_positions().
     void start(bool external_positions);
-    /// Reads lines `n x y z ...` of a 1 kHz stream until its end or quit; `field` counts from 1
-    /// (x).
+    /// Reads lines `n x y z ...` of a 1 kHz stream until its end or quit; the laser's `field`
+    /// counts from 1 (x), a ballbar takes the two axes of its plane.
     void feed_positions(int descriptor, int field);
     /// The same for what has come in so far; returns the unfinished rest of a line.
     std::string feed_lines(const std::string& text, int field);
@@ -44,6 +45,7 @@ public:
 private:
     explicit Simulator(const Scenario& scenario);
     Result<void> open_faces();
+    void feed_faces(const std::vector<double>& positions_mm, int field);
     Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
     Result<void> obey_cnc(const std::string& word, std::istream& arguments);
@@ -56,6 +58,7 @@ private:
     CncLines lines_;
     std::unique_ptr<LaserFace> laser_;
     std::vector<std::unique_ptr<Face>> sensors_;
+    BarFace* bar_ = nullptr;             ///< one of them
     std::unique_ptr<SerialCable> cable_; ///< RTU: between the daemon's port and the CNC's
     std::unique_ptr<CncExchange> exchange_;
     CncClient* client_ = nullptr; ///< exchange_, where it is a client

@@ -82,6 +82,33 @@ TEST_F(SimulatorTest, OverrunLinesAndHalfLinesAreNoSamples) {
     EXPECT_EQ(record_at(1).at(5), 2);
 }
 
+TEST_F(SimulatorTest, ABallbarFollowsTheAxesOfItsPlane) {
+    BallbarScenario bar;
+    bar.path = (folder_ / "bar").string();
+    bar.plane = "ZX";
+    bar.scale_first_um_per_m = 100; // of Z
+    bar.rate_hz = 1000;
+    scenario_.ballbar = bar;
+    open();
+    const int wire = ::open(bar.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_GE(wire, 0);
+    const auto read_um = [&](const std::string& line) {
+        world_->feed_lines(line, 1);
+        char text[256] = {};
+        if (::read(wire, text, sizeof text - 1) <= 0) return -1.0;
+        std::istringstream fields{text};
+        std::vector<double> record;
+        for (double field = 0; fields >> field;)
+            record.push_back(field);
+        return (record.at(2) - record.at(4) / 65536.0) * 0.632991354 / 2;
+    };
+    // the bar was zeroed at its radius of 100 mm; 1e-4 of that is 10 um; the count's fraction
+    EXPECT_NEAR(read_um("1 0 77 100 0 0\n"), 10.0, 1e-4);
+    EXPECT_NEAR(read_um("2 100 77 0 0 0\n"), 0.0, 1e-4);
+    EXPECT_EQ(read_um("3 100\n"), -1.0); // one axis is no place in a plane
+    ::close(wire);
+}
+
 TEST_F(SimulatorTest, ControlChangesTheLaser) {
     open();
     record_at(0);

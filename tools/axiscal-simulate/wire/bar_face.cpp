@@ -20,6 +20,7 @@ LaserScenario counter_of(const BallbarScenario& bar) {
     laser.kind = "umd2-heterodyne";
     laser.path = bar.path;
     laser.counts_per_cycle = 1;
+    laser.rate_hz = bar.rate_hz;
     return laser;
 }
 } // namespace
@@ -55,14 +56,18 @@ BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const Comman
     , laser_{counter_of(*scenario.ballbar)}
     , counter_{laser_} {}
 
+void BarFace::feed(PlanePoint drive) {
+    const double reading_mm = circle_.reading_mm(drive, sample_++);
+    const double cycles = laser_.fold * reading_mm / (laser_.wavelength_nm * 1e-6);
+    const UmdRecord record = counter_.next(cycles);
+    if (behaviour() == Behaviour::on) pty_.write(encode(record));
+}
+
 void BarFace::run(std::stop_token stop) {
-    for (std::uint64_t sample = 0; !stop.stop_requested(); ++sample) {
-        const double due_s = static_cast<double>(sample) / counter_.rate_hz();
+    while (!stop.stop_requested()) {
+        const double due_s = static_cast<double>(sample_) / counter_.rate_hz();
         std::this_thread::sleep_until(clock_.at(due_s));
-        const double reading_mm = circle_.reading_mm(plane_.position(due_s), sample);
-        const double cycles = laser_.fold * reading_mm / (laser_.wavelength_nm * 1e-6);
-        const UmdRecord record = counter_.next(cycles);
-        if (behaviour() == Behaviour::on) pty_.write(encode(record));
+        feed(plane_.position(due_s));
     }
 }
 

@@ -30,6 +30,8 @@ public:
     BarFace(const Scenario& scenario, Pty pty, SimClock clock, const CommandedPlane& plane);
     /// Free running: record k belongs to the instant k / rate, however late the thread wakes.
     void run(std::stop_token stop) override;
+    /// One record of a machine that somebody else drives, in place of run().
+    void feed(PlanePoint drive);
     [[nodiscard]] nlohmann::json place() const override { return {{"path", path_}}; }
 
 private:
@@ -40,6 +42,7 @@ private:
     TrueCircle circle_;
     LaserScenario laser_;
     UmdCounter counter_;
+    std::uint64_t sample_ = 0;
 };
 
 } // namespace axiscal::simulate
