@@ -1,6 +1,7 @@
 #include "drivers/cnc/modbus_client.hpp"
 
 #include "drivers/cnc/mbap_framer.hpp"
+#include "drivers/cnc/modbus_reply.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/connect.hpp>
@@ -21,7 +22,7 @@ using namespace asio::experimental::awaitable_operators;
 constexpr auto quietly = asio::as_tuple(asio::use_awaitable);
 constexpr auto answer_patience = std::chrono::seconds{1};
 constexpr auto connect_patience = std::chrono::seconds{3};
-constexpr std::uint8_t read_function = 3, write_function = 16, exception_bit = 0x80;
+constexpr std::uint8_t read_function = 3, write_function = 16;
 
 void put_word(std::vector<std::uint8_t>& bytes, int word) {
     bytes.push_back(static_cast<std::uint8_t>(word >> 8));
@@ -105,17 +106,17 @@ Task<Result<ModbusClient::Bytes>> ModbusClient::talk(Bytes pdu) {
     in_.resize(mbap_header);
     const auto [cut, header] = co_await asio::async_read(socket_, asio::buffer(in_), quietly);
     if (cut) co_return fail(Fault::link_closed, place() + " hung up.", cut);
-    const bool same = in_[0] == out_[0] && in_[1] == out_[1] && in_[2] == 0 && in_[3] == 0;
-    const auto length = static_cast<std::size_t>(in_[4] << 8 | in_[5]);
-    if (!same || length < 3 || length > 254)
-        co_return fail(Fault::bad_frame, place() + " does not answer in Modbus.");
-    in_.resize(length - 1);
+    const auto length = modbus_reply_length(in_, transaction_);
+    if (!length) co_return fail(Fault::bad_frame, place() + " does not answer in Modbus.");
+    in_.resize(*length);
     const auto [torn, rest] = co_await asio::async_read(socket_, asio::buffer(in_), quietly);
     if (torn) co_return fail(Fault::link_closed, place() + " hung up.", torn);
-    if (in_[0] == (pdu[0] | exception_bit))
+    const ModbusReplyKind kind = kind_of_modbus_reply(in_, pdu[0]);
+    if (kind == ModbusReplyKind::exception)
         co_return fail(Fault::refused, place() + " answers function " + std::to_string(pdu[0]) +
                                            " with exception " + exception_in_words(in_[1]) + ".");
-    if (in_[0] != pdu[0]) co_return fail(Fault::bad_frame, place() + " answers something else.");
+    if (kind == ModbusReplyKind::other)
+        co_return fail(Fault::bad_frame, place() + " answers something else.");
     co_return in_;
 }
 
@@ -125,13 +126,9 @@ Task<Result<std::vector<std::uint16_t>>> ModbusClient::read_holding(int address,
     put_word(pdu, count);
     auto asked = co_await ask(std::move(pdu));
     AXISCAL_CO_TRY(const Bytes answer, std::move(asked));
-    const std::size_t bytes = 2 * static_cast<std::size_t>(count);
-    if (answer.size() != bytes + 2 || answer[1] != bytes)
-        co_return fail(Fault::bad_frame, place() + " sent another number of registers.");
-    std::vector<std::uint16_t> words;
-    for (std::size_t at = 2; at < answer.size(); at += 2)
-        words.push_back(static_cast<std::uint16_t>(answer[at] << 8 | answer[at + 1]));
-    co_return words;
+    auto words = registers_of_reply(answer, count);
+    if (!words) co_return fail(Fault::bad_frame, place() + " sent another number of registers.");
+    co_return *std::move(words);
 }
 
 Task<Result<void>> ModbusClient::write_registers(int address, std::vector<std::uint16_t> words) {

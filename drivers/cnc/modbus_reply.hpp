@@ -1,0 +1,32 @@
+#pragma once
+// What a Modbus TCP server answers to a request of ours. Pure. Modbus Messaging on TCP/IP V1.0b,
+// section 3.1.3 (header); Modbus application protocol V1.1b3, sections 6.3 (read holding registers)
+// and 7 (exceptions).
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace axiscal {
+
+/// How many bytes follow the header, the unit in it not counted: 2 to 253. Empty for what is no
+/// header, or not that of this transaction's answer.
+/// @pre `header` has mbap_header bytes
+std::optional<std::size_t> modbus_reply_length(std::span<const std::uint8_t> header,
+                                               std::uint16_t transaction);
+
+enum class ModbusReplyKind : std::uint8_t {
+    answer,
+    exception, ///< the second byte is its code
+    other,     ///< to another request, or too short
+};
+ModbusReplyKind kind_of_modbus_reply(std::span<const std::uint8_t> pdu, std::uint8_t function);
+
+/// The words of an answer to function 3, which asked for `count` of them; empty when it holds
+/// another number.
+std::optional<std::vector<std::uint16_t>> registers_of_reply(std::span<const std::uint8_t> pdu,
+                                                             int count);
+
+} // namespace axiscal
