@@ -3,7 +3,7 @@
 #
 #   run_linuxcnc.sh --program FILE --shape SHAPE --port PORT --positions PIPE --scratch DIR
 #
-#   --program    LinuxCNC dialect, axis X
+#   --program    LinuxCNC dialect, axes X, Y and Z
 #   --shape      single-register | coil-and-index: as in the station file's [trigger]
 #   --port       the station's Modbus TCP port on this computer; mb2hal is its client
 #   --positions  named pipe (made when missing) that gets the 1 kHz position stream; something must
@@ -79,16 +79,16 @@ if [ "$(id -u)" = 0 ]; then
 fi
 
 fill() { sed -e "s#@HOME@#$home#g; s#@PROGRAM@#$program#g; s#@SCRATCH@#$scratch#g; s#@POSITIONS@#$positions#g; s#@SHAPE@#$shape#g" "$1"; }
-fill "$home/axis.ini.in" >"$scratch/axis.ini"
+fill "$home/machine.ini.in" >"$scratch/machine.ini"
 sed -e "s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/" "$home/$shape.mb2hal.ini" >"$scratch/mb2hal.ini"
 printf 'T1 P1 D1 Z0\n' >"$scratch/tool.tbl"
-: >"$scratch/axis.var"
+: >"$scratch/machine.var"
 : >"$scratch/cnc.events"
 rm -f "$scratch/display.pid"
 
 unset DISPLAY # else LinuxCNC opens windows for its messages
 cd "$scratch"
-HOME=$scratch linuxcnc -r "$scratch/axis.ini" </dev/null >"$scratch/cnc.log" 2>&1 9<&- &
+HOME=$scratch linuxcnc -r "$scratch/machine.ini" </dev/null >"$scratch/cnc.log" 2>&1 9<&- &
 cnc=$!
 status=0
 wait "$cnc" || status=$?

@@ -37,6 +37,8 @@ class Bench:
 
     def __init__(self, source, build, shape):
         self.source, self.shape = source, shape
+        self.scenario = source / "tests/peers/linuxcnc/quiet-axis.toml"
+        self.more_of_station = ""  # tables below those of the demo's station file
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="axiscal-peer-"))
         self.scratch.chmod(0o711)  # LinuxCNC's real-time part is another user
         self.port = free_port()
@@ -87,7 +89,7 @@ class Bench:
                            "SHAPE": self.shape, "PORT": self.port}.items():
             text = text.replace(f"@{key}@", str(value))
         station = self.scratch / "station.toml"
-        station.write_text(text)
+        station.write_text(text + self.more_of_station)
         return station
 
     def start_station(self, station):
@@ -108,31 +110,41 @@ class Bench:
         return subprocess.run([self.programs["axiscal"], "preflight"], env=self.environment,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
-    def begin_run(self):
-        """Everything up to `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
+    def make_ready(self, name="X-whole.ngc"):
+        """Everything before `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
         station = self.write_station()
         self.axiscal("program", "--config", station, "--out", self.scratch)
-        program = self.scratch / "X-whole.ngc"
+        program = self.scratch / name
         pipe = self.scratch / "positions"
         os.mkfifo(pipe)
-        simulator = self.start(self.programs["simulate"], "--scenario", scenario(self.source),
+        simulator = self.start(self.programs["simulate"], "--scenario", self.scenario,
                                "--positions", pipe)
         until(lambda: self.said("axiscal-simulate.log", '"ready"'), "instruments", [simulator])
         daemon = self.start_station(station)
-        cnc = self.start_cnc(program, pipe)
+        return daemon, self.start_cnc(program, pipe), program
+
+    def begin_run(self):
+        """Everything up to `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
+        daemon, cnc, program = self.make_ready()
         until(self.may_arm, "every pre-flight check to hold", [daemon, cnc])
         self.axiscal("arm", "--program", program)
         return daemon, cnc, program
 
+    def status(self):
+        return json.loads(self.axiscal("status", "--json"))
+
     def truth(self, program):
         file = self.scratch / "truth.json"
-        subprocess.run([self.programs["simulate"], "truth", "--scenario", scenario(self.source),
+        subprocess.run([self.programs["simulate"], "truth", "--scenario", self.scenario,
                         "--program", program, "--truth", file], check=True, timeout=PATIENCE_S)
         return json.loads(file.read_text())["parameters"]
 
 
-def scenario(source):
-    return source / "tests/peers/linuxcnc/quiet-axis.toml"
+def leftovers(scratch):
+    """What LinuxCNC may not leave: programs, and the folder of its socket."""
+    names = "rtapi_app,milltask,linuxcncsvr,mb2hal,halsampler,linuxcnc"
+    programs = subprocess.run(["ps", "-C", names, "-o", "args="], capture_output=True, text=True).stdout
+    return [*programs.splitlines(), *map(str, scratch.glob("axiscal-cnc.*"))]
 
 
 def run_in_bench(test):

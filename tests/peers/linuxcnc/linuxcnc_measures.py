@@ -6,10 +6,9 @@ through the injected error; mb2hal asks for the points. SHAPE: single-register |
 import contextlib
 import json
 import sqlite3
-import subprocess
 import sys
 
-from linuxcnc_bench import PATIENCE_S, RUN_LIMIT_S, run_in_bench
+from linuxcnc_bench import PATIENCE_S, RUN_LIMIT_S, leftovers, run_in_bench
 
 E_MARK_MM = 0.0001  # 0.1 um, of the E that was injected
 POINTS = 110        # 11 targets, 5 approaches each way
@@ -51,13 +50,6 @@ def judge_recipe(source, shape, program):
     text = (source / "docs/trigger.md").read_text()
     shown = text.split(f"### LinuxCNC, {shape}\n")[1].split("```\n")[1]
     assert shown in program.read_text(), f"docs/trigger.md shows another program:\n{shown}"
-
-
-def leftovers(scratch):
-    """What LinuxCNC may not leave: programs, and the folder of its socket."""
-    names = "rtapi_app,milltask,linuxcncsvr,mb2hal,halsampler,linuxcnc"
-    programs = subprocess.run(["ps", "-C", names, "-o", "args="], capture_output=True, text=True).stdout
-    return [*programs.splitlines(), *map(str, scratch.glob("axiscal-cnc.*"))]
 
 
 def measure(bench):

@@ -4,7 +4,6 @@
 LinuxCNC stands at its request meanwhile. The restarted station goes on with the open run, takes
 the standing request, and LinuxCNC goes on as if nothing had been. mb2hal is linked anew as
 docs/trigger.md says."""
-import json
 import os
 import pathlib
 import subprocess
@@ -16,7 +15,7 @@ BEFORE, AFTER = 3, 8  # points
 
 
 def run_of(bench):
-    run = json.loads(bench.axiscal("status", "--json"))["run"]
+    run = bench.status()["run"]
     assert run, "no run is open"
     return run
 
