@@ -125,9 +125,9 @@ StreamBlock packed(const StreamChunk& chunk) {
     const auto [low, high] = std::ranges::minmax(chunk.value);
     block.low = low;
     block.high = high;
-    const std::string plain = form_of(chunk, values_as_they_are);
+    std::string plain = form_of(chunk, values_as_they_are);
     std::string steps = form_of(chunk, values_as_differences);
-    block.packed = steps.size() <= plain.size() ? std::move(steps) : plain;
+    block.packed = std::move(steps.size() <= plain.size() ? steps : plain);
     return block;
 }
 
