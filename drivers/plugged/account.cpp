@@ -42,15 +42,20 @@ Account caller() {
     account.is_service = false;
     account.user = ::geteuid();
     account.name = name_of_user(account.user);
-    const int room = std::max(::getgroups(0, nullptr), 0);
-    account.groups.resize(static_cast<std::size_t>(room));
-    const int count = ::getgroups(room, account.groups.data());
-    account.groups.resize(static_cast<std::size_t>(std::max(count, 0)));
+    account.groups = own_groups();
     account.groups.push_back(::getegid());
     return account;
 }
 
 } // namespace
+
+std::vector<gid_t> own_groups() {
+    const int room = std::max(::getgroups(0, nullptr), 0);
+    std::vector<gid_t> groups(static_cast<std::size_t>(room));
+    const int count = ::getgroups(room, groups.data());
+    groups.resize(static_cast<std::size_t>(std::max(count, 0)));
+    return groups;
+}
 
 std::optional<gid_t> group_named(const std::string& name) {
     group entry{};

@@ -22,6 +22,9 @@ struct Account {
 /// not installed, the caller.
 Account service_account();
 
+/// The supplementary groups of this process.
+std::vector<gid_t> own_groups();
+
 /// Empty when there is no such group.
 std::optional<gid_t> group_named(const std::string& name);
 

@@ -48,8 +48,7 @@ Finding check_allowed(const TriggerConfig& trigger) {
 }
 
 bool is_member(const std::string& name) {
-    std::vector<gid_t> groups(static_cast<std::size_t>(std::max(::getgroups(0, nullptr), 0)));
-    ::getgroups(static_cast<int>(groups.size()), groups.data());
+    const std::vector<gid_t> groups = own_groups();
     const auto wanted = group_named(name);
     return wanted && std::ranges::find(groups, *wanted) != groups.end();
 }
