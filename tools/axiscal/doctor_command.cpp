@@ -39,11 +39,11 @@ std::vector<Finding> findings_of(const tl::expected<LoadedStation, std::vector<R
         return {{Health::broken, "station", "there is no station file " + file,
                  "sudo install -m 640 -g axiscal /usr/share/axiscal/station.example.toml " + file +
                      ", then edit it"}};
+    const std::string remedy = "sudo editor " + file + ", then: axiscal check-config " + file;
     std::vector<Finding> found;
     found.reserve(station.error().size());
     for (const Refusal& refusal : station.error())
-        found.push_back({Health::broken, "station", refusal.describe(),
-                         "sudo editor " + file + ", then: axiscal check-config " + file});
+        found.push_back({Health::broken, "station", refusal.describe(), remedy});
     return found;
 }
 
