@@ -1,6 +1,7 @@
 #include "analysis/certificate.hpp"
 
 #include "analysis/certificate_expiry.hpp"
+#include "analysis/preflight_remarks.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -176,16 +177,6 @@ void remark_on_revisions(const Certificate& certificate, std::vector<std::string
                           "the simulated uncertainty is left out.");
 }
 
-void remark_on_preflight(const RunRevisions& revisions, std::vector<std::string>& remarks) {
-    for (const PreflightRecord& check : revisions.preflight)
-        if (!check.passed)
-            remarks.push_back("Armed although the pre-flight check \"" + check.name +
-                              "\" failed: " + check.verdict +
-                              " Reason given: " + check.override_reason + ".");
-        else if (check.warning)
-            remarks.push_back("Pre-flight check \"" + check.name + "\": " + check.verdict);
-}
-
 void fill_environment(Certificate& certificate) {
     const RunRecord& run = certificate.run;
     const MonotonicTime origin =
@@ -267,7 +258,7 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
     remark_on_revisions(certificate, certificate.remarks);
     remark_on_number_of_readings(certificate, certificate.remarks);
-    remark_on_preflight(certificate.revisions, certificate.remarks);
+    remark_on_preflight(certificate.revisions.preflight, certificate.remarks);
     certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor,
                                              fewest_readings(certificate.deviations));
     if (excluded_readings(certificate.set_aside) == 0) // the simulation draws n of each

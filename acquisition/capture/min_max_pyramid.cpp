@@ -36,11 +36,15 @@ void MinMaxPyramid::join_neighbours() {
     width_ *= 2;
 }
 
-std::vector<MinMax> MinMaxPyramid::view(std::size_t most) const {
+std::size_t MinMaxPyramid::joined_for(std::size_t most) const {
     const std::size_t wanted = std::max<std::size_t>(1, most);
-    const std::size_t share = (stretches_.size() + wanted - 1) / wanted;
+    return std::max<std::size_t>(1, (stretches_.size() + wanted - 1) / wanted);
+}
+
+std::vector<MinMax> MinMaxPyramid::view(std::size_t most) const {
+    const std::size_t share = joined_for(most);
     std::vector<MinMax> seen;
-    seen.reserve(wanted);
+    seen.reserve(stretches_.size() / share + 1);
     for (std::size_t i = 0; i < stretches_.size(); ++i) {
         if (i % share == 0)
             seen.push_back(stretches_[i]);

@@ -26,9 +26,15 @@ public:
     [[nodiscard]] std::uint64_t samples_a_stretch() const { return width_; }
     /// At most `most` stretches that cover the whole stream in order, none cut in two.
     [[nodiscard]] std::vector<MinMax> view(std::size_t most) const;
+    /// Samples that each stretch of such a view stands for; the last may hold fewer.
+    [[nodiscard]] std::uint64_t samples_of_each(std::size_t most) const {
+        return width_ * joined_for(most);
+    }
 
 private:
     void join_neighbours();
+    /// How many stretches a view of at most `most` joins into one.
+    [[nodiscard]] std::size_t joined_for(std::size_t most) const;
 
     std::size_t most_;
     std::uint64_t width_ = 1, samples_ = 0, in_last_ = 0;

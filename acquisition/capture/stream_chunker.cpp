@@ -1,8 +1,18 @@
 #include "acquisition/capture/stream_chunker.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace axiscal {
+
+StreamChunker::StreamChunker(const StreamBlock& last, bool numbers_ran_on)
+    : stream_{last.stream}
+    , next_index_{last.index + 1}
+    , interrupted_{true} {
+    const auto in_block = static_cast<std::uint64_t>(std::max(last.samples, 1));
+    const bool counted = numbers_ran_on && last.first_count != 0;
+    last_ = Sample{0, last.end, 0.0, counted ? last.first_count + in_block - 1 : 0, 0};
+}
 
 std::optional<StreamChunk> StreamChunker::finish() {
     if (chunk_.value.empty()) return std::nullopt;
@@ -15,9 +25,13 @@ std::optional<StreamChunk> StreamChunker::finish() {
 /// Sets what stands before the next chunk, if this sample does not go on from the last.
 void StreamChunker::look_for_hole(const Sample& sample) {
     if (!last_ || !before_.empty()) return;
-    if (sample.epoch != last_->epoch) {
+    const bool skips = last_->device_count != 0 && sample.device_count > last_->device_count + 1;
+    if (std::exchange(interrupted_, false)) {
+        before_ = "interrupted";
+        if (skips) missing_before_ = sample.device_count - last_->device_count - 1;
+    } else if (sample.epoch != last_->epoch) {
         before_ = "epoch";
-    } else if (last_->device_count != 0 && sample.device_count > last_->device_count + 1) {
+    } else if (skips) {
         before_ = "gap";
         missing_before_ = sample.device_count - last_->device_count - 1;
     }
@@ -39,7 +53,7 @@ std::optional<StreamChunk> StreamChunker::push(const Sample& sample) {
     const auto value = sample.value();
     if (!value) {
         if (before_.empty()) ++gaps_;
-        before_ = name_of(sample.quality());
+        before_ = std::exchange(interrupted_, false) ? "interrupted" : name_of(sample.quality());
         return finish();
     }
     if (!wanted(sample)) return std::nullopt;

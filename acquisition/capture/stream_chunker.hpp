@@ -15,6 +15,10 @@ public:
 
     explicit StreamChunker(int stream)
         : stream_{stream} {}
+    /// Goes on behind the last block of a record that was interrupted: the next chunk has the hole
+    /// "interrupted" before it. `numbers_ran_on`: the instrument's numbering is the same as then,
+    /// so what is missing can be counted.
+    StreamChunker(const StreamBlock& last, bool numbers_ran_on);
 
     /// Takes one sample; hands over a chunk when it is full, old enough, or ended by a hole: a
     /// sample that is not good, a number that the instrument left out, a new epoch.
@@ -35,6 +39,7 @@ private:
     std::int64_t next_index_ = 0;
     StreamChunk chunk_;
     std::optional<Sample> last_; ///< the last good one
+    bool interrupted_ = false;   ///< between it and the next one
     std::string before_;         ///< of the next chunk
     std::uint64_t missing_before_ = 0;
     std::uint64_t samples_ = 0, gaps_ = 0, missing_ = 0, disordered_ = 0;

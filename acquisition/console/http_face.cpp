@@ -5,6 +5,7 @@
 #include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/stream_json.hpp"
 #include "drivers/spawn.hpp"
 
 #include <boost/asio/as_tuple.hpp>
@@ -228,6 +229,12 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
                          sentence(405, "GET reads, POST changes"));
     if (request.target() == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
+    const std::string_view target{request.target().data(), request.target().size()};
+    if (target.substr(0, target.find('?')) == stream_path) {
+        const auto points = stream_points_of(target);
+        if (!points) co_return answer(request, points.error());
+        co_return answer(request, http::status::ok, to_json(station.stream(*points)));
+    }
     const StationStatus status = station.status();
     if (request.target() == "/v1/status")
         co_return answer(request, http::status::ok, to_json(status));
@@ -238,12 +245,13 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
         if (!checks) co_return answer(request, checks.error());
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
-    co_return answer(request, http::status::not_found,
-                     sentence(404, "known are GET /v1/status, GET /v1/instruments, GET "
-                                   "/v1/preflight, GET /v1/alignment, POST /v1/run, POST "
-                                   "/v1/run/trigger, POST /v1/run/abort, POST /v1/run/retake, POST "
-                                   "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
-                                   "/v1/drift"));
+    co_return answer(
+        request, http::status::not_found,
+        sentence(404, "known are GET /v1/status, GET /v1/instruments, GET "
+                      "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
+                      "/v1/run/trigger, POST /v1/run/abort, POST /v1/run/retake, POST "
+                      "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+                      "/v1/drift"));
 }
 
 Task<Response> HttpFace::Impl::change(Request request) {

@@ -330,7 +330,7 @@ Result<std::optional<LastRequest>> last_request_of_closed(const std::string& pat
                         "SELECT sequence, step, link FROM point UNION ALL "
                         "SELECT sequence, -1, link FROM datum WHERE sequence<>0 UNION ALL "
                         "SELECT sequence, -1, link FROM event WHERE sequence<>0 AND kind "
-                        "IN ('skipped','aborted') ORDER BY link DESC LIMIT 1"));
+                        "IN ('skipped','aborted','note') ORDER BY link DESC LIMIT 1"));
     if (rows.empty()) return std::optional<LastRequest>{};
     const auto* sequence = std::get_if<std::int64_t>(&rows[0][0]);
     const auto* step = std::get_if<std::int64_t>(&rows[0][1]);

@@ -101,17 +101,6 @@ Json datums_of(const RunRecord& run) {
     return list;
 }
 
-Json preflight_of(const RunRevisions& revisions) {
-    Json list = Json::array();
-    for (const PreflightRecord& check : revisions.preflight)
-        list.push_back({{"name", check.name},
-                        {"passed", check.passed},
-                        {"warning", check.warning},
-                        {"verdict", check.verdict},
-                        {"override", stated_json(check.override_reason)}});
-    return list;
-}
-
 Json retakes_of(const RunRecord& run, const RunRevisions& revisions) {
     Json list = Json::array();
     for (const RetakeRecord& retake : revisions.retakes)
@@ -160,7 +149,7 @@ Json run_of(const Certificate& certificate) {
     object["deviations"]["forward"] = certificate.deviations.forward();
     if (!certificate.deviations.backward().empty())
         object["deviations"]["backward"] = certificate.deviations.backward();
-    object["preflight"] = preflight_of(certificate.revisions);
+    object["preflight"] = preflight_json(certificate.revisions.preflight);
     object["retakes"] = retakes_of(run, certificate.revisions);
     object["set_aside"] = set_aside_of(certificate);
     object["events"] = events_json(run.events, run.opened);

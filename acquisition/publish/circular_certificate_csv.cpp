@@ -32,6 +32,10 @@ void append_head(std::string& csv, const CircularCertificate& certificate) {
                  "counter-clockwise");
     line(measured.taken_elsewhere ? "case_sha256" : "run_file_sha256", certificate.file_sha256);
     line("software_version", run.software_version);
+    for (const PreflightRecord& check : run.preflight)
+        if (!check.passed)
+            append_csv_line(csv, {"# preflight overridden", csv_field(check.name),
+                                  csv_field(check.verdict), csv_field(check.override_reason)});
 }
 
 void append_figures(std::string& csv, const CircularCertificate& certificate) {

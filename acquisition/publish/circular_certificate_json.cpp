@@ -187,6 +187,7 @@ Json run_of(const CircularCertificate& certificate) {
         object["circles"] = circles_of(run);
     }
     object["instruments"] = instruments_json(run.instruments, measured.started_utc.substr(0, 10));
+    if (!measured.taken_elsewhere) object["preflight"] = preflight_json(run.preflight);
     object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;
     return object;

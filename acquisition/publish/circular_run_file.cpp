@@ -9,15 +9,6 @@
 namespace axiscal {
 namespace {
 
-/// Every circle was begun by a request; the last request ends the last one.
-std::vector<CircleMark> marks_of(const RunRecord& run) {
-    std::vector<CircleMark> marks;
-    for (const EventRecord& event : run.events)
-        if (event.kind == EventKind::note && event.sequence != 0)
-            marks.push_back({event.sequence, event.at});
-    return marks;
-}
-
 /// Of the named channels, all readings within [begin, end]; without any the last one before.
 CircularTemperature temperature_of(const RunRecord& run,
                                    const std::vector<int>& channels,
@@ -115,13 +106,14 @@ Result<CircularRun> circular_run_of(const RunFileContents& contents) {
         return fail(Fault::refused, "run " + contents.run.run_id + " holds no circular test");
     const CircularSetup& setup = *contents.circular;
     CircularRun circular = header_of(contents.run, setup);
+    circular.preflight = contents.revisions.preflight;
     AXISCAL_TRY(const StreamSamples stream,
                 samples_of(contents.blocks, contents.streams.front().id));
     circular.gaps = stream.gaps.size();
     circular.dropped_blocks = stream.dropped_blocks;
     for (const StreamGap& gap : stream.gaps)
         circular.missing += gap.missing;
-    AXISCAL_TRY(circular.circles, cut_circles(setup, stream, marks_of(contents.run)));
+    AXISCAL_TRY(circular.circles, cut_circles(setup, stream, circle_marks(contents.run.events)));
     take_temperatures(circular, contents.run, setup);
     return circular;
 }

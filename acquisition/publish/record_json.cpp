@@ -54,6 +54,17 @@ Json instruments_json(const std::vector<InstrumentRecord>& instruments, const st
     return list;
 }
 
+Json preflight_json(const std::vector<PreflightRecord>& checks) {
+    auto list = nlohmann::ordered_json::array();
+    for (const PreflightRecord& check : checks)
+        list.push_back({{"name", check.name},
+                        {"passed", check.passed},
+                        {"warning", check.warning},
+                        {"verdict", check.verdict},
+                        {"override", stated_json(check.override_reason)}});
+    return list;
+}
+
 Json events_json(const std::vector<EventRecord>& events, const ClockTie& opened) {
     Json list = Json::array();
     for (const EventRecord& event : events) {

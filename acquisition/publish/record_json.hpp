@@ -2,6 +2,7 @@
 // What certificates of every kind say of who, with what and what happened. Pure.
 
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +18,8 @@ nlohmann::ordered_json statements_json(const Statements& said);
 /// `date`: ISO date of the run; a certificate due before it had expired.
 nlohmann::ordered_json instruments_json(const std::vector<InstrumentRecord>& instruments,
                                         const std::string& date);
+
+nlohmann::ordered_json preflight_json(const std::vector<PreflightRecord>& checks);
 
 nlohmann::ordered_json events_json(const std::vector<EventRecord>& events, const ClockTie& opened);
 

@@ -15,6 +15,7 @@ enum class CircleAnswer : std::uint8_t {
     end,    ///< the last circle was driven
     again,  ///< the last durable request came again: acknowledge it again
     abort,  ///< the CNC gives up
+    broken, ///< a circle was driven while the station was away: the test cannot go on
     refuse  ///< out of order: the count is lost
 };
 
@@ -24,12 +25,22 @@ struct CircleVerdict {
     std::string sentence; ///< what begins, or why it is refused
 };
 
+/// What a restarted station knows of the circles of an open test.
+struct CirclesBefore {
+    int last = 0;       ///< request that is durable; 0: none
+    bool whole = false; ///< the circle of it was recorded to its end
+};
+
 class CircleOrder {
 public:
     explicit CircleOrder(const CircularPlan& plan);
+    /// Goes on after a restart. The request before the circle that was under way begins it again;
+    /// the next one is taken only where that circle is whole.
+    CircleOrder(const CircularPlan& plan, const CirclesBefore& before);
 
-    /// A manual request has no number: it is the next one. Dwells mean nothing here. After `begin`
-    /// or `end` the caller answers with durable() or failed().
+    /// A manual request has no number: it is the next one, or after an interruption the one before
+    /// the circle that is not whole. Dwells mean nothing here. After `begin` or `end` the caller
+    /// answers with durable() or failed().
     CircleVerdict judge(const TriggerEvent& event);
     void durable();
     void failed() { pending_.reset(); }
@@ -39,8 +50,13 @@ public:
     [[nodiscard]] std::uint16_t last_durable() const { return static_cast<std::uint16_t>(last_); }
 
 private:
+    [[nodiscard]] std::string words_of(int sequence, const char* begins) const;
+    [[nodiscard]] CircleVerdict out_of_order(int wanted) const;
+
     std::vector<PlannedCircle> circles_;
-    int last_ = 0; ///< sequence that is durable
+    int last_ = 0;             ///< sequence that is durable
+    bool interrupted_ = false; ///< since then, and nothing was asked yet
+    bool whole_ = false;       ///< and its circle was recorded all the same
     std::optional<int> pending_;
 };
 

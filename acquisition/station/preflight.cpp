@@ -40,16 +40,21 @@ void join(std::string& list, const std::string& item) {
     list += (list.empty() ? "" : "; ") + item;
 }
 
+std::string length_of(const PreflightFacts& facts) {
+    return facts.circular ? "the ballbar" : "the laser";
+}
+
 PreflightRecord check_instruments(const PreflightFacts& facts) {
-    constexpr Duration laser_limit = std::chrono::seconds{2};
+    constexpr Duration length_limit = std::chrono::seconds{2};
     std::string wrong;
     for (const std::string& name : facts.unavailable)
         join(wrong, name + " is not there");
     for (const SensorFacts& sensor : facts.sensors)
         if (!sensor.fresh)
             join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
-    if (!facts.laser_age || *facts.laser_age > laser_limit)
-        join(wrong, "the laser gives no fresh reading");
+    // At rest a ballbar may be out of its range: that it speaks is enough.
+    const auto& age = facts.circular ? facts.bar_age : facts.laser_age;
+    if (!age || *age > length_limit) join(wrong, length_of(facts) + " gives no fresh reading");
     if (wrong.empty())
         return passed("instruments", "Every instrument is there and its readings are fresh.");
     return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
@@ -111,6 +116,8 @@ PreflightRecord check_sensors(const PreflightFacts& facts) {
         if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
             highest = &sensor;
     }
+    if (lowest == nullptr && facts.circular)
+        return passed("sensors", "No material sensor: F and D stand as measured.");
     if (lowest == nullptr) return failed("sensors", "No material sensor gives a reading.");
     const double apart_K = *highest->log->newest() - *lowest->log->newest();
     if (lowest == highest)
@@ -199,6 +206,8 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
     for (const SensorFacts& strength : facts.strengths)
         if (const auto found = strength.log->lowest())
             lowest = std::min(lowest.value_or(*found), *found);
+    if (!lowest && facts.circular)
+        return passed("strength", "The ballbar does not tell the strength of its signal.");
     if (!lowest) return passed("strength", "The laser does not tell the strength of its signal.");
     const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
     if (*lowest >= limit) return passed("strength", seen + ".");
@@ -243,29 +252,63 @@ bool spans_window(const DriftSeries& series, double window_s) {
     return longest_s <= window_s * longest_break;
 }
 
+/// The standing bar's good readings within the window, in micrometres.
+DriftSeries readings_of_the_bar(const PreflightFacts& facts) {
+    constexpr double um_per_m = 1e6;
+    DriftSeries series = facts.bar != nullptr
+                             ? facts.bar->last(facts.config.preflight.drift_window, facts.now)
+                             : DriftSeries{};
+    for (double& reading : series.readings)
+        reading *= um_per_m;
+    return series;
+}
+
 PreflightRecord check_drift(const PreflightFacts& facts) {
     const PreflightConfig& limits = facts.config.preflight;
     if (limits.drift_window <= Duration{})
         return passed("drift", "Not asked: preflight.drift_window is 0.");
     constexpr double moved_um = 50; // no drift: the axis was driven
-    const DriftSeries series = readings_of_the_laser(facts);
+    const DriftSeries series =
+        facts.circular ? readings_of_the_bar(facts) : readings_of_the_laser(facts);
     const double window_s = seconds_of(limits.drift_window);
+    if (facts.circular && series.times.empty())
+        return passed("drift", "Not judged: at rest the ballbar gives no reading in its range.");
     if (!spans_window(series, window_s))
-        return failed("drift", "The laser has been read for less than " +
+        return failed("drift", (facts.circular ? "The ballbar" : "The laser") +
+                                   std::string{" has been read for less than "} +
                                    in_minutes(limits.drift_window) + " without a break. Wait.");
     if (total_range(series).range > moved_um)
         return failed("drift", "The axis moved within the last " + in_minutes(limits.drift_window) +
-                                   ". Let it stand at its datum.");
+                                   (facts.circular ? ". Let the machine rest beside the circle."
+                                                   : ". Let it stand at its datum."));
     const double change_um = slope_of(thinned(series)) * window_s;
-    const std::string seen = "The reading of the standing axis drifts by " +
-                             plain_number(change_um, 2) + " um in " +
-                             in_minutes(limits.drift_window);
+    const std::string seen =
+        std::string{"The reading of the standing "} + (facts.circular ? "ballbar" : "axis") +
+        " drifts by " + plain_number(change_um, 2) + " um in " + in_minutes(limits.drift_window);
     if (std::fabs(change_um) <= limits.drift_limit.in(um)) return passed("drift", seen + ".");
-    return failed("drift", seen + ", " + in_um(limits.drift_limit) +
-                               " are allowed. Let laser and machine warm up.");
+    return failed("drift", seen + ", " + in_um(limits.drift_limit) + " are allowed. Let " +
+                               (facts.circular ? "ballbar" : "laser") + " and machine warm up.");
+}
+
+/// F and D at 20 degC need the machine's coefficient; form alone does not.
+PreflightRecord check_expansion_of_circles(const PreflightFacts& facts) {
+    const CircularSetup& setup = facts.config.circular->setup;
+    const double alpha_per_K = setup.machine_alpha_per_K.value_or(0);
+    if (alpha_per_K <= 0)
+        return warned("expansion", "The machine's coefficient of expansion is not stated: F and D "
+                                   "stand as measured.");
+    const std::string coefficient =
+        plain_number(per_kelvin(alpha_per_K).in(um_per_m_kelvin), 2) + " um/(m*K)";
+    if (setup.uncertainty.machine_alpha_width_per_K ||
+        facts.config.axis.material.standard_uncertainty)
+        return passed("expansion", "The coefficient " + coefficient + " has its uncertainty.");
+    return failed("expansion", "The coefficient " + coefficient +
+                                   " stands without its uncertainty. State "
+                                   "circular.uncertainty.machine_expansion_width.");
 }
 
 PreflightRecord check_expansion(const PreflightFacts& facts) {
+    if (facts.circular) return check_expansion_of_circles(facts);
     const auto& material = facts.config.axis.material;
     const bool width = facts.config.uncertainty && facts.config.uncertainty->expansion_width;
     const bool rotary = facts.config.cycle.axis_kind == AxisKind::rotary;

@@ -34,9 +34,12 @@ struct PreflightFacts {
     std::vector<std::string> unavailable;    ///< instruments in use that are not there
     std::vector<std::string> in_use;         ///< names of instruments with a part to play
     std::vector<SensorFacts> sensors;        ///< of the environment
-    std::vector<SensorFacts> strengths;      ///< of the laser's signal; empty: it tells none
+    std::vector<SensorFacts> strengths;      ///< of the length's signal; empty: it tells none
     std::optional<Duration> laser_age;       ///< of its last good reading
     std::span<const Sample> laser_samples;   ///< of a little more than the last drift_window
+    bool circular = false;                   ///< for circles: a ballbar in the laser's place
+    std::optional<Duration> bar_age = {};    ///< of its last reading, good or not
+    const SensorLog* bar = nullptr;          ///< its good readings lately, m
 };
 
 /// How far back `laser_samples` go: a laser that is asked seldom has its last sample before the
@@ -46,7 +49,7 @@ inline Duration drift_reach(const PreflightConfig& config) {
 }
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
-/// "certificates", in this order.
+/// "certificates", in this order, of a linear or rotary run and of a circular test alike.
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

@@ -1,5 +1,7 @@
 #include "acquisition/station/roles.hpp"
 
+#include <algorithm>
+
 namespace axiscal {
 namespace {
 
@@ -43,6 +45,14 @@ find(const RoleConfig& role, const Wanted& wanted, const std::vector<StationChan
 std::vector<int> StationRoles::environment() const {
     std::vector<int> ids{air_temperature, air_pressure, air_humidity};
     ids.insert(ids.end(), material.begin(), material.end());
+    return ids;
+}
+
+std::vector<int> StationRoles::of_circles() const {
+    std::vector<int> ids{air_temperature};
+    ids.insert(ids.end(), material.begin(), material.end());
+    if (bar_temperature && std::ranges::find(ids, *bar_temperature) == ids.end())
+        ids.push_back(*bar_temperature);
     return ids;
 }
 

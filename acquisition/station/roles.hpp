@@ -18,6 +18,8 @@ struct StationRoles {
     std::optional<int> bar_temperature; ///< of the sensor on it
     /// All environment channels in the order air temperature, pressure, humidity, material...
     [[nodiscard]] std::vector<int> environment() const;
+    /// What a circular test looks at beside its ballbar: air and material temperatures, the bar's.
+    [[nodiscard]] std::vector<int> of_circles() const;
 };
 
 /// @errors Fault::bad_configuration naming the role, the name and what there is instead;

@@ -120,6 +120,8 @@ Task<void> Station::stop() {
     stopping_ = true;
     end_port_.emit(boost::asio::cancellation_type::terminal);
     if (recording() || drift_open()) {
+        if (circular_)
+            if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
         perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                              "The daemon was stopped; the run stays open.", Fault::none, 0}});
         co_await journal_.flush();

@@ -13,6 +13,7 @@
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/circle_order.hpp"
+#include "acquisition/run/circle_resume.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "acquisition/station/drift_recorder.hpp"
 #include "acquisition/station/preflight.hpp"
@@ -27,6 +28,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace axiscal {
@@ -64,6 +66,7 @@ public:
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
     Task<Result<int>> exclude(RevisionRequest request) override;
     Task<Result<std::string>> drift(DriftRequest request) override;
+    [[nodiscard]] std::optional<StreamView> stream(std::size_t most) const override;
     [[nodiscard]] AlignmentView alignment() const override;
     Result<void> align(AlignmentOrder order) override;
 
@@ -132,6 +135,9 @@ private:
     struct Circles {
         explicit Circles(const CircularSetup& setup)
             : order{setup.plan} {}
+        Circles(const CircularSetup& setup, const CirclesBefore& before, StreamChunker behind)
+            : order{setup.plan, before}
+            , chunker{std::move(behind)} {}
         CircleOrder order;
         StreamChunker chunker{0};
         MinMaxPyramid view;
@@ -150,6 +156,15 @@ private:
     commit_circle(TriggerEvent event, std::uint16_t sequence, std::string sentence, bool last);
     void end_circular(Close close);
     [[nodiscard]] RunStatus circular_status() const;
+
+    // station_circular_resume.cpp: a test that was open when the last daemon ended
+    Task<Result<void>> resume_or_close_circles(std::string path, RunFileContents contents);
+    [[nodiscard]] CircleResume judge_circles(const RunFileContents& contents) const;
+    Task<Result<void>>
+    resume_circles(std::string path, RunFileContents contents, CircleResume verdict);
+    Task<Result<void>> close_driven_circles(std::string path);
+    [[nodiscard]] std::string interruption_in_words(const RunFileContents& contents,
+                                                    const CircleResume& verdict) const;
 
     // station_disk.cpp: the disk failed under an open run
     /// Tries until the run file can be written again, then goes on with the run or closes it.

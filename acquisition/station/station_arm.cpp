@@ -200,17 +200,14 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     RunRecord run = std::move(contents.run);
     // Reopened for points to be taken again: what was measured before still makes a whole run.
     const bool whole = contents.revisions.closings > 0 && check_complete(run);
-    if (run.plan.pass == circular_pass) {
-        co_await close_left_over(path,
-                                 "The station was away while circles were driven: start the test "
-                                 "anew.",
-                                 Fault::incomplete_run, false);
-        co_return Result<void>{};
-    }
     if (run_open()) {
         co_await close_left_over(path, "Another run was open too; only one can go on.", Fault::busy,
                                  whole);
         co_return Result<void>{};
+    }
+    if (run.plan.pass == circular_pass) {
+        contents.run = std::move(run);
+        co_return co_await resume_or_close_circles(std::move(path), std::move(contents));
     }
     // A request may stand in the CNC already: it must not meet sensors that have not spoken yet.
     const MonotonicTime limit = scheduler_.now() + return_limit;

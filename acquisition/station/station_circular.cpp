@@ -68,6 +68,9 @@ Task<Result<std::string>> Station::arm_circular(ArmRequest request) {
 }
 
 Task<Result<std::string>> Station::open_circular(ArmRequest request) {
+    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, preflight(request));
+    if (const std::string objections = open_objections(checks); !objections.empty())
+        co_return refuse(Fault::refused, "preflight", objections);
     AXISCAL_CO_TRY(RunRecord header, circular_header(request));
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
@@ -82,7 +85,12 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
     stream.unit = stored_unit_of(bar.kind);
     stream.nominal_rate_hz = setup.capture.sample_rate_hz;
     journal_.note(setup, std::vector<StreamSetup>{stream});
+    journal_.note(std::move(checks));
     begin_circular(std::move(header), std::move(path), setup);
+    perform(
+        RecordEvent{{EventKind::armed, scheduler_.now(), 0, "Armed for circles.", Fault::none, 0}});
+    port_->publish_armed();
+    perform(SetState{PortState::armed});
     if (auto kept = co_await journal_.flush(); !kept) co_return tl::unexpected<Error>(kept.error());
     co_return run_->header.run_id;
 }
@@ -101,15 +109,12 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
     datum_.reset();
     for (auto& logged : logged_)
         logged.reset();
-    perform(
-        RecordEvent{{EventKind::armed, scheduler_.now(), 0, "Armed for circles.", Fault::none, 0}});
-    port_->publish_armed();
-    perform(SetState{PortState::armed});
 }
 
 /// A reading of the bar, whatever is going on.
 void Station::take_bar(const Sample& sample) {
     bar_rate_.take(sample);
+    log_sensor(sample);
     if (!circular_ || !recording()) return;
     if (const auto value = sample.value()) circular_->view.push(*value);
     if (auto chunk = circular_->chunker.push(sample)) keep_chunk(*std::move(chunk));
@@ -129,6 +134,9 @@ void Station::take_circular(const TriggerEvent& event) {
     case CircleAnswer::ignore: return;
     case CircleAnswer::again: return perform(Acknowledge{verdict.sequence, -1});
     case CircleAnswer::abort: return end_circular({false, verdict.sentence, Fault::none});
+    case CircleAnswer::broken:
+        perform(Refuse{verdict.sequence, Fault::incomplete_run, verdict.sentence, event.origin});
+        return end_circular({false, verdict.sentence, Fault::incomplete_run});
     case CircleAnswer::refuse:
         return perform(
             Refuse{verdict.sequence, Fault::sequence_lost, verdict.sentence, event.origin});
@@ -145,8 +153,7 @@ Task<void> Station::commit_circle(TriggerEvent event,
                                   std::uint16_t sequence,
                                   std::string sentence,
                                   bool last) {
-    if (last)
-        if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
+    if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
     EventRecord mark{EventKind::note,     event.at,    scheduler_.clock_tie().utc_ns,
                      std::move(sentence), Fault::none, sequence};
     const auto receipt = co_await journal_.commit(std::move(mark), static_cast<int>(sequence) - 1);
@@ -171,6 +178,22 @@ void Station::end_circular(Close close) {
                          0, close.reason, close.fault, 0}});
     perform(SetState{PortState::idle});
     perform(std::move(close));
+}
+
+std::optional<StreamView> Station::stream(std::size_t most) const {
+    if (!circular_ || !run_ || !roles_.ballbar) return std::nullopt;
+    const StationChannel& bar = channel_of(*roles_.ballbar);
+    StreamView view;
+    view.run_id = run_->header.run_id;
+    view.channel = bar.instrument_name + "/" + bar.name;
+    view.recording = recording();
+    view.rate_hz = bar_rate_.hz();
+    view.samples = circular_->view.samples();
+    view.samples_a_stretch = circular_->view.samples_of_each(most);
+    view.gaps = circular_->chunker.gaps();
+    view.missing = circular_->chunker.missing();
+    view.stretches = circular_->view.view(most);
+    return view;
 }
 
 RunStatus Station::circular_status() const {

@@ -1,6 +1,7 @@
 #pragma once
 // What the station shows and takes: the only thing the console knows of it.
 
+#include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/run/run_events.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
@@ -110,6 +111,18 @@ struct RetakeAnswer {
     std::uint16_t last_request = 0; ///< the first of these bears the number after it
 };
 
+/// The ballbar's stream since arming, or since the daemon's start within a test: the lowest and the
+/// highest reading of each stretch.
+struct StreamView {
+    std::string run_id, channel; ///< "ballbar/axis 1"
+    bool recording = false;
+    double rate_hz = 0; ///< of the last second; 0: not known
+    std::uint64_t samples = 0;
+    std::uint64_t samples_a_stretch = 1; ///< the last may hold fewer
+    std::uint64_t gaps = 0, missing = 0;
+    std::vector<MinMax> stretches; ///< bare readings, m
+};
+
 /// The beam while it is aligned, or how it was left.
 struct AlignmentView {
     bool running = false;
@@ -150,6 +163,8 @@ public:
     virtual Task<Result<int>> exclude(RevisionRequest request) = 0;
     /// Begins a drift test; returns its run id when its file is made. abort() ends it.
     virtual Task<Result<std::string>> drift(DriftRequest request) = 0;
+    /// At most `most` stretches; none before the first circular test since the start.
+    [[nodiscard]] virtual std::optional<StreamView> stream(std::size_t most) const = 0;
     [[nodiscard]] virtual AlignmentView alignment() const = 0;
     /// begin: watch the beam from now on; a watch that is going on starts anew. keep: it ends, and
     /// what it showed stands in the run files from now on. drop: it ends, the last one kept holds.

@@ -47,10 +47,12 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         {},
         {},
         {}};
-    std::vector<int> roles = roles_.environment();
+    facts.circular = request.pass == circular_pass && roles_.ballbar && config_.circular;
+    std::vector<int> roles = facts.circular ? roles_.of_circles() : roles_.environment();
     for (const int id : roles)
         facts.sensors.push_back(sensor_facts(id));
-    roles.push_back(roles_.laser);
+    const int length_id = facts.circular ? *roles_.ballbar : roles_.laser;
+    roles.push_back(length_id);
     const auto views = supervisor_.view();
     for (const int id : roles) {
         const StationChannel& channel = channel_of(id);
@@ -60,10 +62,16 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         const auto& view = views[static_cast<std::size_t>(channel.instrument)];
         if (view.state != InstrumentState::available) facts.unavailable.push_back(name);
     }
-    const int laser = channel_of(roles_.laser).instrument;
+    const int seat = channel_of(length_id).instrument;
     for (const StationChannel& channel : supervisor_.channels())
-        if (channel.kind == ChannelKind::strength && channel.instrument == laser)
+        if (channel.kind == ChannelKind::strength && channel.instrument == seat)
             facts.strengths.push_back(sensor_facts(channel.id));
+    if (facts.circular) {
+        if (const auto& reading = latest_[static_cast<std::size_t>(length_id)])
+            facts.bar_age = now - reading->at;
+        facts.bar = &sensor_logs_[static_cast<std::size_t>(length_id)];
+        return facts;
+    }
     if (const auto reading = history_.newest(); reading && reading->value())
         facts.laser_age = now - reading->at;
     facts.laser_samples = history_.between(now - drift_reach(config_.preflight), now);

@@ -149,24 +149,18 @@ best_of(const Cutter& cutter, const std::vector<Stay>& stays, const PlannedCircl
     return *best;
 }
 
-Result<std::vector<Stay>> stays_by_marks(const Cutter& cutter,
-                                         const StreamSamples& stream,
-                                         const std::vector<PlannedCircle>& circles,
-                                         std::span<const CircleMark> marks) {
-    std::vector<Stay> chosen;
-    chosen.reserve(circles.size());
-    for (const PlannedCircle& circle : circles) {
-        const auto mark = std::ranges::find(marks, circle.number, &CircleMark::number);
-        if (mark == marks.end())
-            return fail(Fault::incomplete_run, Cutter::words(circle) + " was never begun");
-        const auto next = std::next(mark);
-        const std::size_t last =
-            next == marks.end() ? stream.at.size() : index_at(stream, next->at);
-        AXISCAL_TRY(const Stay stay,
-                    best_of(cutter, cutter.stays(index_at(stream, mark->at), last), circle));
-        chosen.push_back(stay);
-    }
-    return chosen;
+Result<CircleCapture> cut_by_mark(const Cutter& cutter,
+                                  const StreamSamples& stream,
+                                  const PlannedCircle& circle,
+                                  std::span<const CircleMark> marks) {
+    const auto mark = std::ranges::find(marks, circle.number, &CircleMark::number);
+    if (mark == marks.end())
+        return fail(Fault::incomplete_run, Cutter::words(circle) + " was never begun");
+    const auto next = std::next(mark);
+    const std::size_t last = next == marks.end() ? stream.at.size() : index_at(stream, next->at);
+    AXISCAL_TRY(const Stay stay,
+                best_of(cutter, cutter.stays(index_at(stream, mark->at), last), circle));
+    return cutter.cut(circle, stay);
 }
 
 Result<std::vector<Stay>> stays_by_order(const Cutter& cutter,
@@ -185,6 +179,16 @@ Result<std::vector<Stay>> stays_by_order(const Cutter& cutter,
 
 } // namespace
 
+std::vector<CircleMark> circle_marks(std::span<const EventRecord> events) {
+    std::vector<CircleMark> marks;
+    for (const EventRecord& event : events) {
+        if (event.kind != EventKind::note || event.sequence == 0) continue;
+        if (!marks.empty() && marks.back().number == event.sequence) marks.pop_back();
+        marks.push_back({event.sequence, event.at});
+    }
+    return marks;
+}
+
 double radial_deviation_mm(const CircularSetup& setup, double reading_m) {
     const double from_nominal =
         setup.bar_length_mm > 0 ? setup.bar_length_mm - setup.plan.nominal_radius_mm : 0;
@@ -200,15 +204,25 @@ Result<std::vector<CircleCapture>> cut_circles(const CircularSetup& setup,
                                                std::span<const CircleMark> marks) {
     const std::vector<PlannedCircle> circles = planned_circles(setup.plan);
     const Cutter cutter{setup, stream};
-    AXISCAL_TRY(const auto stays, marks.empty() ? stays_by_order(cutter, stream, circles)
-                                                : stays_by_marks(cutter, stream, circles, marks));
+    std::vector<Stay> stays;
+    if (marks.empty()) {
+        AXISCAL_TRY(stays, stays_by_order(cutter, stream, circles));
+    }
     std::vector<CircleCapture> captures;
     captures.reserve(circles.size());
     for (std::size_t i = 0; i < circles.size(); ++i) {
-        AXISCAL_TRY(auto capture, cutter.cut(circles[i], stays[i]));
+        AXISCAL_TRY(auto capture, marks.empty() ? cutter.cut(circles[i], stays[i])
+                                                : cut_by_mark(cutter, stream, circles[i], marks));
         captures.push_back(std::move(capture));
     }
     return captures;
+}
+
+Result<CircleCapture> cut_circle(const CircularSetup& setup,
+                                 const StreamSamples& stream,
+                                 std::span<const CircleMark> marks,
+                                 const PlannedCircle& circle) {
+    return cut_by_mark(Cutter{setup, stream}, stream, circle, marks);
 }
 
 } // namespace axiscal

@@ -10,11 +10,14 @@
 
 namespace axiscal {
 
-/// The controller's word that a circle comes next; number 0 ends the last one.
+/// The controller's word that a circle comes next; number 0, or the one after the last, ends it.
 struct CircleMark {
     int number = 0; ///< PlannedCircle::number
     MonotonicTime at;
 };
+/// The requests that a run file keeps as notes. Of two with one number the last counts: the circle
+/// was begun again after an interruption.
+std::vector<CircleMark> circle_marks(std::span<const EventRecord> events);
 
 /// What a reading stands for: radius - nominal radius, mm, outward positive.
 ///   sign * reading + (calibrated length - R), or sign * reading while no length is known.
@@ -35,5 +38,11 @@ double programmed_path_mm(const CircularPlan& plan);
 Result<std::vector<CircleCapture>> cut_circles(const CircularSetup& setup,
                                                const StreamSamples& stream,
                                                std::span<const CircleMark> marks);
+
+/// One circle alone, between its mark and the next. @errors as cut_circles.
+Result<CircleCapture> cut_circle(const CircularSetup& setup,
+                                 const StreamSamples& stream,
+                                 std::span<const CircleMark> marks,
+                                 const PlannedCircle& circle);
 
 } // namespace axiscal

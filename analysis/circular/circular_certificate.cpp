@@ -1,6 +1,7 @@
 #include "analysis/circular/circular_certificate.hpp"
 
 #include "analysis/circular/circular_trials.hpp"
+#include "analysis/preflight_remarks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -130,6 +131,7 @@ void remark_on_run(const CircularRun& run, std::vector<std::string>& remarks) {
     if (run.dropped_blocks > 0)
         remarks.push_back(plural(run.dropped_blocks, "block", "blocks") +
                           " of readings could not be stored: the disk did not keep up.");
+    remark_on_preflight(run.preflight, remarks);
     for (const EventRecord& event : run.events) {
         const bool stopped = event.kind == EventKind::interrupted;
         if (!stopped && event.kind != EventKind::resumed) continue;

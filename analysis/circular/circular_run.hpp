@@ -6,6 +6,7 @@
 #include "analysis/circular/circular_parameters.hpp"
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 
 namespace axiscal {
 
@@ -57,6 +58,7 @@ struct CircularRun {
     std::uint64_t dropped_blocks = 0;    ///< lost because the disk did not keep up
     std::vector<CircleCapture> circles;  ///< in the order driven, warm-up included
     std::vector<EventRecord> events;
+    std::vector<PreflightRecord> preflight; ///< what was checked before it
 };
 
 /// One trace of each sense: readings of all repeats averaged at the angles of the first, linearly

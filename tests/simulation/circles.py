@@ -3,6 +3,7 @@
 
 import json
 import math
+import signal
 
 import bench
 from bench import expect, sentence, wait_until
@@ -37,8 +38,17 @@ def with_ballbar(b, **circular):
     })
 
 
-def measure(b):
-    """Drives every circle of the plan; gives back the certificate."""
+def checks(b):
+    door = bench.UnixHttp(b.socket)
+    try:
+        door.request("POST", "/v1/preflight", json.dumps({"pass": "circular"}))
+        return json.load(door.getresponse())["checks"]
+    finally:
+        door.close()
+
+
+def measure(b, meanwhile=lambda b: None):
+    """Drives every circle of the plan, `meanwhile` happening after arming; gives back the certificate."""
     b.start()
     wait_until("the ballbar speaks", lambda: b.instrument("ballbar")["state"] == "available", 30)
     shown = json.loads(b.axiscal("program", "--json", "--config", b.folder / "station.toml",
@@ -48,7 +58,9 @@ def measure(b):
     lines = open(program["file"], encoding="utf-8").read().splitlines()
     wait_until("the machine waits at rest",
                lambda: lines[b.sim("status")["line"] - 1].startswith("M66"), 30)
+    wait_until("every check holds", lambda: all(one["passed"] for one in checks(b)), 30)
     b.axiscal("arm", "--pass", "circular")
+    meanwhile(b)
 
     def ended():
         run = b.run()
@@ -104,6 +116,29 @@ def arcs(b):
     )
     answer = measure(b)
     expect_hidden(answer)
+
+
+@sentence("CirclesGoOnAfterAKillAtTheCircleThatWasCut")
+def killed(b):
+    """The CNC holds before circle 2, whose request is durable, and asks again when the station is back."""
+    with_ballbar(b, overshoot="90 deg")
+
+    def kill(b):
+        b.sim("hold 2")
+        wait_until("circle 2 was asked for", lambda: b.run()["done"] == 2, 60)
+        b.end("axiscald", signal.SIGKILL)
+        b.start_daemon_again()
+        # The CNC's client has written its number once it has read as often as this.
+        wait_until("the CNC is back", lambda: b.status()["trigger"]["requests"] > 20, 30)
+        b.sim("go")
+
+    answer = measure(b, kill)
+    expect_hidden(answer)
+    told = [one for one in answer["run"]["remarks"] if "The run was interrupted" in one]
+    expect(len(told) == 1, f"{answer['run']['remarks']}")
+    expect("Circle 2 of 2 was not recorded to its end" in told[0], told[0])
+    events = [one["text"] for one in answer["run"]["events"]]
+    expect(any("Circle 2 of 2 begins again" in one for one in events), f"{events}")
 
 
 if __name__ == "__main__":

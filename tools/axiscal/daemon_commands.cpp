@@ -206,7 +206,8 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
 }
 
 int command_preflight(const StationClient& client, const ArmOrder& order, bool json) {
-    const Json body{{"statements", order.statements}, {"overrides", order.overrides}};
+    const Json body{
+        {"pass", order.pass}, {"statements", order.statements}, {"overrides", order.overrides}};
     const auto reply = client.post("/v1/preflight", body.dump());
     bool holds = true;
     const int code =

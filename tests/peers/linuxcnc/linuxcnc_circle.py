@@ -76,12 +76,7 @@ def drive(bench):
     bench.scenario = bench.source / "tests/peers/linuxcnc/quiet-circle.toml"
     bench.more_of_station = STATION.format(scratch=bench.scratch)
     daemon, cnc, _ = bench.make_ready("XY-circular.ngc")
-
-    def speaks():
-        bar = next(one for one in bench.status()["instruments"] if one["name"] == "ballbar")
-        return bar["state"] == "available"
-
-    until(speaks, "the ballbar", [daemon, cnc])
+    until(lambda: bench.may_arm("circular"), "every pre-flight check to hold", [daemon, cnc])
     bench.axiscal("arm", "--pass", "circular")
     assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(bench.scratch / 'cnc.events').read_text()}"
     until(lambda: bench.status()["run"]["certificate"] or bench.status()["run"]["sentence"],

@@ -99,6 +99,17 @@ TEST(CircleCut, BrakingAtBothEndsDoesNotTurnTheCircleAndIsTold) {
     expect_truth(bar, *circles);
 }
 
+TEST(CircleCut, ACircleThatWasBegunAgainIsTheLaterOne) {
+    const std::vector<EventRecord> events{
+        {EventKind::note, monotonic_from_ns(1), 0, "", Fault::none, 1},
+        {EventKind::interrupted, monotonic_from_ns(2), 0, "", Fault::none, 0},
+        {EventKind::note, monotonic_from_ns(3), 0, "", Fault::none, 1},
+        {EventKind::note, monotonic_from_ns(4), 0, "", Fault::none, 2}};
+    const auto marks = circle_marks(events);
+    ASSERT_EQ(marks.size(), 2U);
+    EXPECT_EQ(marks[0].at, monotonic_from_ns(3));
+}
+
 TEST(CircleCut, AnArcIsCutWhereItWasPlanned) {
     DrivenBar bar = usual_bar();
     bar.setup.plan.start_deg = -20;

@@ -56,6 +56,24 @@ TEST(StreamChunker, ALostNumberEndsAChunkAndIsCounted) {
     EXPECT_EQ(chunker.missing(), 4U);
 }
 
+TEST(StreamChunker, BehindAnInterruptedRecordTheHoleIsNamedAndCounted) {
+    StreamBlock last;
+    last.stream = 3;
+    last.index = 7;
+    last.first_count = 1001;
+    last.samples = 500;
+    last.end = at_ms(1500);
+    StreamChunker chunker{last, true};
+    const auto chunks = chunks_of(chunker, {sample(4000), sample(4001)});
+    ASSERT_EQ(chunks.size(), 1U);
+    EXPECT_EQ(chunks[0].head.stream, 3);
+    EXPECT_EQ(chunks[0].head.index, 8);
+    EXPECT_EQ(chunks[0].head.before, "interrupted");
+    EXPECT_EQ(chunks[0].head.missing, 2499U); // 1501 to 3999
+    StreamChunker renumbered{last, false};
+    EXPECT_EQ(chunks_of(renumbered, {sample(4000)})[0].head.missing, 0U);
+}
+
 TEST(StreamChunker, ABadSampleAndANewEpochAreHolesWithTheirNames) {
     StreamChunker chunker{0};
     const auto chunks = chunks_of(

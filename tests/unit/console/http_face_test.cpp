@@ -74,6 +74,10 @@ public:
         drifted = std::move(request);
         co_return "bench-1-drift";
     }
+    [[nodiscard]] std::optional<StreamView> stream(std::size_t most) const override {
+        asked_points = most;
+        return streamed;
+    }
     [[nodiscard]] AlignmentView alignment() const override { return aligned; }
     Result<void> align(AlignmentOrder order) override {
         ordered = order;
@@ -84,6 +88,8 @@ public:
     ArmRequest armed;
     RevisionRequest revision;
     AlignmentView aligned;
+    std::optional<StreamView> streamed;
+    mutable std::size_t asked_points = 0;
     std::optional<DriftRequest> drifted;
     std::optional<AlignmentOrder> ordered;
     std::string reason_given;
@@ -168,6 +174,28 @@ TEST_F(HttpDoor, AStaleValueIsNullNotANumber) {
     const auto status = nlohmann::json::parse(body_of(over_tcp("GET", "/v1/status")));
     EXPECT_TRUE(status.at("channels").at(0).at("value").is_null());
     EXPECT_EQ(status.at("channels").at(0).at("quality"), "stale");
+}
+
+TEST_F(HttpDoor, TheStreamIsReadThinned) {
+    EXPECT_TRUE(nlohmann::json::parse(body_of(over_tcp("GET", "/v1/stream"))).is_null());
+    EXPECT_EQ(station.asked_points, 1000U);
+    StreamView view;
+    view.run_id = "bench-1-XY-circle";
+    view.channel = "ballbar/axis 1";
+    view.samples = 7;
+    view.samples_a_stretch = 4;
+    view.stretches = {{-1e-6, 2e-6}, {0, 1.5e-3}};
+    station.streamed = view;
+    const auto seen = nlohmann::json::parse(body_of(over_tcp("GET", "/v1/stream?points=2")));
+    EXPECT_EQ(station.asked_points, 2U);
+    EXPECT_EQ(seen.at("run"), "bench-1-XY-circle");
+    EXPECT_EQ(seen.at("samples_a_stretch"), 4);
+    EXPECT_TRUE(seen.at("rate_hz").is_null());
+    EXPECT_NEAR(seen.at("low").at(0).get<double>(), -1e-3, 1e-12);
+    EXPECT_NEAR(seen.at("high").at(1).get<double>(), 1.5, 1e-12);
+    for (const char* wrong : {"?points=0", "?points=4097", "?points=2x", "?width=2"})
+        EXPECT_TRUE(over_tcp("GET", "/v1/stream" + std::string{wrong}).starts_with("HTTP/1.1 400"))
+            << wrong;
 }
 
 TEST_F(HttpDoor, TcpWithoutTokenMayNotArm) {

@@ -48,6 +48,35 @@ TEST(CircleOrder, ARequestThatDidNotBecomeDurableMayComeAgain) {
     EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
 }
 
+TEST(CircleOrder, AfterARestartACircleThatWasCutIsBegunAgainOrEndsTheTest) {
+    CircleOrder cut{CircularPlan{}, {1, false}};
+    EXPECT_EQ(cut.last_durable(), 1);
+    const auto again = cut.judge(request(1));
+    EXPECT_EQ(again.answer, CircleAnswer::begin);
+    EXPECT_NE(again.sentence.find("Circle 1 of 2 begins again"), std::string::npos);
+    EXPECT_EQ(cut.judge(request(1)).answer, CircleAnswer::ignore); // under way
+    cut.durable();
+    EXPECT_EQ(cut.judge(request(1)).answer, CircleAnswer::again);
+    EXPECT_EQ(cut.judge(request(2)).answer, CircleAnswer::begin);
+    CircleOrder driven{CircularPlan{}, {1, false}};
+    const auto broken = driven.judge(request(2));
+    EXPECT_EQ(broken.answer, CircleAnswer::broken);
+    EXPECT_NE(broken.sentence.find("while the station was away"), std::string::npos);
+    CircleOrder by_hand{CircularPlan{}, {1, false}};
+    TriggerEvent press;
+    press.origin = TriggerOrigin::manual;
+    EXPECT_EQ(by_hand.judge(press).sequence, 1);
+}
+
+TEST(CircleOrder, AfterARestartTheNextCircleFollowsAWholeOne) {
+    CircleOrder order{CircularPlan{}, {1, true}};
+    EXPECT_EQ(order.judge(request(2)).answer, CircleAnswer::begin);
+    order.durable();
+    EXPECT_EQ(order.judge(request(3)).answer, CircleAnswer::end);
+    CircleOrder fresh{CircularPlan{}, {0, false}};
+    EXPECT_EQ(fresh.judge(request(1)).answer, CircleAnswer::begin);
+}
+
 TEST(CircleOrder, APersonStepsThroughWithoutNumbersAndDwellsMeanNothing) {
     CircleOrder order = order_of_two();
     TriggerEvent dwell = request(1);

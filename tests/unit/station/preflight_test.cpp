@@ -248,5 +248,63 @@ TEST_F(Preflight, AnOverrideNeedsAKnownNameAndAReason) {
     EXPECT_EQ(named(checks, "soak").override_reason, "") << "a reason for what holds is not kept";
 }
 
+/// The same shop with a ballbar at rest beside its circle.
+class CircularPreflight : public Preflight {
+protected:
+    CircularPreflight() {
+        config.circular.emplace();
+        config.circular->setup.machine_alpha_per_K = 11.5e-6;
+        rest([](double) { return 0.0; });
+    }
+    /// The bar's reading over the last minute, in micrometres.
+    void rest(const std::function<double(double seconds)>& course) {
+        bar = SensorLog{2min};
+        for (int k = 0; k <= 600; ++k)
+            bar.take(Sample{0, at(1140 + k / 10.0), 1.5e-3 + course(k / 10.0) * 1e-6});
+    }
+    PreflightFacts facts() {
+        PreflightFacts facts = Preflight::facts();
+        facts.circular = true;
+        facts.laser_age.reset(); // there is none
+        facts.laser_samples = {};
+        facts.bar_age = 5ms;
+        facts.bar = &bar;
+        return facts;
+    }
+    SensorLog bar{2min};
+};
+
+TEST_F(CircularPreflight, AllHoldWithoutALaser) {
+    for (const PreflightRecord& check : judge_preflight(facts()))
+        EXPECT_TRUE(check.passed && !check.warning) << check.name << ": " << check.verdict;
+}
+
+TEST_F(CircularPreflight, TheBarTakesTheLasersPlace) {
+    auto silent = facts();
+    silent.bar_age = 5s;
+    expect_failure(silent, "instruments", "the ballbar gives no fresh reading");
+    rest([](double seconds) { return 0.1 * seconds; }); // 3 um in 30 s; 1 um is allowed
+    expect_failure(facts(), "drift", "standing ballbar drifts by 3 um in 30 s");
+    rest([](double seconds) { return seconds > 50 ? 400.0 : 0.0; });
+    expect_failure(facts(), "drift", "Let the machine rest beside the circle");
+}
+
+TEST_F(CircularPreflight, ABarOutOfItsRangeAtRestIsNotJudgedForDrift) {
+    bar = SensorLog{2min};
+    const auto checks = judge_preflight(facts());
+    EXPECT_TRUE(named(checks, "drift").passed);
+    EXPECT_NE(named(checks, "drift").verdict.find("Not judged"), std::string::npos);
+}
+
+TEST_F(CircularPreflight, WithoutACoefficientFAndDStandAsMeasured) {
+    config.circular->setup.machine_alpha_per_K.reset();
+    EXPECT_TRUE(named(judge_preflight(facts()), "expansion").warning);
+    config.circular->setup.machine_alpha_per_K = 11.5e-6;
+    config.axis.material.standard_uncertainty.reset();
+    expect_failure(facts(), "expansion", "circular.uncertainty.machine_expansion_width");
+    config.circular->setup.uncertainty.machine_alpha_width_per_K = 2e-6;
+    EXPECT_TRUE(named(judge_preflight(facts()), "expansion").passed);
+}
+
 } // namespace
 } // namespace axiscal

@@ -175,6 +175,7 @@ struct Shop {
     bool port_broken = false;
     /// Reading of a ballbar in metres, 1 kHz; none: the station has no ballbar.
     std::function<double(MonotonicTime)> ballbar;
+    MonotonicTime ballbar_switched_on{};
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
 
@@ -379,6 +380,7 @@ private:
                 std::vector<Channel>{{"ballbar", ChannelKind::displacement}}, 1ms,
                 [this](int, MonotonicTime at) { return shop.ballbar(at); });
             bar = length.get();
+            bar->switched_on = shop.ballbar_switched_on;
             made.instruments.push_back(std::move(length));
         }
         auto scripted = std::make_unique<ScriptedPort>();

@@ -26,6 +26,8 @@ public:
         began_ = now;
         return from_seconds(2 * radial().duration_s() + arc().duration_s());
     }
+    /// A person brings it back to rest beside the circle.
+    void park() { began_.reset(); }
     /// What the bar reads, m.
     [[nodiscard]] double reading(MonotonicTime now) const {
         const double t = began_ ? seconds_of(now - *began_) : -1;
@@ -153,6 +155,44 @@ TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
     }
 }
 
+TEST(StationCircular, TheStreamIsSeenWhileItIsRecorded) {
+    Bay bay;
+    Life life{bay.shop};
+    EXPECT_FALSE(life.station->stream(10));
+    ASSERT_TRUE(arm(life));
+    life.run(3s);
+    const auto view = life.station->stream(10);
+    ASSERT_TRUE(view);
+    EXPECT_TRUE(view->recording);
+    EXPECT_EQ(view->channel, "ballbar/ballbar");
+    EXPECT_GE(view->samples, 3000U); // 1 kHz
+    ASSERT_LE(view->stretches.size(), 10U);
+    EXPECT_GE(view->stretches.size() * view->samples_a_stretch, view->samples);
+    for (const MinMax& stretch : view->stretches) // at rest: 1.5 mm and a form of some um
+        EXPECT_NEAR(stretch.high, 1.5e-3, 2e-5);
+}
+
+TEST(StationCircular, AFailedCheckHoldsTheTestUnlessAReasonIsGiven) {
+    Bay bay;
+    bay.shop.config.statements.state.clear();
+    Life life{bay.shop};
+    const auto refused = arm(life);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "preflight");
+    EXPECT_NE(refused.error().detail.find("compensation"), std::string::npos);
+    EXPECT_TRUE(bay.shop.run_files().empty());
+    ArmRequest with_reason = circles();
+    with_reason.overrides["compensation"] = "nobody knows";
+    const auto answer = life.begin_arm(with_reason);
+    life.run(1s);
+    ASSERT_TRUE(*answer && **answer);
+    const RunFileContents read = contents_of(bay.shop);
+    const auto check = std::ranges::find(read.revisions.preflight, std::string{"compensation"},
+                                         &PreflightRecord::name);
+    ASSERT_NE(check, read.revisions.preflight.end());
+    EXPECT_EQ(check->override_reason, "nobody knows");
+}
+
 TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
     Bay bay;
     Life life{bay.shop};
@@ -217,19 +257,113 @@ TEST(StationCircular, WithoutABallbarNothingIsArmed) {
     EXPECT_TRUE(bay.shop.run_files().empty());
 }
 
-TEST(StationCircular, ATestThatTheDaemonDidNotSurviveIsClosed) {
+/// What a shop went through when the daemon was killed within circle 2, or just after circle 1.
+void first_life(Bay& bay, bool second_circle_begun) {
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    ask(life, 1);
+    drive(life, bay, Sense::ccw);
+    life.run(2s); // what is older than two seconds is on disk, whatever happens
+    if (!second_circle_begun) return;
+    ask(life, 2);
+    life.run(500ms);
+    bay.machine.drive(Sense::cw, life.scheduler.now());
+    life.run(1s);
+}
+
+void second_circle_and_end(Life& life, Bay& bay) {
+    ask(life, 2);
+    EXPECT_EQ(life.port->done, 2);
+    drive(life, bay, Sense::cw);
+    ask(life, 3);
+    life.run(1s);
+    EXPECT_EQ(life.port->done, 3);
+}
+
+/// Complete, both circles whole, and the interruption told where the certificate takes it from.
+void expect_both_circles(const Bay& bay, const std::string& told) {
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.run.complete) << read.run.closing_reason;
+    const auto stream = samples_of(read.blocks, 0);
+    ASSERT_TRUE(stream) << stream.error().detail;
+    const auto cut = cut_circles(*read.circular, *stream, circle_marks(read.run.events));
+    ASSERT_TRUE(cut) << cut.error().detail;
+    ASSERT_EQ(cut->size(), 2U);
+    for (const CircleCapture& circle : *cut)
+        EXPECT_EQ(circle.gaps, 0U);
+    const auto event =
+        std::ranges::find(read.run.events, EventKind::interrupted, &EventRecord::kind);
+    ASSERT_NE(event, read.run.events.end());
+    EXPECT_NE(event->text.find("The station recorded nothing for"), std::string::npos);
+    EXPECT_NE(event->text.find(told), std::string::npos) << event->text;
+    ASSERT_FALSE(stream->gaps.empty());
+    EXPECT_EQ(stream->gaps.front().why, "interrupted");
+    EXPECT_GT(stream->gaps.front().missing, 0U);
+}
+
+TEST(StationCircular, ACircleThatTheDaemonDidNotSurviveIsDrivenAgain) {
     Bay bay;
-    {
-        Life life{bay.shop};
-        ASSERT_TRUE(arm(life));
-        ask(life, 1);
-    }
+    first_life(bay, true);
     Life again{bay.shop};
-    again.run(20s);
+    again.run(2s);
+    ASSERT_TRUE(again.status().run);
+    EXPECT_EQ(again.status().run->state, "armed");
+    EXPECT_EQ(again.status().run->done, 2);
+    bay.machine.park();
+    second_circle_and_end(again, bay);
+    EXPECT_EQ(again.status().run->state, "complete");
+    expect_both_circles(bay, "Circle 2 of 2 was not recorded to its end");
+}
+
+TEST(StationCircular, AfterAWholeCircleTheNextOneFollowsARestart) {
+    Bay bay;
+    first_life(bay, false);
+    Life again{bay.shop};
+    again.run(2s);
+    second_circle_and_end(again, bay);
+    EXPECT_EQ(again.status().run->state, "complete");
+    expect_both_circles(bay, "Circle 1 of 2 was recorded to its end before");
+}
+
+TEST(StationCircular, ACircleDrivenWhileTheStationWasAwayEndsTheTestWithItsReason) {
+    Bay bay;
+    first_life(bay, true);
+    Life again{bay.shop};
+    again.run(8s); // the machine ends circle 2 by itself
+    ask(again, 3);
+    again.run(1s);
+    EXPECT_NE(again.port->done, 3);
+    ASSERT_EQ(again.port->refusals.size(), 1U);
+    EXPECT_EQ(again.port->refusals[0].second, Fault::incomplete_run);
     const RunFileContents read = contents_of(bay.shop);
     EXPECT_TRUE(read.closed);
     EXPECT_FALSE(read.run.complete);
-    EXPECT_NE(read.run.closing_reason.find("start the test anew"), std::string::npos);
+    EXPECT_NE(read.run.closing_reason.find("Circle 2 was driven while the station was away"),
+              std::string::npos);
+}
+
+TEST(StationCircular, ARestartWithAnotherStationFileClosesTheTest) {
+    Bay bay;
+    first_life(bay, false);
+    bay.shop.config.text += "# changed\n";
+    Life again{bay.shop};
+    again.run(2s);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.closed);
+    EXPECT_FALSE(read.run.complete);
+    EXPECT_NE(read.run.closing_reason.find("station file was changed"), std::string::npos);
+}
+
+TEST(StationCircular, ABarWhoseCounterWasSwitchedOffEndsTheTest) {
+    Bay bay;
+    first_life(bay, false);
+    bay.shop.ballbar_switched_on = bay.shop.now; // an interferometer's zero is gone with its count
+    Life again{bay.shop};
+    again.run(2s);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_FALSE(read.run.complete);
+    EXPECT_NE(read.run.closing_reason.find("Nothing proves that the ballbar's counter ran on"),
+              std::string::npos);
 }
 
 } // namespace

@@ -154,6 +154,7 @@ void CncRunner::move(double target_mm, double feed_mm_per_min) {
 }
 
 void CncRunner::trace(const PlaneMove& way) {
+    if (!may_move()) return;
     sleep_until(plane_.move(clock_.now_s(), way));
 }
 

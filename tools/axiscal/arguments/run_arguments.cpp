@@ -14,6 +14,10 @@ void arming_options(CLI::App& command, Options& options) {
     command.add_option("--override", options.overrides,
                        "NAME=REASON: arm although this pre-flight check fails; the certificate "
                        "prints the reason");
+    command
+        .add_option("--pass", options.arm.pass,
+                    "whole, stretch on an axis over 2000 mm, or circular")
+        ->capture_default_str();
 }
 
 void revision_options(CLI::App& command, Options& options) {
@@ -62,9 +66,6 @@ void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
         ->check(CLI::ExistingFile);
     arm->add_option("--seed", options.arm.seed,
                     "seed of the targets' random parts, as the part program says");
-    arm->add_option("--pass", options.arm.pass,
-                    "whole, stretch on an axis over 2000 mm, or circular")
-        ->capture_default_str();
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");
     arming_options(*arm, options);

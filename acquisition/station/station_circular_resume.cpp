@@ -1,0 +1,127 @@
+// A circular test that was open when the last daemon ended: it goes on at the circle whose end is
+// not durable yet, or is closed with the reason.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/journal/stream_packing.hpp"
+
+#include <algorithm>
+
+namespace axiscal {
+namespace {
+
+constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back within 5 s
+constexpr Duration look_every = std::chrono::milliseconds{20};
+constexpr Duration settling = std::chrono::milliseconds{500};
+constexpr double second_s = 1;
+
+/// The last stored sample with the instrument's own number of it; none without numbers.
+std::optional<CounterSighting> last_sighting_of(const RunFileContents& contents) {
+    if (contents.blocks.empty() || contents.blocks.back().first_count == 0) return std::nullopt;
+    const StreamBlock& block = contents.blocks.back();
+    const auto chunk = unpacked(block);
+    if (!chunk) return std::nullopt;
+    const auto behind_first = static_cast<std::uint64_t>(block.samples) - 1;
+    return CounterSighting{block.end, metre(chunk->value.back()), block.first_count + behind_first};
+}
+
+/// How fast the instrument numbers its samples, from what is stored; 0: too little to tell.
+double stored_rate_hz(const std::vector<StreamBlock>& blocks) {
+    if (blocks.empty() || blocks.front().first_count == 0) return 0;
+    const StreamBlock &first = blocks.front(), &last = blocks.back();
+    const double span_s = seconds_of(last.begin - first.begin);
+    if (span_s < second_s || last.first_count <= first.first_count) return 0;
+    return static_cast<double>(last.first_count - first.first_count) / span_s;
+}
+
+MonotonicTime last_sign_of(const RunFileContents& contents) {
+    const MonotonicTime noted = last_sign_of_life(contents.run);
+    return contents.blocks.empty() ? noted : std::max(noted, contents.blocks.back().end);
+}
+
+} // namespace
+
+CircleResume Station::judge_circles(const RunFileContents& contents) const {
+    BarNow now;
+    now.config_hash = config_hash_;
+    now.boot_id = boot_id_;
+    if (roles_.ballbar) {
+        const Instrument& bar = supervisor_.instrument(channel_of(*roles_.ballbar).instrument);
+        const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+        now.speaks = reading.has_value();
+        if (reading && reading->value()) now.bar = reading;
+        now.incremental = bar.optics().has_value();
+        now.limits.count_modulus = bar.count_modulus();
+        now.limits.rate_hz = stored_rate_hz(contents.blocks);
+        if (now.limits.rate_hz <= 0 && contents.circular)
+            now.limits.rate_hz = contents.circular->capture.sample_rate_hz;
+    }
+    const auto stream = samples_of(contents.blocks, 0);
+    const StreamSamples none;
+    return decide_circle_resume({contents.run, contents.circular.value_or(CircularSetup{}),
+                                 stream ? *stream : none, last_sighting_of(contents)},
+                                now);
+}
+
+Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileContents contents) {
+    // Its first bytes may have waited since before: their numbers would prove nothing.
+    const MonotonicTime settled = scheduler_.now() + settling, limit = settled + return_limit;
+    const auto bar_is_back = [this, settled] {
+        const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+        return reading && reading->at >= settled;
+    };
+    while (roles_.ballbar && !bar_is_back() && scheduler_.now() < limit)
+        co_await scheduler_.sleep_for(look_every);
+    CircleResume verdict = judge_circles(contents);
+    if (!contents.circular)
+        verdict = {CircleResume::Decision::close_incomplete,
+                   Fault::incomplete_run,
+                   "The station ended before the plan of the circles was kept.",
+                   {}};
+    if (verdict.decision == CircleResume::Decision::go_on)
+        co_return co_await resume_circles(std::move(path), std::move(contents), std::move(verdict));
+    if (verdict.decision == CircleResume::Decision::close_complete)
+        co_return co_await close_driven_circles(std::move(path));
+    co_await close_left_over(path, verdict.sentence, verdict.fault, false);
+    co_return Result<void>{};
+}
+
+/// The CNC heard of its last request, or will: publish_done_of_closed() tells it again.
+Task<Result<void>> Station::close_driven_circles(std::string path) {
+    if (auto reopened = co_await journal_.reopen(path); !reopened)
+        co_return tl::unexpected<Error>(reopened.error());
+    const std::string reason = "Every circle was driven.";
+    perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, Fault::none, 0}});
+    const auto closed = co_await journal_.close(true, reason);
+    if (closed) note("The open run " + path + " is closed as complete: " + reason);
+    co_return closed;
+}
+
+std::string Station::interruption_in_words(const RunFileContents& contents,
+                                           const CircleResume& verdict) const {
+    const std::string away = in_seconds(scheduler_.now() - last_sign_of(contents));
+    return "The station recorded nothing for " + away + ". " + verdict.sentence;
+}
+
+/// The port is not open yet. What the CNC stands at decides: the last durable request begins its
+/// circle again, and is answered once that is durable; the next one is taken where the circle
+/// before it is whole.
+Task<Result<void>>
+Station::resume_circles(std::string path, RunFileContents contents, CircleResume verdict) {
+    if (auto reopened = co_await journal_.reopen(path); !reopened)
+        co_return tl::unexpected<Error>(reopened.error());
+    const std::string told = interruption_in_words(contents, verdict);
+    const CircularSetup setup = *contents.circular;
+    StreamChunker behind{0};
+    if (!contents.blocks.empty())
+        behind = StreamChunker{contents.blocks.back(), last_sighting_of(contents).has_value()};
+    begin_circular(std::move(contents.run), std::move(path), setup);
+    circular_.emplace(setup, verdict.before, std::move(behind));
+    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0, told, Fault::none, 0}});
+    if (verdict.before.last == 0) port_->publish_armed();
+    perform(SetState{PortState::armed});
+    note("Run " + run_->header.run_id + " goes on. " + told);
+    co_return co_await journal_.flush();
+}
+
+} // namespace axiscal
