@@ -24,7 +24,8 @@ void draw_front_title(Sheet& sheet, const FrontTitle& title) {
 }
 
 std::string measured_span(const std::string& started_utc, const std::string& finished_utc) {
-    const std::string begin = readable_instant(started_utc), end = readable_instant(finished_utc);
+    std::string begin = readable_instant(started_utc);
+    const std::string end = readable_instant(finished_utc);
     if (begin == end) return begin;
     const bool one_day = begin.size() == 23 && end.size() == 23 && // "2026-01-02 08:15:03 UTC"
                          begin.substr(0, 10) == end.substr(0, 10);
