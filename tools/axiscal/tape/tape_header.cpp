@@ -70,7 +70,7 @@ std::string header_text(const HeaderLines& lines) {
         std::string line = value;
         std::ranges::replace_if(
             line, [](char letter) { return letter == '\n' || letter == '\r'; }, ' ');
-        text += key + " = " + line + "\n";
+        text.append(key).append(" = ").append(line).append("\n");
     }
     return text;
 }
