@@ -3,6 +3,7 @@
 #include "drivers/spawn.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -70,6 +71,12 @@ struct Supervisor::Seat final : SampleSink {
         supervisor.listener_.on_sample(forwarded);
     }
     void identify(const Identity& identity) override { view.identity = identity; }
+    /// What ended a connection that had given values is told however soon it comes after another
+    /// note.
+    void end_with(const Error& error) {
+        if (!std::exchange(outage_told, true)) told_at.reset();
+        note(error.fault, describe(error));
+    }
     void note(Fault fault, std::string sentence) override {
         const MonotonicTime now = supervisor.scheduler_.now();
         const bool again = fault == told_fault && sentence == told_note;
@@ -89,6 +96,7 @@ struct Supervisor::Seat final : SampleSink {
     int first_channel = 0;
     InstrumentView view;
     std::optional<MonotonicTime> last_sample, last_good; ///< on this connection
+    bool outage_told = false; ///< what ended the last connection that gave values
     std::optional<MonotonicTime> told_at;
     Fault told_fault = Fault::none; ///< what the listener heard last
     std::string told_note;
@@ -128,7 +136,7 @@ Task<void> Supervisor::keep_running(Seat& seat) {
         ++seat.view.restarts;
         seat.last_sample.reset();
         seat.last_good.reset();
-        if (!ended) seat.note(ended.error().fault, describe(ended.error()));
+        if (!ended) seat.end_with(ended.error());
         set_state(seat, InstrumentState::unavailable);
         const bool ran_well = scheduler_.now() - begun > longest_pause;
         pause = ran_well ? first_pause : std::clamp(2 * pause, first_pause, longest_pause);
@@ -142,6 +150,7 @@ void Supervisor::set_state(Seat& seat, InstrumentState state) {
     if (state == InstrumentState::available) {
         seat.told_note.clear();
         seat.told_at.reset();
+        seat.outage_told = false;
     }
     seat.view.state = state;
     seat.view.since = scheduler_.now();

@@ -66,6 +66,15 @@ TEST_F(Supervision, AnOutageSoonAfterAnotherTellsItsReasonToo) {
     }
 }
 
+// 2026-11-22: a CAN bus that went down right after a skipped sample had been noted was not named.
+TEST_F(Supervision, ANoteJustBeforeAnOutageDoesNotHideItsReason) {
+    life.air->notes_each_period = 1;
+    life.run(20s);
+    life.air->unplugged = true;
+    life.run(600ms);
+    EXPECT_EQ(life.notes_with("unplugged"), 1);
+}
+
 TEST_F(Supervision, SilenceIsUnavailableAndBadValuesAreFaulty) {
     life.air->silent = true;
     life.laser->quality = Quality::beam_lost;
