@@ -25,6 +25,7 @@ void draw_instruments(Sheet& sheet,
                       const std::vector<InstrumentRecord>& instruments,
                       const std::string& run_date) {
     std::vector<TableRow> rows;
+    rows.reserve(instruments.size());
     for (const InstrumentRecord& instrument : instruments)
         rows.push_back(instrument_row(instrument, run_date));
     sheet.heading("Instruments");

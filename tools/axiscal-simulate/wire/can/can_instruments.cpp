@@ -32,7 +32,7 @@ void put_identity(CanNode& node,
 
 } // namespace
 
-std::unique_ptr<CanNode> make_cantrans(int number, CanTransWorld world) {
+std::unique_ptr<CanNode> make_cantrans(int number, const CanTransWorld& world) {
     auto node = std::make_unique<CanNode>(number);
     const auto n = static_cast<std::uint32_t>(number);
     put_identity(*node, 0x00020194, "CANtrans T", 0x0000FFFF, 4711 + n);
@@ -49,7 +49,7 @@ std::unique_ptr<CanNode> make_cantrans(int number, CanTransWorld world) {
     return node;
 }
 
-std::unique_ptr<CanNode> make_temposonics(int number, TemposonicsWorld world) {
+std::unique_ptr<CanNode> make_temposonics(int number, const TemposonicsWorld& world) {
     auto node = std::make_unique<CanNode>(number);
     const auto n = static_cast<std::uint32_t>(number);
     put_identity(*node, 0x00080196, "Temposonics E-series", 0x40, world.serial);

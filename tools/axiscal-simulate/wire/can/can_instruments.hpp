@@ -13,7 +13,7 @@ struct CanTransWorld {
     std::function<double(double seconds)> celsius;
     std::function<int(double seconds)> status; ///< 0x6150
 };
-std::unique_ptr<CanNode> make_cantrans(int node, CanTransWorld world);
+std::unique_ptr<CanNode> make_cantrans(int node, const CanTransWorld& world);
 
 /// MTS Temposonics E-series (operation manual CANopen, 5.6; CiA 406): TPDO1 each millisecond with
 /// 0x6020:1, 0x6030:1 and 0x6400:1.
@@ -23,6 +23,6 @@ struct TemposonicsWorld {
     std::uint32_t step_nm = 1000;
     std::uint32_t serial = 16040512;
 };
-std::unique_ptr<CanNode> make_temposonics(int node, TemposonicsWorld world);
+std::unique_ptr<CanNode> make_temposonics(int node, const TemposonicsWorld& world);
 
 } // namespace axiscal::simulate
