@@ -25,22 +25,22 @@ std::string radius_words(double above_mm, int decimals) {
 std::vector<StatedField> pairs_of(const CircularCertificate& certificate, Sense sense) {
     const SenseFigures& figures = *certificate.parameters.of(sense);
     const CircularTrace& trace = *certificate.measured.test.find(sense);
-    const CircularDeviation& G = figures.G;
+    const CircularDeviation& deviation = figures.G;
     const int digits = deviation_decimals(certificate);
     const bool external = certificate.measured.test.source == SignalSource::external;
     std::vector<StatedField> pairs{
-        {"Width of the minimum zone", micrometres(G.minimum_zone_mm, digits) + " µm"},
-        {"Range about l. s. centre", micrometres(G.least_squares_mm, digits) + " µm"}};
+        {"Width of the minimum zone", micrometres(deviation.minimum_zone_mm, digits) + " µm"},
+        {"Range about l. s. centre", micrometres(deviation.least_squares_mm, digits) + " µm"}};
     if (external) {
         pairs.push_back({"F max", micrometres(figures.F.max_mm, digits, true) + " µm"});
         pairs.push_back({"F min", micrometres(figures.F.min_mm, digits, true) + " µm"});
     }
-    pairs.push_back({"Zone, outer circle", radius_words(G.ring.outer_mm, digits)});
-    pairs.push_back({"Zone, inner circle", radius_words(G.ring.inner_mm, digits)});
-    pairs.push_back({"Least squares radius", radius_words(G.fitted.radius_mm, digits)});
-    pairs.push_back({"Zone centre", pair_of(G.ring.x_mm, G.ring.y_mm, digits)});
-    pairs.push_back(
-        {"Least squares (l. s.) centre", pair_of(G.fitted.x_mm, G.fitted.y_mm, digits)});
+    pairs.push_back({"Zone, outer circle", radius_words(deviation.ring.outer_mm, digits)});
+    pairs.push_back({"Zone, inner circle", radius_words(deviation.ring.inner_mm, digits)});
+    pairs.push_back({"Least squares radius", radius_words(deviation.fitted.radius_mm, digits)});
+    pairs.push_back({"Zone centre", pair_of(deviation.ring.x_mm, deviation.ring.y_mm, digits)});
+    pairs.push_back({"Least squares (l. s.) centre",
+                     pair_of(deviation.fitted.x_mm, deviation.fitted.y_mm, digits)});
     pairs.push_back({"Start", start_words(trace)});
     pairs.push_back({"End", end_words(trace)});
     pairs.push_back({"Readings", std::to_string(trace.angle_rad.size())});
