@@ -63,16 +63,16 @@ Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWor
 Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWorld& world) {
     AXISCAL_TRY(const double mm, number(wish, "mm", "1"));
     const auto none = [](double) { return 0; };
-    CanTransWorld warm{[thermal = world.scenario.thermal](double seconds) {
-                           return material_at(thermal, seconds).in_celsius();
-                       },
-                       none};
+    const CanTransWorld warm{[thermal = world.scenario.thermal](double seconds) {
+                                 return material_at(thermal, seconds).in_celsius();
+                             },
+                             none};
     TemposonicsWorld far;
     far.metres = [mm](double) { return 1e-3 * mm; };
     far.area = none;
     std::vector<std::unique_ptr<CanNode>> nodes;
-    nodes.push_back(make_cantrans(125, std::move(warm)));
-    nodes.push_back(make_temposonics(127, std::move(far)));
+    nodes.push_back(make_cantrans(125, warm));
+    nodes.push_back(make_temposonics(127, far));
     for (const auto& node : nodes)
         node->power_on(world.clock.now_s());
     return std::make_unique<GsUsbDevice>(
