@@ -80,7 +80,7 @@ def drive(bench):
     bench.axiscal("arm", "--pass", "circular")
     assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(bench.scratch / 'cnc.events').read_text()}"
     until(lambda: bench.status()["run"]["certificate"] or bench.status()["run"]["sentence"],
-          "the certificate", [daemon])
+          "the certificate", [daemon], RUN_LIMIT_S)  # its figures take a sanitizer 20 s of a processor
     run = bench.status()["run"]
     assert run["state"] == "complete" and run["step"] == 2 and run["certificate"], run
     certificate = json.loads((pathlib.Path(run["certificate"]) / "certificate.json").read_text())
