@@ -60,10 +60,11 @@ void judge_pdos(Bytes rest) {
     const auto position = find_cia406_position({*layout});
     while (!rest.empty()) {
         const CanFrame frame = take_frame(rest, 0x1FD);
-        for (const PdoEntry& entry : layout->entries)
+        for (const PdoEntry& entry : layout->entries) {
+            const int bits = layout->bits_of(entry.object); // of its first place, where it has two
             if (const auto field = layout->field(frame, entry.object))
-                fuzz::require(entry.bits == 64 || *field >> entry.bits == 0,
-                              "a field has its width");
+                fuzz::require(bits == 64 || *field >> bits == 0, "a field has its width");
+        }
         if (input) {
             const auto reading = read_cia404_input(*input, *layout, frame);
             fuzz::require(reading.celsius.has_value() == (reading.why == Cia404Reading::Why::none),
