@@ -1,6 +1,7 @@
 #include "analysis/certificate.hpp"
 
 #include "analysis/certificate_expiry.hpp"
+#include "analysis/channel_correction.hpp"
 #include "analysis/preflight_remarks.hpp"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ std::vector<EnvironmentReading> readings_of(const RunRecord& run, int channel) {
 }
 
 EnvironmentSummary summarise(const ChannelRecord& channel,
+                             const ChannelCalibration* calibration,
                              const std::vector<EnvironmentReading>& readings) {
     EnvironmentSummary summary;
     summary.channel = channel.name;
@@ -32,6 +34,7 @@ EnvironmentSummary summarise(const ChannelRecord& channel,
     summary.kind = channel.kind;
     summary.medium = channel.medium;
     summary.correction = channel.correction;
+    summary.by_table = calibration && !calibration->corrections.empty();
     summary.readings = static_cast<int>(readings.size());
     if (readings.empty()) return summary;
     const auto [low, high] = std::ranges::minmax(readings, {}, &EnvironmentReading::value);
@@ -140,10 +143,10 @@ int fewest_readings(const RunAt20C& deviations) {
     return static_cast<int>(fewest);
 }
 
-/// Axes above 2000 mm take one approach in each direction (ISO 230-2:2014, 4.3.4).
+/// Axes above 2000 mm, or one turn, take one approach in each direction (ISO 230-2:2014, 4.3.4).
 bool is_long_axis(const RunPlan& plan) {
     const auto [low, high] = std::ranges::minmax(plan.targets);
-    return plan.axis_kind == AxisKind::linear && high - low > mm(2000);
+    return high - low > (plan.axis_kind == AxisKind::linear ? mm(2000) : mm(360));
 }
 
 void remark_on_number_of_readings(const Certificate& certificate,
@@ -177,6 +180,27 @@ void remark_on_revisions(const Certificate& certificate, std::vector<std::string
                           "the simulated uncertainty is left out.");
 }
 
+/// Recorded values bear their correction: a table's ends lie where its corrected ends do.
+void remark_on_calibrations(const RunRecord& run, std::vector<std::string>& remarks) {
+    for (const ChannelCalibration& calibration : run.calibrations) {
+        const auto channel =
+            std::ranges::find(run.channels, calibration.channel, &ChannelRecord::id);
+        if (channel == run.channels.end()) continue;
+        const auto readings = readings_of(run, calibration.channel);
+        const auto beyond = std::ranges::count_if(readings, [&](const EnvironmentReading& reading) {
+            return beyond_corrected(calibration.corrections, reading.value);
+        });
+        if (beyond > 0)
+            remarks.push_back("Channel \"" + channel->name + "\": " + std::to_string(beyond) +
+                              " of " + std::to_string(readings.size()) +
+                              " readings lie beyond the table of its certificate; the correction "
+                              "at the table's end was used.");
+        if (has_expired(calibration.due_on, run_date_of(run)))
+            remarks.push_back("Channel \"" + channel->name + "\": its certificate was due on " +
+                              calibration.due_on + ", before the run.");
+    }
+}
+
 void fill_environment(Certificate& certificate) {
     const RunRecord& run = certificate.run;
     const MonotonicTime origin =
@@ -184,7 +208,8 @@ void fill_environment(Certificate& certificate) {
     for (const ChannelRecord& channel : run.channels) {
         if (!is_environment(channel)) continue;
         const auto readings = readings_of(run, channel.id);
-        certificate.environment.push_back(summarise(channel, readings));
+        certificate.environment.push_back(
+            summarise(channel, calibration_of(run, channel.id), readings));
         certificate.traces.push_back(trace_of(channel, readings, origin));
     }
 }
@@ -259,6 +284,7 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     remark_on_revisions(certificate, certificate.remarks);
     remark_on_number_of_readings(certificate, certificate.remarks);
     remark_on_preflight(certificate.revisions.preflight, certificate.remarks);
+    remark_on_calibrations(certificate.run, certificate.remarks);
     certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor,
                                              fewest_readings(certificate.deviations));
     if (excluded_readings(certificate.set_aside) == 0) // the simulation draws n of each

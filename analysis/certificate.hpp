@@ -20,6 +20,7 @@ struct EnvironmentSummary {
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
     double correction = 0; ///< already in every value
+    bool by_table = false; ///< the correction is that of a ChannelCalibration's table instead
     int readings = 0;
     double first = 0, last = 0, minimum = 0, maximum = 0; ///< all in stored_unit_of(kind)
 };

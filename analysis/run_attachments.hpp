@@ -1,14 +1,18 @@
 #pragma once
 // What a run file holds beside the measured readings: how the beam was aligned, what kind of test
-// it is where it is no positioning run, where a figure of the budget came from. Pure data, beside
+// it is where it is no positioning run, where a figure of the budget came from, what the uncertain
+// time of the samples adds to each capture. Pure data, beside
 // RunRecord.
 
 #include "analysis/alignment/alignment_record.hpp"
+#include "analysis/probing/probing_record.hpp"
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/time.hpp"
+#include "analysis/synchronisation.hpp"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
@@ -22,8 +26,10 @@ struct DriftSetup {
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
     std::optional<DriftSetup> drift;          ///< the run is a drift test: it has no points
+    std::optional<ProbingRecord> probing; ///< the run is a probing test: it has no points either
     std::string
         eve_source; ///< id of the drift test that UncertaintySetup::eve comes from, or empty
+    std::vector<SynchronisationRecord> synchronisation; ///< of datums and points, as they came
 };
 
 } // namespace axiscal

@@ -5,6 +5,7 @@
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
+#include "analysis/rotary/rotary_setup.hpp"
 
 #include <array>
 #include <cstdint>
@@ -89,6 +90,22 @@ struct ChannelRecord {
     Medium medium = Medium::none;
     double correction =
         0; ///< added to every raw value before it was recorded, in stored_unit_of(kind)
+};
+
+/// One line of a certificate's table: at this reading add this, both in stored_unit_of(kind).
+struct CorrectionPoint {
+    double reading = 0, correction = 0;
+};
+
+/// What the certificate of one channel states. The correction was applied before a value was
+/// recorded, as ChannelRecord::correction was; the table stands here to be seen.
+struct ChannelCalibration {
+    int channel = 0;                                       ///< ChannelRecord::id
+    std::string certificate_number, calibrated_on, due_on; ///< empty: the instrument's
+    std::optional<double> expanded_uncertainty;            ///< U, in stored_unit_of(kind), and/or:
+    std::optional<double> expanded_uncertainty_per_m;      ///< of a length, m for each metre
+    double coverage = 2;                                   ///< k of both
+    std::vector<CorrectionPoint> corrections; ///< by reading, ascending; empty: constant
 };
 
 struct LaserSetup {
@@ -237,10 +254,12 @@ struct RunRecord {
     LaserSetup laser;
     MaterialSetup material;
     AirSetup air;
+    std::optional<RotarySetup> rotary; ///< of a rotary axis: how its angle was measured
     std::optional<UncertaintySetup> uncertainty;
     Statements statements;
     std::vector<InstrumentRecord> instruments;
     std::vector<ChannelRecord> channels;
+    std::vector<ChannelCalibration> calibrations; ///< at most one a channel; order of channels
     std::vector<DatumRecord> datums;
     std::vector<PointRecord> points;             ///< by step, ascending
     std::vector<EnvironmentReading> environment; ///< by time, ascending

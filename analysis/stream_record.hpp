@@ -29,6 +29,7 @@ struct StreamBlock {
     MonotonicTime begin, end;  ///< of the first and the last sample
     double low = 0, high = 0;  ///< in the stream's unit
     std::string packed;        ///< acquisition/journal/stream_packing.hpp
+    Duration time_uncertainty{}; ///< u(t), the largest of its samples; 0: not stated for each
 };
 
 /// The same before it is compressed; `head.packed` is empty.
@@ -45,11 +46,18 @@ struct StreamGap {
     std::string why;
 };
 
+/// u(t) of the samples from number `from` on; 0: not stated.
+struct StreamTime {
+    std::size_t from = 0;
+    Duration time_uncertainty{};
+};
+
 /// A stream as it was sampled: both lists are of one length, `at` ascends.
 struct StreamSamples {
     std::vector<MonotonicTime> at;
     std::vector<double> value; ///< in the stream's unit
     std::vector<StreamGap> gaps;
+    std::vector<StreamTime> times; ///< ascending; the first from 0
     std::uint64_t dropped_blocks = 0;
 };
 

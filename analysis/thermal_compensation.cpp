@@ -2,6 +2,7 @@
 
 #include "analysis/air_refraction.hpp"
 #include "analysis/environment_history.hpp"
+#include "analysis/rotary/rotary_position.hpp"
 #include "analysis/run_at_20C_maker.hpp"
 
 #include <algorithm>
@@ -25,16 +26,33 @@ double millimetres_as_given(Length length) {
     return mm(decimal) == length ? decimal : plain;
 }
 
+Result<void> check_rotary(const RotarySetup& setup) {
+    const bool table = setup.method == AngleMethod::indexing_table;
+    if (!(setup.step_deg > 0) || !(setup.range_deg > 0) || (table && !(setup.arm > Length{})))
+        return fail(Fault::bad_run_file,
+                    "step, range or arm of the angle's artefact is not above 0");
+    for (const double deviation : setup.deviations_arcsec)
+        if (!std::isfinite(deviation))
+            return fail(Fault::bad_run_file, "a certified deviation of the artefact is no number");
+    return {};
+}
+
 Result<void> check_setup(const RunRecord& run) {
-    if (run.plan.axis_kind == AxisKind::rotary)
-        return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
+    const bool rotary = run.plan.axis_kind == AxisKind::rotary;
+    if (rotary && !run.rotary)
+        return fail(
+            Fault::refused,
+            "a rotary axis has no length to bring to 20 degC, and the run file does not say "
+            "how its angle was measured");
+    if (!rotary && run.rotary)
+        return fail(Fault::bad_run_file, "a linear axis has no artefact of angles");
     if (run.laser.sign != 1 && run.laser.sign != -1)
         return fail(Fault::bad_run_file, "the sign of the laser is neither +1 nor -1");
     if (!(run.laser.dead_path >= Length{}))
         return fail(Fault::bad_run_file, "the dead path of the laser is negative");
     if (!std::isfinite(run.material.coefficient.si()))
         return fail(Fault::bad_run_file, "the expansion coefficient is not a number");
-    return {};
+    return rotary ? check_rotary(*run.rotary) : Result<void>{};
 }
 
 /// One point on its way: axis coordinates in the three stages.
@@ -57,6 +75,7 @@ public:
 
     /// Must come first: the dead path needs the index at the datum.
     Result<void> tie_datum() {
+        if (!needs_air()) return {};
         AXISCAL_TRY(n_minus_1_at_datum_, refractivity_at(datum_.at, "the datum"));
         return {};
     }
@@ -66,6 +85,7 @@ public:
         const MonotonicTime at = middle_of_window(point);
         if (!std::isfinite(point.reading.si()))
             return fail(Fault::bad_run_file, what + ": the reading is not a number");
+        if (run_.rotary) return angle_of(point, at, what);
         CompensatedPoint out;
         AXISCAL_TRY(out.n_minus_1, refractivity_at(at, what));
         AXISCAL_TRY(out.material, environment_.material_at(at, what));
@@ -83,6 +103,34 @@ public:
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
 private:
+    /// An autocollimator counts no wavelengths.
+    [[nodiscard]] bool needs_air() const {
+        return !run_.rotary || run_.rotary->method == AngleMethod::indexing_table;
+    }
+
+    /// Air acts on the rest alone; an angle does not expand.
+    Result<CompensatedPoint>
+    angle_of(const PointRecord& point, MonotonicTime at, const std::string& what) {
+        CompensatedPoint out;
+        out.material = reference_temperature;
+        if (needs_air()) {
+            AXISCAL_TRY(out.n_minus_1, refractivity_at(at, what));
+        }
+        const Length target =
+            run_.plan.targets[static_cast<std::size_t>(point.planned.target_index)];
+        const int index = artefact_index(*run_.rotary, datum_.coordinate, target);
+        const auto position = [&](double n_minus_1) {
+            return rotary_position(*run_.rotary, run_.laser.sign, datum_, point.reading, n_minus_1,
+                                   index);
+        };
+        const auto in_vacuum = position(0), in_air = position(out.n_minus_1);
+        for (const auto* found : {&in_vacuum, &in_air})
+            if (!*found) return fail(Fault::bad_run_file, what + ": " + found->error().detail);
+        out.uncorrected = *in_vacuum;
+        out.air_corrected = out.at_20C = *in_air;
+        return out;
+    }
+
     Result<double> refractivity_at(MonotonicTime at, const std::string& what) {
         AXISCAL_TRY(const AirState air, environment_.air_at(at, what));
         const auto found = refractivity_of(run_.air.formula, air);
@@ -106,16 +154,31 @@ private:
     std::vector<std::string> remarks_;
 };
 
+void remark_on_artefact(const RotarySetup& setup, std::vector<std::string>& remarks) {
+    if (!setup.deviations_arcsec.empty()) return;
+    remarks.emplace_back(setup.method == AngleMethod::polygon
+                             ? "The certified deviations of the polygon's faces are not stated: "
+                               "they are taken as 0."
+                             : "The certified deviations of the indexing table are not stated: "
+                               "they are taken as 0.");
+}
+
 CompensationSummary summary_of_setup(const RunRecord& run) {
     CompensationSummary summary;
     summary.air_formula = name_of(run.air.formula);
+    summary.vacuum_wavelength_nm = run.laser.vacuum_wavelength.in(nm);
+    if (run.rotary) { // the rest keeps the values of a length that does not expand
+        summary.material_first_degC = summary.material_last_degC =
+            reference_temperature.in_celsius();
+        remark_on_artefact(*run.rotary, summary.remarks);
+        return summary;
+    }
     summary.expansion_form = name_of(run.material.form);
     summary.expansion_per_K = run.material.coefficient.si();
     if (run.material.standard_uncertainty)
         summary.expansion_standard_uncertainty_per_K = run.material.standard_uncertainty->si();
     summary.dead_path_mm = run.laser.dead_path.in(mm);
     summary.cosine_factor = cosine_factor_of(run.laser);
-    summary.vacuum_wavelength_nm = run.laser.vacuum_wavelength.in(nm);
     return summary;
 }
 
@@ -137,6 +200,7 @@ void add_to_summary(CompensationSummary& summary, const CompensatedPoint& point,
 
 DeviationTable empty_table_of(const RunPlan& plan) {
     DeviationTable table;
+    if (plan.axis_kind == AxisKind::rotary) table.unit = "deg";
     for (const Length target : plan.targets)
         table.targets.push_back(millimetres_as_given(target));
     const std::vector<double> row(static_cast<std::size_t>(plan.approaches));
@@ -284,9 +348,12 @@ Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& 
     std::ranges::stable_sort(set_aside, {},
                              [](const SetAside& reading) { return reading.planned.step; });
     AXISCAL_CHECK(leave_out(table, set_aside));
-    summary.remarks = compensation.remarks();
-    return Compensated{RunAt20CMaker::make(std::move(table), "compensated_to_20C"),
-                       std::move(summary), std::move(set_aside)};
+    for (const std::string& remark : compensation.remarks())
+        summary.remarks.push_back(remark);
+    const std::string provenance =
+        run.rotary ? "none_needed: an angle does not expand" : "compensated_to_20C";
+    return Compensated{RunAt20CMaker::make(std::move(table), provenance), std::move(summary),
+                       std::move(set_aside)};
 }
 
 } // namespace axiscal

@@ -64,8 +64,10 @@ struct Compensated {
 /// datum for the dead path. Before the first and after the last reading the nearest one holds.
 /// @errors Fault::incomplete_run, datum_lost (check_complete); environment_stale naming channel
 /// and step when a channel's nearer reading is further than AirSetup::oldest, or when a kind has no
-/// channel; bad_run_file for values that cannot be; refused for a rotary axis, which has no
-/// length to compensate.
+/// channel; bad_run_file for values that cannot be; refused for a rotary axis of which nothing says
+/// how its angle was measured.
+/// Of a rotary axis (RunRecord::rotary) position is that of rotary_position() with the air of the
+/// point's time and the artefact at the position of its target; nothing expands, unit "deg".
 Result<Compensated> compensate_to_20C(const RunRecord& run);
 /// Excluded readings enter no row: rows then hold the readings that remain, in the order of their
 /// approaches. @errors also Fault::incomplete_run when no reading of a target and direction

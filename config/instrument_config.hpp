@@ -17,9 +17,13 @@ struct ChannelConfig {
     std::optional<Medium> medium; ///< air | material, as stated; checked against the use
     std::string place;            ///< "spindle nose", "table left"
     double correction = 0;        ///< added, in stored_unit_of(kind)
-    /// Unit in which the correction counts ("degC", "Pa", "%", "ppm"), to be compared with the
+    /// Unit in which the correction counts ("degC", "Pa", "%", "ppm", "m"), to be compared with the
     /// driver's kind; empty when none is stated.
     std::string correction_unit;
+    /// Of this channel alone; empty fields are the instrument's. `channel` is not used here.
+    ChannelCalibration calibration;
+    /// Units in which the table and U count, to be compared with the driver's kind; empty: none.
+    std::string table_unit, uncertainty_unit;
     int line = 0; ///< in the station file, for messages
 };
 

@@ -69,9 +69,23 @@ constexpr std::array device_limit_units{UnitName{"um", 1e-6},   UnitName{"nm", 1
 constexpr std::array<Names, 1> device_limit_examples{"0.7 um/m"};
 
 constexpr std::array correction_units{
-    UnitName{"K", 1},     UnitName{"degC", 1},   UnitName{"°C", 1}, UnitName{"Pa", 1},
-    UnitName{"hPa", 100}, UnitName{"mbar", 100}, UnitName{"%", 1},  UnitName{"ppm", 1}};
+    UnitName{"K", 1},     UnitName{"degC", 1},   UnitName{"°C", 1},   UnitName{"Pa", 1},
+    UnitName{"hPa", 100}, UnitName{"mbar", 100}, UnitName{"%", 1},    UnitName{"ppm", 1},
+    UnitName{"um", 1e-6}, UnitName{"nm", 1e-9},  UnitName{"mm", 1e-3}};
 constexpr std::array<Names, 1> correction_examples{"-0.05 K"};
+
+constexpr std::array channel_reading_units{
+    UnitName{"degC", 1},   UnitName{"°C", 1},     UnitName{"Pa", 1}, UnitName{"hPa", 100},
+    UnitName{"kPa", 1000}, UnitName{"mbar", 100}, UnitName{"%", 1},  UnitName{"ppm", 1},
+    UnitName{"mm", 1e-3},  UnitName{"um", 1e-6}};
+constexpr std::array<Names, 1> channel_reading_examples{"15 degC"};
+
+constexpr std::array channel_uncertainty_units{
+    UnitName{"K", 1},      UnitName{"degC", 1},   UnitName{"°C", 1},    UnitName{"Pa", 1},
+    UnitName{"hPa", 100},  UnitName{"mbar", 100}, UnitName{"%", 1},     UnitName{"ppm", 1},
+    UnitName{"um", 1e-6},  UnitName{"nm", 1e-9},  UnitName{"mm", 1e-3}, UnitName{"um/m", 1e-6},
+    UnitName{"nm/m", 1e-9}};
+constexpr std::array<Names, 1> channel_uncertainty_examples{"0.05 K"};
 
 /// One spelling of each sign: both micro signs, middle dot, degree sign; blanks away.
 std::string plain_unit(std::string_view text) {
@@ -132,7 +146,11 @@ const Measure length_measure{"a length", length_units, length_examples},
     angle_measure{"an angle", angle_units, angle_examples},
     device_limit_measure{"a length or a length for each metre", device_limit_units,
                          device_limit_examples},
-    correction_measure{"a correction", correction_units, correction_examples};
+    correction_measure{"a correction", correction_units, correction_examples},
+    channel_reading_measure{"a reading of the channel", channel_reading_units,
+                            channel_reading_examples},
+    channel_uncertainty_measure{"an expanded uncertainty", channel_uncertainty_units,
+                                channel_uncertainty_examples};
 
 Result<Measured> read_measure(std::string_view text, const Measure& measure) {
     const auto begin = text.find_first_not_of(" \t");

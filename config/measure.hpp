@@ -34,6 +34,8 @@ extern const Measure length_measure, rotary_measure, speed_measure, rotary_speed
 extern const Measure device_limit_measure;
 /// Additive corrections of a channel; read_measure gives stored units (degC, Pa, %, ppm), not SI.
 extern const Measure correction_measure;
+/// Values and expanded uncertainties of a channel, in stored units as well (m for lengths).
+extern const Measure channel_reading_measure, channel_uncertainty_measure;
 
 struct Measured {
     double si = 0;

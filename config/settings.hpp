@@ -34,6 +34,13 @@ struct ChannelCorrection {
     std::string stored_unit;
 };
 
+/// The expanded uncertainty of a channel: in its stored unit (degC, Pa, %, ppm, m), or m for each
+/// metre. Both empty when not stated.
+struct ChannelUncertainty {
+    std::optional<double> amount, per_metre;
+    std::string stored_unit;
+};
+
 /// One table of the document. Copyable view; the document must outlive it.
 /// Each reader takes an optional fallback: without it a missing key is refused.
 /// Units stand in the value ("0.5 mm"); a bare number where a unit is needed is refused with the
@@ -93,6 +100,10 @@ public:
     DeviceLimit device_limit(std::string_view key);
     /// Additive correction of a channel, at most `limit` in stored units; none when missing.
     ChannelCorrection correction(std::string_view key, double limit);
+    /// A value that a channel may show, in its stored unit: "15 degC", "1013 hPa", "45 %".
+    ChannelCorrection channel_reading(std::string_view key);
+    /// "0.05 K", "0.1 hPa", "0.3 um", "0.7 um/m"; not negative.
+    ChannelUncertainty channel_uncertainty(std::string_view key);
     /// ISO date "2026-11-21"; a TOML local date is accepted too.
     std::string date(std::string_view key, const std::optional<std::string>& fallback = {});
     std::vector<std::string> texts(std::string_view key,

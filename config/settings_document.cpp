@@ -1,6 +1,7 @@
 #include "config/settings_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -31,8 +32,14 @@ Result<std::string> read_file(const std::string& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{std::fopen(path.c_str(), "rb"),
                                                                &std::fclose};
     if (!file) return unreadable();
-    std::string text(largest_file + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+    std::string text;
+    std::array<char, 16384> piece{}; // more than most files have; the limit is never set aside
+    while (text.size() <= largest_file) {
+        const std::size_t wanted = std::min(piece.size(), largest_file + 1 - text.size());
+        const std::size_t came = std::fread(piece.data(), 1, wanted, file.get());
+        text.append(piece.data(), came);
+        if (came < wanted) break;
+    }
     if (std::ferror(file.get()) != 0) return unreadable();
     return text;
 }

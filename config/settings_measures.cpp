@@ -157,12 +157,41 @@ DeviceLimit Settings::device_limit(std::string_view key) {
     return {Length::from_si(amount), std::nullopt};
 }
 
+namespace {
+
+/// Of temperatures, pressures, shares and lengths, as channels store them.
+std::string stored_unit_named(std::string_view unit) {
+    if (unit == "%" || unit == "ppm") return std::string{unit};
+    if (unit.ends_with("m")) return "m";
+    return unit.ends_with("a") || unit == "mbar" ? "Pa" : "degC";
+}
+
+} // namespace
+
 ChannelCorrection Settings::correction(std::string_view key, double limit) {
     UnitName unit;
     const double amount = impl_->measured(key, correction_measure, {-limit, limit}, 0.0, &unit);
     if (unit.name.empty()) return {};
-    if (unit.name == "%" || unit.name == "ppm") return {amount, std::string{unit.name}};
-    return {amount, unit.name.ends_with("a") || unit.name == "mbar" ? "Pa" : "degC"};
+    return {amount, stored_unit_named(unit.name)};
+}
+
+ChannelCorrection Settings::channel_reading(std::string_view key) {
+    constexpr double beyond_any = 1e7; // Pa, the largest numbers of all stored units
+    UnitName unit;
+    const double amount = impl_->measured(key, channel_reading_measure, {-beyond_any, beyond_any},
+                                          std::nullopt, &unit);
+    if (unit.name.empty()) return {};
+    return {amount, stored_unit_named(unit.name)};
+}
+
+ChannelUncertainty Settings::channel_uncertainty(std::string_view key) {
+    constexpr double largest = 5000; // as of corrections
+    UnitName unit;
+    const double amount =
+        impl_->measured(key, channel_uncertainty_measure, {0, largest}, 0.0, &unit);
+    if (unit.name.empty()) return {};
+    if (unit.name.ends_with("/m")) return {std::nullopt, amount, "m"};
+    return {amount, std::nullopt, stored_unit_named(unit.name)};
 }
 
 } // namespace axiscal

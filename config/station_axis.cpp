@@ -145,6 +145,19 @@ void read_sign(Settings axis, AxisConfig& config) {
                             "direction, and -1 when it falls");
 }
 
+/// An angle does not expand, and both beams of its interferometer go the same dead path: material
+/// sensors may be named to be recorded, air is asked for where wavelengths are counted.
+void read_rotary(Settings axis, StationConfig& config) {
+    const bool has_laser = axis.has("laser");
+    if (has_laser) config.axis.laser = RoleReader{axis, config}.one("laser", Medium::none);
+    Settings material = axis.table("material");
+    if (material.has("temperature"))
+        config.axis.material_temperature =
+            RoleReader{material, config}.several("temperature", Medium::material);
+    if (has_laser) read_air(axis.table("air"), config);
+    config.axis.angle = read_angle(axis.table("angle"), has_laser);
+}
+
 } // namespace
 
 void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
@@ -162,10 +175,23 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
     if (read && cycle.travel_low >= cycle.travel_high)
         axis.refuse("travel_high", "must lie above travel_low: exchange or correct the limits");
     read_sign(axis, config.axis);
+    if (cycle.axis_kind == AxisKind::rotary) return read_rotary(axis, config);
     read_beam(axis, config.axis);
     config.axis.laser = RoleReader{axis, config}.one("laser", Medium::none);
     read_material(axis.table("material"), config);
     read_air(axis.table("air"), config);
+}
+
+void read_machine_of_circles(Settings circular, StationConfig& config) {
+    config.axis.name = circular.text("plane", "XY"); // read_circular() checks it
+    if (circular.has("machine_expansion"))
+        config.axis.material.coefficient =
+            circular.expansion("machine_expansion", Expansion{}, um_per_m_kelvin(100));
+    RoleReader roles{circular, config};
+    if (circular.has("machine_temperature"))
+        config.axis.material_temperature = roles.several("machine_temperature", Medium::material);
+    if (circular.has("air_temperature"))
+        config.axis.air_temperature = roles.one("air_temperature", Medium::air);
 }
 
 RoleConfig read_role(Settings& table, std::string_view key, const StationConfig& config) {

@@ -68,6 +68,23 @@ void read_arc(Settings& circular, CircularPlan& plan) {
         plan.centre_mm[i] = centre[i].in(mm);
 }
 
+/// The words at the ends of an arc are numbers that change while the machine moves: a bit and a
+/// number could part on their way, and a dwell says nothing.
+void read_start(Settings& circular, Settings trigger, CircularPlan& plan) {
+    const bool by_words =
+        circular.choice("start_from", {"feed-in", "trigger"}, "feed-in") == "trigger";
+    const Duration delay = circular.duration("trigger_delay", std::chrono::seconds{0},
+                                             std::chrono::seconds{1}, std::chrono::seconds{0});
+    plan.trigger_delay_s = seconds_of(delay);
+    if (!by_words) return;
+    plan.start = StartMethod::trigger;
+    const std::string shape = trigger.text("shape", "");
+    if (shape == "coil-and-index" || shape == "dwell")
+        circular.refuse("start_from", "needs a trigger whose number alone is the word: shape "
+                                      "\"single-register\" or \"sequence-block\", not \"" +
+                                          shape + "\"");
+}
+
 void read_plan(Settings& circular, CircularPlan& plan) {
     const std::string plane = circular.choice("plane", {"XY", "YZ", "ZX"}, "XY");
     plan.plane = plane == "XY"   ? CircularPlane::xy
@@ -96,6 +113,15 @@ void read_budget(Settings table, CircularUncertaintyStatement& statement) {
     statement.bar_alpha_width_per_K = per_K(table, "bar_expansion_width");
 }
 
+/// What [axis.material] and [axis.air] say where there is an [axis].
+void refuse_machine_beside_axis(const Settings& root, Settings& circular) {
+    const bool with_axis = root.has("axis");
+    for (const char* key : {"machine_expansion", "machine_temperature", "air_temperature"})
+        if (circular.has(key) && with_axis)
+            circular.refuse(key, "belongs to a station without [axis]: here [axis.material] and "
+                                 "[axis.air] say it");
+}
+
 } // namespace
 
 void read_circular(Settings root, StationConfig& station) {
@@ -104,12 +130,16 @@ void read_circular(Settings root, StationConfig& station) {
     Settings circular = root.table("circular");
     CircularSetup& setup = config.setup;
     read_plan(circular, setup.plan);
+    refuse_machine_beside_axis(root, circular);
+    read_start(circular, root.table("trigger"), setup.plan);
     const double low_pass_hz = circular.number("low_pass_hz", 0, 1e6, 0);
     if (low_pass_hz > 0) setup.capture.low_pass_hz = low_pass_hz;
     setup.capture.averaged = static_cast<int>(circular.integer("averaged", 1, 100'000, 1));
     read_budget(circular.table("uncertainty"), setup.uncertainty);
     setup.uncertainty.runs = setup.plan.repeats;
-    setup.machine_alpha_per_K = station.axis.material.coefficient.si();
+    const double alpha_per_K = station.axis.material.coefficient.si();
+    const bool stated = root.has("axis") || circular.has("machine_expansion");
+    if (stated) setup.machine_alpha_per_K = alpha_per_K;
     if (station.ballbar) setup.bar_instrument = station.ballbar->instrument;
     if (!circular.has("radius")) return;
     if (!circular.has("feed") && !circular.refused("feed"))

@@ -112,6 +112,15 @@ std::string read_absolute_path(Settings& table,
     return path;
 }
 
+namespace {
+
+AxisKind read_axis_kind(Settings axis) {
+    const bool rotary = axis.choice("kind", {"linear", "rotary"}) == "rotary";
+    return rotary ? AxisKind::rotary : AxisKind::linear;
+}
+
+} // namespace
+
 StationConfig read_station(SettingsDocument& document) {
     Settings root = document.root();
     StationConfig config;
@@ -119,21 +128,32 @@ StationConfig read_station(SettingsDocument& document) {
     config.text = document.source_text();
     read_place(root.table("station"), config);
     read_instruments(root, config);
-    Settings axis = root.table("axis");
-    const bool rotary = axis.choice("kind", {"linear", "rotary"}) == "rotary";
-    config.cycle.axis_kind = rotary ? AxisKind::rotary : AxisKind::linear;
+    const bool circles_alone = !root.has("axis") && root.table("circular").has("radius");
+    if (circles_alone)
+        read_machine_of_circles(root.table("circular"), config);
+    else
+        config.cycle.axis_kind = read_axis_kind(root.table("axis"));
     const AxisUnits units{config.cycle.axis_kind};
-    read_axis(axis, units, config);
+    if (!circles_alone) read_axis(root.table("axis"), units, config);
     read_ballbar(root, config);
     read_circular(root, config);
-    read_cycle(root.table("cycle"), units, config.cycle);
-    read_capture(root.table("capture"), units, config.cycle, config.capture);
+    if (!circles_alone) {
+        read_cycle(root.table("cycle"), units, config.cycle);
+        read_capture(root.table("capture"), units, config.cycle, config.capture);
+    }
     config.preflight = read_preflight(root.table("preflight"));
+    config.environment = read_environment(root.table("environment"));
     read_trigger(root.table("trigger"), units, config.cycle, config.trigger);
+    if (config.cycle.axis_kind == AxisKind::rotary && config.trigger.shape == TriggerShape::dwell)
+        root.table("trigger").refuse("shape", "\"dwell\" does not see when the indexing table or "
+                                              "the polygon is at its place: a rotary axis needs a "
+                                              "control that asks");
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
     config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);
     config.statements = read_statements(root.table("certificate"), units, config);
+    if (config.axis.angle)
+        config.axis.angle->setup.run_out = root.table("certificate").text("run_out", "");
     std::stable_sort(config.warnings.begin(), config.warnings.end(),
                      [](const Refusal& a, const Refusal& b) { return a.line < b.line; });
     return config;

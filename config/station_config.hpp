@@ -4,6 +4,7 @@
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
 #include "config/address_range.hpp"
+#include "config/environment_limits.hpp"
 #include "config/instrument_config.hpp"
 #include "config/preflight_config.hpp"
 #include "config/settings.hpp"
@@ -95,16 +96,23 @@ struct CircularConfig {
     std::optional<RoleConfig> bar_temperature;
 };
 
+/// Of a rotary axis: the artefact under the instrument, and its papers.
+struct AngleConfig {
+    RotarySetup setup;
+    InstrumentRecord artefact;
+};
+
 struct AxisConfig {
     std::string name = "X";
-    RoleConfig laser;
+    RoleConfig laser; ///< empty: StationConfig::circles_alone(), or a polygon
     int sign = 1;
     Length dead_path, beam_walk, beam_walk_travel;
     MaterialSetup material;
     AirSetup air;
     RoleConfig air_temperature, air_pressure, air_humidity;
     std::vector<RoleConfig> material_temperature;
-    std::string program_axis = "X"; ///< axis letter in part programs
+    std::string program_axis = "X";   ///< axis letter in part programs
+    std::optional<AngleConfig> angle; ///< of a rotary axis
 };
 
 struct ConsoleConfig {
@@ -137,6 +145,7 @@ struct StationConfig {
     CycleConfig cycle;
     CaptureConfig capture;
     PreflightConfig preflight;
+    EnvironmentLimits environment;
     TriggerConfig trigger;
     ConsoleConfig console;
     PublishConfig publish;
@@ -149,6 +158,10 @@ struct StationConfig {
     std::vector<Settings> instrument_options;
     /// What a person should know although it is allowed (a single material sensor); by line.
     std::vector<Refusal> warnings;
+
+    /// A ballbar and no laser: the station measures circles and nothing else. Of `axis` only its
+    /// name (that of the plane), material, material_temperature and perhaps air_temperature count.
+    [[nodiscard]] bool circles_alone() const { return circular && axis.laser.instrument.empty(); }
 };
 
 /// Reads every key of the station but the drivers' own. Refusals stay in `document`; the returned

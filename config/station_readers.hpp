@@ -42,6 +42,10 @@ inline constexpr Length farthest = metre(100);
 void read_instruments(Settings root, StationConfig& config);
 /// After the instruments, which its roles name. Travel and kind go to config.cycle.
 void read_axis(Settings axis, AxisUnits units, StationConfig& config);
+/// How the angle of a rotary axis is measured. `has_laser`: axis.laser is named.
+AngleConfig read_angle(Settings angle, bool has_laser);
+/// Of a station without [axis], whose [circular] says what is known of the machine.
+void read_machine_of_circles(Settings circular, StationConfig& config);
 /// Nothing without the table.
 void read_ballbar(Settings root, StationConfig& config);
 /// The bar's certificate in [ballbar] and the cycle in [circular]; after read_ballbar.
@@ -54,6 +58,7 @@ void read_capture(Settings capture,
                   const CycleConfig& cycle,
                   CaptureConfig& config);
 PreflightConfig read_preflight(Settings preflight);
+EnvironmentLimits read_environment(Settings environment);
 /// After the cycle, whose overrun a dwell trigger must be able to see.
 void read_trigger(Settings trigger,
                   AxisUnits units,

@@ -35,8 +35,12 @@ Statements read_statements(Settings certificate, AxisUnits units, const StationC
     read_machine(certificate, stated);
     // What the part program is written with needs no second statement.
     stated.axis = certificate.text("axis", config.axis.name);
-    stated.feed = certificate.text("feed", units.write_speed(config.cycle.feed));
-    stated.dwell = certificate.text("dwell", write_number(seconds_of(config.cycle.dwell)) + " s");
+    const bool circles = config.circles_alone();
+    const Speed feed = circles ? metre_per_second(config.circular->setup.plan.feed_mm_per_s * 1e-3)
+                               : config.cycle.feed;
+    const std::string dwell = write_number(seconds_of(config.cycle.dwell)) + " s";
+    stated.feed = certificate.text("feed", units.write_speed(feed));
+    stated.dwell = certificate.text("dwell", circles ? "" : dwell);
     return stated;
 }
 

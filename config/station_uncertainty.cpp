@@ -47,18 +47,41 @@ void read_targets(Settings target, UncertaintySetup& setup) {
     }
 }
 
+/// Annex B knows device and environment alone: temperature, expansion and alignment are in the
+/// device. One millimetre stands for one degree.
+void read_angle_terms(Settings& table, UncertaintySetup& setup) {
+    constexpr double least_k = 1, largest_k = 5;
+    const auto angle = [&table](const char* key) {
+        const Length amount = table.rotary_length(key, mm(0), mm(1), mm(0));
+        return table.has(key) ? std::optional{amount} : std::nullopt;
+    };
+    refuse_beside(table, "device", "device_width");
+    setup.device_U.fixed = angle("device");
+    setup.device_width.fixed = angle("device_width");
+    setup.device_k = table.number("device_k", least_k, largest_k, setup.device_k);
+    if (table.has("device_k") && !table.has("device"))
+        table.refuse("device_k", "belongs to device, the expanded uncertainty: state that one too");
+    setup.eve = angle("eve");
+    if (table.choice("eve_model", {"mean", "difference"}, "mean") == "difference")
+        setup.eve_model = EveModel::difference;
+    Settings target = table.table("target");
+    for (const std::string_view parameter : positioning_parameters) {
+        const Length limit = target.rotary_length(parameter, mm(0), mm(1), mm(0));
+        if (target.has(parameter)) setup.targets.push_back({std::string{parameter}, limit});
+    }
+}
+
 } // namespace
 
 std::optional<UncertaintySetup>
 read_uncertainty(Settings root, AxisKind kind, std::string& eve_run) {
     const bool stated = root.has("uncertainty");
     Settings table = root.table("uncertainty");
-    if (stated && kind == AxisKind::rotary) {
-        table.refuse("", "holds the budget of a linear axis, and this axis is rotary: remove it");
-        table.accept_rest();
-        return std::nullopt;
-    }
     UncertaintySetup setup;
+    if (kind == AxisKind::rotary) {
+        read_angle_terms(table, setup);
+        return stated ? std::optional{std::move(setup)} : std::nullopt;
+    }
     read_device(table, setup);
     read_alignment(table, setup);
     read_machine_side(table, setup);

@@ -8,6 +8,7 @@
 #include "drivers/environment/environment_dracal_vcp.hpp"
 #include "drivers/environment/environment_ds18b20.hpp"
 #include "drivers/environment/environment_temper.hpp"
+#include "drivers/environment/environment_temper_serial.hpp"
 #include "drivers/environment/environment_vaisala.hpp"
 #include "drivers/environment/modbus_instrument.hpp"
 #include "drivers/gauge/ascii_gauge.hpp"
@@ -43,6 +44,8 @@ constexpr std::array drivers{
                      make_dracal_usbtenki, &dracal_usbtenki_appearance},
     InstrumentDriver{"temper", "PCsensor TEMPer temperature stick, USB HID", make_temper,
                      &temper_appearance},
+    InstrumentDriver{"temper-serial", "PCsensor TEMPerX232 temperature stick, serial ASCII",
+                     make_temper_serial, &temper_serial_appearance},
     InstrumentDriver{"labjack-u6", "ballbar: LVDT on a LabJack U6, streamed over USB",
                      make_labjack_u6, &labjack_u6_appearance},
     InstrumentDriver{"canopen-404", "JUMO CANtrans T and other CiA 404 thermometers on a CAN bus",
@@ -71,10 +74,15 @@ void check_channel(const Instrument& instrument, const ChannelConfig& wanted, Se
         return;
     }
     const std::string stored{stored_unit_of(found->kind)};
-    if (!wanted.correction_unit.empty() && wanted.correction_unit != stored)
-        options.refuse("channel", "\"" + wanted.channel + "\" counts in " + stored +
-                                      ", and its correction is stated in " +
-                                      wanted.correction_unit + ": write its unit");
+    for (const std::string& unit :
+         {wanted.correction_unit, wanted.table_unit, wanted.uncertainty_unit})
+        if (!unit.empty() && unit != stored) {
+            std::string reason = "\"" + wanted.channel + "\" counts in ";
+            reason += stored;
+            reason += ", and its correction or uncertainty is stated in ";
+            reason += unit;
+            options.refuse("channel", reason + ": write its unit");
+        }
     const bool settled = found->medium != Medium::none && wanted.medium;
     if (settled && *wanted.medium != found->medium)
         options.refuse("channel", "\"" + wanted.channel + "\" measures " +

@@ -11,6 +11,7 @@
 #include <boost/asio/use_awaitable.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 namespace axiscal {
@@ -41,6 +42,8 @@ public:
     }
     void run_for(Duration span) { run_until(now_ + span); }
     boost::asio::io_context& loop() { return loop_; }
+    /// How many sleepers time has woken.
+    [[nodiscard]] std::uint64_t wakeups() const { return wakeups_; }
 
     std::int64_t utc_at_zero_ns = 1'795'255'200'000'000'000; // 2026-11-21T10:00:00Z
 
@@ -51,14 +54,17 @@ private:
         const auto next = sleepers_.begin();
         if (next == sleepers_.end() || next->first > end) return false;
         now_ = std::max(now_, next->first);
-        for (auto due = sleepers_.begin(); due != sleepers_.end() && due->first <= now_; ++due)
+        for (auto due = sleepers_.begin(); due != sleepers_.end() && due->first <= now_; ++due) {
             due->second->cancel();
+            ++wakeups_;
+        }
         return true;
     }
 
     boost::asio::io_context loop_{1};
     MonotonicTime now_ = monotonic_from_ns(1'000'000'000);
     std::multimap<MonotonicTime, boost::asio::steady_timer*> sleepers_;
+    std::uint64_t wakeups_ = 0;
 };
 
 } // namespace axiscal

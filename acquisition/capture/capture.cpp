@@ -3,6 +3,7 @@
 #include "acquisition/capture/wording.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace axiscal {
 namespace {
@@ -54,6 +55,17 @@ Path follow_back(const SampleHistory& history,
     return {-farthest, whole ? PathEnd::reached_start : PathEnd::samples_missing};
 }
 
+/// The largest u(t) of the window: its samples were placed by one fit, so their errors do not
+/// average out. Empty when one of them states none.
+std::optional<Duration> time_uncertainty_of(std::span<const Sample> samples) {
+    Duration largest{};
+    for (const Sample& sample : samples) {
+        if (sample.time_uncertainty <= Duration{}) return std::nullopt;
+        largest = std::max(largest, sample.time_uncertainty);
+    }
+    return largest;
+}
+
 std::string side_of(Direction direction) {
     return direction == Direction::positive ? "below" : "above";
 }
@@ -100,6 +112,8 @@ Result<Capture> make_capture(const SampleHistory& history,
     capture.spread = found.spread;
     capture.slope_um_per_s = found.slope_um_per_s;
     capture.n = found.n;
+    capture.synchronisation =
+        synchronisation_of(found.slope_um_per_s, time_uncertainty_of(samples));
     capture.epoch = samples.back().epoch;
     capture.device_count = samples.back().device_count;
     for (const auto& sample : samples)

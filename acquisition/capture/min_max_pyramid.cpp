@@ -1,12 +1,41 @@
 #include "acquisition/capture/min_max_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
 
 namespace axiscal {
 namespace {
 
 MinMax joined(const MinMax& a, const MinMax& b) {
     return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+constexpr MinMax nothing{std::numeric_limits<double>::infinity(),
+                         -std::numeric_limits<double>::infinity()};
+
+/// Two numbers abreast and four such pairs in turn: a comparison need not wait for the one before.
+MinMax range_of(std::span<const double> values) {
+    using Pair = double __attribute__((vector_size(16)));
+    constexpr std::size_t pairs = 4, step = 2 * pairs;
+    std::array<Pair, pairs> low{}, high{};
+    low.fill(Pair{nothing.low, nothing.low});
+    high.fill(Pair{nothing.high, nothing.high});
+    for (; values.size() >= step; values = values.subspan(step)) {
+        for (std::size_t i = 0; i < pairs; ++i) {
+            Pair pair;
+            std::memcpy(&pair, values.data() + 2 * i, sizeof pair);
+            low[i] = pair < low[i] ? pair : low[i];
+            high[i] = pair > high[i] ? pair : high[i];
+        }
+    }
+    MinMax range = nothing;
+    for (std::size_t i = 0; i < step; ++i)
+        range = joined(range, {low[i / 2][i % 2], high[i / 2][i % 2]});
+    for (const double value : values)
+        range = joined(range, {value, value});
+    return range;
 }
 
 } // namespace
@@ -16,16 +45,21 @@ MinMaxPyramid::MinMaxPyramid(std::size_t stretches)
     stretches_.reserve(most_);
 }
 
-void MinMaxPyramid::push(double value) {
-    ++samples_;
-    if (!stretches_.empty() && in_last_ < width_) {
-        ++in_last_;
-        stretches_.back() = joined(stretches_.back(), {value, value});
-        return;
+void MinMaxPyramid::push(std::span<const double> values) {
+    while (!values.empty()) {
+        if (stretches_.empty() || in_last_ == width_) open_stretch();
+        const auto part = values.first(std::min<std::size_t>(values.size(), width_ - in_last_));
+        stretches_.back() = joined(stretches_.back(), range_of(part));
+        in_last_ += part.size();
+        samples_ += part.size();
+        values = values.subspan(part.size());
     }
+}
+
+void MinMaxPyramid::open_stretch() {
     if (stretches_.size() == most_) join_neighbours();
-    stretches_.push_back({value, value});
-    in_last_ = 1;
+    stretches_.push_back(nothing);
+    in_last_ = 0;
 }
 
 /// All stretches are full here, and their number is even.

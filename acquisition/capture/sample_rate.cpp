@@ -1,17 +1,11 @@
 #include "acquisition/capture/sample_rate.hpp"
 
-#include <cmath>
+#include "analysis/stream_rate.hpp"
 
 namespace axiscal {
 namespace {
 
 constexpr Duration span = std::chrono::seconds{1};
-
-double three_digits(double value) {
-    if (!(value > 0)) return 0;
-    const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
-    return std::round(value / unit) * unit;
-}
 
 } // namespace
 
@@ -23,7 +17,7 @@ void SampleRate::take(const Sample& sample) {
     }
     ++n_;
     if (sample.at - *began_ < span) return;
-    last_hz_ = three_digits(static_cast<double>(n_) / seconds_of(sample.at - *began_));
+    last_hz_ = nominal_rate_hz(static_cast<double>(n_), sample.at - *began_);
     began_ = sample.at;
     n_ = 0;
 }

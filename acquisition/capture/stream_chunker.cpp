@@ -65,7 +65,11 @@ std::optional<StreamChunk> StreamChunker::push(const Sample& sample) {
         chunk_.head.first_count = sample.device_count;
         chunk_.head.before = std::exchange(before_, {});
         chunk_.head.missing = std::exchange(missing_before_, 0);
+        chunk_.head.time_uncertainty = sample.time_uncertainty;
     }
+    Duration& largest = chunk_.head.time_uncertainty;
+    const bool stated = largest > Duration{} && sample.time_uncertainty > Duration{};
+    largest = stated ? std::max(largest, sample.time_uncertainty) : Duration{};
     Sample placed = sample;
     if (last_ && placed.at <= last_->at) placed.at = last_->at + Duration{1};
     chunk_.at.push_back(placed.at);

@@ -18,6 +18,11 @@ std::string plain_number(double value, int digits) {
 std::string in_mm(Length length) {
     return plain_number(length.in(mm), 4) + " mm";
 }
+std::string in_axis_unit(AxisKind kind, Length coordinate) {
+    constexpr int digits_deg = 5; // 0.04 seconds of arc
+    if (kind == AxisKind::linear) return in_mm(coordinate);
+    return plain_number(coordinate.in(mm), digits_deg) + " deg";
+}
 std::string in_um(Length length) {
     return plain_number(length.in(um), 2) + " um";
 }

@@ -27,6 +27,7 @@ Json to_json(const ChannelView& channel) {
 
 Json to_json(const AxisView& axis) {
     return {{"name", axis.name},
+            {"kind", name_of(axis.kind)},
             {"position_mm", or_null(axis.position_mm)},
             {"deviation_um", or_null(axis.deviation_um)},
             {"displacement_mm", or_null(axis.displacement_mm)},
@@ -69,6 +70,7 @@ Json to_json(const RunStatus& run) {
             {"next", std::move(next)},
             {"seconds_left", or_null(run.seconds_left)},
             {"last_deviation_um", or_null(run.last_deviation_um)},
+            {"last_synchronisation_um", or_null(run.last_synchronisation_um)},
             {"fault", run.last_fault},
             {"sentence", run.last_sentence},
             {"certificate", run.certificate}};

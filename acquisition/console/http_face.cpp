@@ -5,6 +5,7 @@
 #include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/listening.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "drivers/spawn.hpp"
 
@@ -16,14 +17,6 @@
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <cerrno>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <grp.h>
-#include <random>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace axiscal {
@@ -40,16 +33,6 @@ constexpr auto idle_limit =
     std::chrono::seconds{30}; // a client that neither asks nor reads is let go
 constexpr std::uint64_t body_limit = std::uint64_t{64} * 1024;
 constexpr std::size_t client_limit = 64;
-
-/// Empty when there is no such group.
-std::optional<gid_t> group_id(const std::string& name) {
-    std::vector<char> texts(1024);
-    group entry{};
-    group* found = nullptr;
-    while (::getgrnam_r(name.c_str(), &entry, texts.data(), texts.size(), &found) == ERANGE)
-        texts.resize(2 * texts.size());
-    return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
-}
 
 http::status status_of(Fault fault) {
     switch (fault) {
@@ -111,12 +94,11 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
         rules.token = std::move(secret);
     }
 
-    Result<void> listen_local();
-    Result<void> listen_tcp();
     template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
     template <class Socket> Task<void> serve(Socket socket, Door door);
     Task<Response> respond(Request request, Door door);
     Task<Response> change(Request request);
+    Task<Response> arm(Request request);
     Task<Response> revise(Request request);
 
     Scheduler& scheduler;
@@ -127,55 +109,6 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
     asio::local::stream_protocol::acceptor local;
     std::size_t clients = 0;
 };
-
-Result<void> HttpFace::Impl::listen_local() {
-    if (config.socket_path.empty()) return {};
-    boost::system::error_code error;
-    ::unlink(config.socket_path
-                 .c_str()); // left by a killed daemon; a running one is refused by its lock
-    local.open({}, error);
-    const mode_t before = ::umask(0117); // 0660 from the first moment
-    if (!error) local.bind(config.socket_path, error);
-    ::umask(before);
-    if (!error) local.listen(16, error);
-    if (error)
-        return fail(Fault::io,
-                    "cannot listen on " + config.socket_path +
-                        "; does its folder exist and may this user write there?",
-                    error);
-    if (config.group.empty()) return {};
-    const auto wanted = group_id(config.group);
-    if (!wanted)
-        return fail(Fault::io,
-                    "group '" + config.group +
-                        "' does not exist; create it (systemd-sysusers) or set console.group");
-    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), *wanted) != 0)
-        return fail(Fault::io, "cannot give " + config.socket_path + " to group " + config.group,
-                    {errno, std::generic_category()});
-    return {};
-}
-
-Result<void> HttpFace::Impl::listen_tcp() {
-    if (config.port == 0) return {};
-    boost::system::error_code error;
-    const auto address = asio::ip::make_address(config.host, error);
-    if (error)
-        return fail(Fault::bad_configuration,
-                    "console.host '" + config.host + "' is not an address");
-    const asio::ip::tcp::endpoint end{
-        address, static_cast<std::uint16_t>(config.port < 0 ? 0 : config.port)};
-    tcp.open(end.protocol(), error);
-    if (!error) tcp.set_option(asio::socket_base::reuse_address{true}, error);
-    if (!error) tcp.bind(end, error);
-    if (!error) tcp.listen(16, error);
-    if (error)
-        return fail(Fault::io,
-                    "cannot listen on " + config.host + ":" + std::to_string(config.port) +
-                        "; another program may hold the port (ss -ltnp)",
-                    error);
-    config.port = tcp.local_endpoint().port();
-    return {};
-}
 
 template <class Acceptor> Task<void> HttpFace::Impl::accept(Acceptor& acceptor, Door door) {
     const auto self = shared_from_this();
@@ -247,26 +180,18 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
     }
     co_return answer(
         request, http::status::not_found,
-        sentence(404, "known are GET /v1/status, GET /v1/instruments, GET "
-                      "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
-                      "/v1/run/trigger, POST /v1/run/abort, POST /v1/run/retake, POST "
-                      "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
-                      "/v1/drift"));
+        sentence(
+            404,
+            "known are GET /v1/status, GET /v1/instruments, GET "
+            "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
+            "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
+            "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+            "/v1/drift"));
 }
 
 Task<Response> HttpFace::Impl::change(Request request) {
     const std::string target{request.target()};
-    if (target == "/v1/run") {
-        auto wanted = arm_request_from_json(request.body());
-        if (!wanted) co_return answer(request, wanted.error());
-        ArmRequest order = *std::move(wanted);
-        ArmRequest asked = order;
-        const auto run = co_await station.arm(std::move(asked));
-        if (!run && run.error().field == "preflight")
-            co_return answer_with_checks(request, run.error(), station.preflight(order));
-        if (!run) co_return answer(request, run.error());
-        co_return answer(request, http::status::created, {{"run", *run}});
-    }
+    if (target == "/v1/run") co_return co_await arm(std::move(request));
     if (target == "/v1/preflight") {
         const auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
@@ -280,6 +205,13 @@ Task<Response> HttpFace::Impl::change(Request request) {
         const auto done = station.trigger();
         if (!done) co_return answer(request, done.error());
         co_return answer(request, http::status::accepted, {{"trigger", "accepted"}});
+    }
+    if (target == "/v1/run/reading") {
+        const auto seconds_of_arc = typed_reading_from_json(request.body());
+        if (!seconds_of_arc) co_return answer(request, seconds_of_arc.error());
+        const auto done = station.type_reading(*seconds_of_arc);
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::accepted, {{"reading", "accepted"}});
     }
     if (target == "/v1/run/abort") {
         const auto reason = abort_reason_from_json(request.body());
@@ -303,10 +235,23 @@ Task<Response> HttpFace::Impl::change(Request request) {
         if (!done) co_return answer(request, done.error());
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     }
-    co_return answer(request, http::status::not_found,
-                     sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/abort, "
-                                   "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
-                                   "/v1/alignment, /v1/drift"));
+    co_return answer(
+        request, http::status::not_found,
+        sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
+                      "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
+                      "/v1/alignment, /v1/drift"));
+}
+
+Task<Response> HttpFace::Impl::arm(Request request) {
+    auto wanted = arm_request_from_json(request.body());
+    if (!wanted) co_return answer(request, wanted.error());
+    ArmRequest order = *std::move(wanted);
+    ArmRequest asked = order;
+    const auto run = co_await station.arm(std::move(asked));
+    if (!run && run.error().field == "preflight")
+        co_return answer_with_checks(request, run.error(), station.preflight(order));
+    if (!run) co_return answer(request, run.error());
+    co_return answer(request, http::status::created, {{"run", *run}});
 }
 
 Task<Response> HttpFace::Impl::revise(Request request) {
@@ -337,8 +282,8 @@ HttpFace::~HttpFace() {
 }
 
 Result<void> HttpFace::start() {
-    AXISCAL_CHECK(impl_->listen_local());
-    AXISCAL_CHECK(impl_->listen_tcp());
+    AXISCAL_CHECK(listen(impl_->local, impl_->config));
+    AXISCAL_CHECK(listen(impl_->tcp, impl_->config));
     impl_->rules.known_hosts =
         known_hosts_of(impl_->config.host, impl_->config.port, impl_->config.allowed_hosts);
     if (impl_->local.is_open())
@@ -349,24 +294,6 @@ Result<void> HttpFace::start() {
 
 int HttpFace::port() const {
     return impl_->config.port;
-}
-
-Result<std::string> load_or_make_token(const std::string& path) {
-    std::string token;
-    if (std::ifstream file{path}; std::getline(file, token) && token.size() >= 32) return token;
-    std::random_device random;
-    token.clear();
-    for (int i = 0; i < 8; ++i) {
-        std::array<char, 9> word{};
-        std::snprintf(word.data(), word.size(), "%08x", static_cast<unsigned>(random()));
-        token += word.data();
-    }
-    const mode_t before = ::umask(0137); // 0640
-    std::ofstream file{path, std::ios::trunc};
-    ::umask(before);
-    if (!(file << token << '\n' << std::flush))
-        return fail(Fault::io, "cannot write the token file " + path);
-    return token;
 }
 
 } // namespace axiscal

@@ -28,7 +28,4 @@ private:
     std::shared_ptr<Impl> impl_;
 };
 
-/// Reads the token file, or makes it (32 random bytes in hex, mode 0640).
-Result<std::string> load_or_make_token(const std::string& path);
-
 } // namespace axiscal

@@ -22,7 +22,8 @@ constexpr std::array statement_keys{"certificate_number",
                                     "idle_axes",
                                     "sensor_note",
                                     "next_due",
-                                    "control_compensation"};
+                                    "control_compensation",
+                                    "run_out"};
 
 Result<void> read_statements(const Json& given, ArmRequest& request) {
     if (!given.is_object())
@@ -118,6 +119,17 @@ Result<RevisionRequest> revision_request_from_json(const std::string& body) {
     if (request.reason.find_first_not_of(" \t\r\n") == std::string::npos)
         return refuse(Fault::bad_request, "reason", "is missing: it is printed on the certificate");
     return request;
+}
+
+Result<double> typed_reading_from_json(const std::string& body) {
+    AXISCAL_TRY(const Json parsed, parse_object(body));
+    for (const auto& [key, value] : parsed.items())
+        if (key != "arcsec" || !value.is_number())
+            return refuse(Fault::bad_request, key,
+                          key == "arcsec" ? "must be a number" : "is unknown; known is arcsec");
+    if (!parsed.contains("arcsec"))
+        return refuse(Fault::bad_request, "arcsec", "is missing: what the autocollimator reads");
+    return parsed["arcsec"].get<double>();
 }
 
 Result<std::string> abort_reason_from_json(const std::string& body) {

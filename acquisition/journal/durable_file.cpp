@@ -48,6 +48,14 @@ Result<void> write_synced(const std::string& path, std::string_view content) {
     return {};
 }
 
+Result<void> try_folder(const std::string& folder) {
+    constexpr std::size_t enough = 262'144; // index and first pages of a WAL, with some to spare
+    const std::string path = folder + "/.trial.axiscal.new"; // swept by tidy_run_files
+    auto written = write_synced(path, std::string(enough, 'x'));
+    ::unlink(path.c_str());
+    return written;
+}
+
 Result<void> move_to_free_name(const std::string& from, const std::string& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return {};
     if (errno == EEXIST)

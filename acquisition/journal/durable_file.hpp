@@ -39,6 +39,9 @@ Result<void> sync_file(const std::string& path);
 Result<void> sync_folder(const std::string& path);
 /// Creates or replaces the content, synced; the name itself needs sync_folder.
 Result<void> write_synced(const std::string& path, std::string_view content);
+/// May files grow in this folder? Writes and syncs as much as a run file needs to be gone on with,
+/// and removes it.
+Result<void> try_folder(const std::string& folder);
 /// Renames a file or folder to a name that must be free. @errors Fault::refused if it is taken.
 Result<void> move_to_free_name(const std::string& from, const std::string& to);
 /// What a person can do about an error of the disk that carries `folder`; empty where the system's

@@ -20,8 +20,11 @@ namespace axiscal {
 
 struct RunBatch;
 class RunFileWriter;
+struct RunFileContents;
+struct RunSummary;
 struct StoredDrift;
 struct StoredResult;
+struct StoredRuns;
 
 /// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
 /// under a virtual clock, where nothing else has to go on meanwhile.
@@ -58,9 +61,11 @@ public:
 
     /// Durable, with everything noted before, when the receipt comes.
     /// @errors Fault::not_durable; Fault::no_run_armed when no run is open.
-    Task<Result<JournalReceipt>> commit(PointRecord point);
+    Task<Result<JournalReceipt>> commit(PointRecord point,
+                                        std::optional<Synchronisation> synchronisation = {});
     /// The receipt's step is -1.
-    Task<Result<JournalReceipt>> commit(DatumRecord datum);
+    Task<Result<JournalReceipt>> commit(DatumRecord datum,
+                                        std::optional<Synchronisation> synchronisation = {});
     /// An event that the CNC waits for (skip, end, abort); the receipt bears `step`.
     Task<Result<JournalReceipt>> commit(EventRecord event, int step);
     /// For what is durable already, read back from disk: a point by its step, the last datum by -1.
@@ -72,6 +77,11 @@ public:
     /// For what the newest request of a closed run made durable.
     /// @errors Fault::not_found when no request did; Fault::refused while it is open.
     Task<Result<JournalReceipt>> receipt_of_closed(std::string path);
+
+    /// look_through_runs() off the loop.
+    Task<Result<StoredRuns>> stored_runs(std::string folder);
+    /// summarize_run_file() off the loop.
+    Task<Result<RunSummary>> summarize(std::string path);
 
     /// As find_drift(), off the loop.
     Task<Result<StoredDrift>> find_drift(std::string folder, std::string which, std::string axis);
@@ -95,8 +105,12 @@ public:
     Task<void> let_go();
     /// tidy_run_files() off the loop.
     Task<Result<void>> tidy(std::string folder);
-    /// Everything in a run file, read and verified off the loop.
+    /// try_folder() off the loop.
+    Task<Result<void>> try_folder(std::string folder);
+    /// The run of a run file, read and verified off the loop.
     Task<Result<RunRecord>> read(std::string path);
+    /// Everything in it, the same way.
+    Task<Result<RunFileContents>> contents(std::string path);
 
     /// Ends the run: one single file, synced. The journal can then open another.
     Task<Result<void>> close(bool complete, std::string reason);

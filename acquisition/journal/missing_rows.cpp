@@ -51,6 +51,11 @@ std::int64_t MissingRows::count_of(std::string_view table) const {
 
 void MissingRows::hole(std::int64_t link) {
     holes_.push_back({{link, {}, {}}, last_table_, chained_tables().size()});
+    after_hole_ = !due_synchronisation_;
+    if (!due_synchronisation_) return;
+    holes_.back().row.table = "synchronisation";
+    holes_.back().row.about = "step=" + std::to_string(*due_synchronisation_);
+    due_synchronisation_.reset();
 }
 
 void MissingRows::see(const Table& table, const Row& row) {
@@ -60,7 +65,13 @@ void MissingRows::see(const Table& table, const Row& row) {
         hole->after = place;
     }
     last_table_ = place;
+    due_synchronisation_.reset();
+    if (table.name == "synchronisation") see_synchronisation(row);
+    after_hole_ = false;
+    if (format_ >= 4 && table.name == "datum") due_synchronisation_ = -1;
+    if (format_ >= 4 && table.name == "point") due_synchronisation_ = number_at(row, 0);
     ++counts_[std::string{table.name}];
+    if (table.name == "plan") rotary_axis_ = text_at(row, 0) == "rotary";
     if (table.name == "plan_point") {
         planned_.insert(number_at(row, 0));
         targets_ = std::max(targets_, number_at(row, 1) + 1);
@@ -74,10 +85,21 @@ void MissingRows::see(const Table& table, const Row& row) {
     }
     if (table.name == "datum") datums_.insert(text_at(row, 0));
     if (table.name == "environment") referred_channels_.insert(number_at(row, 0));
-    if (table.name == "event") skipped_.insert(skipped_by(row));
+    if (table.name == "event") accounted_.insert(skipped_by(row));
     if (table.name == "point") see_point(row);
     if (table.name == "closing" && number_at(row, 0) == 1)
         settle_points(static_cast<int>(planned_.size()));
+}
+
+/// The row before it is the point or the datum that it belongs to.
+void MissingRows::see_synchronisation(const Row& row) {
+    if (!after_hole_ || holes_.empty() || !holes_.back().row.table.empty()) return;
+    MissingRow& missing = holes_.back().row;
+    const int step = number_at(row, 0);
+    missing.table = step < 0 ? "datum" : "point";
+    missing.about = step < 0 ? "id=" + text_at(row, 1) : "step=" + std::to_string(step);
+    if (step < 0) datums_.insert(text_at(row, 1));
+    accounted_.insert(step);
 }
 
 void MissingRows::see_point(const Row& row) {
@@ -98,7 +120,7 @@ void MissingRows::see_point(const Row& row) {
 void MissingRows::settle_points(int next_step) {
     std::vector<int> missed;
     for (int step = last_step_ + 1; step < next_step; ++step)
-        if (!skipped_.contains(step)) missed.push_back(step);
+        if (!accounted_.contains(step)) missed.push_back(step);
     std::vector<Hole*> open;
     for (std::size_t i = in_question_; i < holes_.size(); ++i)
         if (holes_[i].row.table.empty() && holes_[i].after >= place_of(first_of_body))
@@ -106,7 +128,9 @@ void MissingRows::settle_points(int next_step) {
     if (missed.empty()) return;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const bool certain = missed.size() >= open.size();
-        open[i]->row.table = certain ? "point" : "point, environment or event";
+        open[i]->row.table = certain        ? "point"
+                             : format_ >= 4 ? "point, synchronisation, environment or event"
+                                            : "point, environment or event";
         open[i]->row.about = "step=" + std::to_string(missed[std::min(i, missed.size() - 1)]);
     }
 }
@@ -122,6 +146,7 @@ void MissingRows::gather_header_evidence() {
         if (row.table->name == "statement" && !statements_.contains(text_at(row.row, 0)))
             miss("statement", "name=" + text_at(row.row, 0));
     if (count_of("uncertainty") == 0 && count_of("uncertainty_target") > 0) miss("uncertainty", "");
+    if (count_of("rotary") == 0 && count_of("rotary_deviation") > 0) miss("rotary", "");
     if (count_of("alignment") == 0 && count_of("alignment_place") > 0) miss("alignment", "");
     for (const std::string& name : referred_instruments_)
         if (!instruments_.contains(name)) miss("instrument", "name=" + name);
@@ -145,7 +170,11 @@ void MissingRows::settle_header(Hole& hole) {
     std::vector<std::string> candidates;
     for (std::size_t place = hole.before; place <= last; ++place) {
         const std::string name{chained_tables()[place].name};
-        if (name.starts_with("alignment") && count_of("alignment") == 0) continue; // of format 3
+        // Tables of later formats, which most runs leave empty.
+        if (name.starts_with("alignment") && count_of("alignment") == 0) continue;
+        if (name.starts_with("channel_") && count_of("channel_calibration") == 0) continue;
+        if (name.starts_with("rotary") && !rotary_axis_) continue;
+        if (name.starts_with("probing") && count_of("probing") == 0) continue;
         const bool single = name == "uncertainty" || name == "statement" ||
                             std::ranges::find(singles, name) != singles.end();
         if (!single || count_of(name) == 0) candidates.push_back(name);

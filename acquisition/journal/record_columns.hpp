@@ -25,6 +25,11 @@ inline constexpr std::array tables{
           "trrirrr"},
     Table{"material", "coefficient_per_K, standard_uncertainty_per_K, feedback, form", "rRtt"},
     Table{"air", "formula, co2_ppm, oldest_ns", "tri"},
+    Table{"rotary",
+          "method, step_deg, arm_m, range_deg, turn_time_ns, by_hand, certificate_with_axis, "
+          "run_out",
+          "trrriiit", 4},
+    Table{"rotary_deviation", "deviation_arcsec", "r", 4},
     Table{"uncertainty",
           "device_U_m, device_U_per_m, device_k, device_width_m, device_width_per_m, "
           "misalignment_m, misalignment_rad, temperature_width_K, expansion_width_per_K, eve_m, "
@@ -36,6 +41,11 @@ inline constexpr std::array tables{
           "name, driver, maker, model, serial, firmware, certificate_number, calibrated_on, due_on",
           "ttttttttt"},
     Table{"channel", "id, name, instrument, place, kind, medium, correction", "itttttr"},
+    Table{"channel_calibration",
+          "channel, certificate_number, calibrated_on, due_on, expanded_uncertainty, "
+          "expanded_uncertainty_per_m, coverage",
+          "itttRRr", 4},
+    Table{"channel_correction", "channel, reading, correction", "irr", 4},
     Table{"alignment",
           "began_utc_ns, ended_utc_ns, instrument, serial, travel_m, reached_m, readings, lost, "
           "restarts, far_distance_m, far_highest_m, far_last_m, far_scatter_m, far_blocks, "
@@ -44,6 +54,10 @@ inline constexpr std::array tables{
     Table{"alignment_place",
           "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr", 3},
     Table{"drift", "duration_ns, interval_ns, place_m", "iir", 3},
+    Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt", 4},
+    Table{"probing_touch",
+          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m", "rrrirrrr",
+          4},
     Table{"eve_source", "run_id", "t", 3},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
@@ -69,14 +83,17 @@ inline constexpr std::array tables{
           "centre_width_um, machine_temperature_width_K, bar_temperature_width_K, "
           "machine_alpha_width_per_K, bar_alpha_width_per_K, runs",
           "RRRRRRRRRRi", 3},
+    Table{"circular_start", "start_from, trigger_delay_s", "tr", 4},
     Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr", 3},
     Table{"stream_block",
           "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
           "iiiiitiirrb", 3},
+    Table{"stream_block_time", "stream, block, u_t_ns", "iiI", 4},
     Table{"preflight", "name, passed, warning, verdict, override_reason", "tiitt", 3},
     Table{"retake", "number, at_ns, utc_ns, reason", "iiit", 3},
     Table{"retake_point", "step, planned_step", "ii", 3},
     Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit", 3},
+    Table{"synchronisation", "step, datum_id, u_t_ns, error_um", "itIR", 4},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
 

@@ -67,6 +67,13 @@ ChainedRow row_of_air(const AirSetup& air) {
     return chained("air", {text(name_of(formula)), co2_ppm, whole(oldest.count())});
 }
 
+ChainedRow row_of_rotary(const RotarySetup& rotary) {
+    const auto& [method, step_deg, arm, range_deg, turn_time, by_hand, deviations, with_axis,
+                 run_out] = rotary;
+    return chained("rotary", {text(name_of(method)), step_deg, arm.si(), range_deg,
+                              whole(turn_time.count()), whole(by_hand), whole(with_axis), run_out});
+}
+
 template <class Amount> Value si_or_nothing(const std::optional<Amount>& amount) {
     return amount ? Value{amount->si()} : Value{};
 }
@@ -95,6 +102,13 @@ ChainedRow row_of_channel(const ChannelRecord& channel) {
                                text(name_of(medium)), correction});
 }
 
+ChainedRow row_of_calibration(const ChannelCalibration& calibration) {
+    const auto& [channel, certificate, calibrated, due, expanded, per_m, coverage, corrections] =
+        calibration;
+    return chained("channel_calibration", {whole(channel), certificate, calibrated, due,
+                                           optional(expanded), optional(per_m), coverage});
+}
+
 ChainedRow row_of_alignment(const AlignmentRecord& alignment) {
     const auto& [began, ended, instrument, serial, travel, reached, readings, lost, restarts, far,
                  spot_offset, places] = alignment;
@@ -115,6 +129,13 @@ ChainedRow row_of_place(const AlignmentPlace& place) {
     const auto& [begin, end, readings, weakest, mean, last] = place;
     return chained("alignment_place", {begin.si(), end.si(), whole(readings), weakest, mean, last});
 }
+ChainedRow row_of_touch(const ProbingTouch& touch) {
+    const auto& [direction, reference, approach, latched] = touch;
+    return chained("probing_touch",
+                   {direction[0], direction[1], direction[2], whole(reference), approach.si(),
+                    latched[0].si(), latched[1].si(), latched[2].si()});
+}
+
 } // namespace
 
 std::span<const Table> chained_tables() {
@@ -139,6 +160,11 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     rows.push_back(row_of_laser(header.laser));
     rows.push_back(row_of_material(header.material));
     rows.push_back(row_of_air(header.air));
+    if (header.rotary) {
+        rows.push_back(row_of_rotary(*header.rotary));
+        for (const double deviation : header.rotary->deviations_arcsec)
+            rows.push_back(chained("rotary_deviation", {deviation}));
+    }
     if (header.uncertainty) {
         rows.push_back(row_of_uncertainty(*header.uncertainty));
         for (const auto& [parameter, limit] : header.uncertainty->targets)
@@ -150,7 +176,13 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
         rows.push_back(row_of_instrument(instrument));
     for (const auto& channel : header.channels)
         rows.push_back(row_of_channel(channel));
-    const auto& [alignment, drift, eve_source] = attachments;
+    for (const auto& calibration : header.calibrations) {
+        rows.push_back(row_of_calibration(calibration));
+        for (const auto& [reading, correction] : calibration.corrections)
+            rows.push_back(
+                chained("channel_correction", {whole(calibration.channel), reading, correction}));
+    }
+    const auto& [alignment, drift, probing, eve_source, synchronisation] = attachments;
     if (alignment) {
         rows.push_back(row_of_alignment(*alignment));
         for (const AlignmentPlace& place : alignment->places)
@@ -159,6 +191,12 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     if (drift)
         rows.push_back(chained("drift", {whole(drift->duration.count()),
                                          whole(drift->interval.count()), drift->place.si()}));
+    if (probing) {
+        rows.push_back(
+            chained("probing", {probing->feed_mm_per_min, probing->probe, probing->signal_path}));
+        for (const ProbingTouch& touch : probing->touches)
+            rows.push_back(row_of_touch(touch));
+    }
     if (!eve_source.empty()) rows.push_back(chained("eve_source", {eve_source}));
     return rows;
 }
@@ -202,10 +240,11 @@ ChainedRow row_of(const Closing& closing) {
 
 namespace {
 
+/// Begin and end of the arcs stand in a row of their own: format 3 did not have them.
 ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capture) {
     const auto& [plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg,
-                 overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset] =
-        plan;
+                 overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset,
+                 start, trigger_delay_s] = plan;
     std::string words;
     for (const Sense sense : senses)
         words += (words.empty() ? "" : " ") + std::string{name_of(sense)};
@@ -239,6 +278,7 @@ std::vector<ChainedRow> rows_of(const CircularSetup& setup) {
         chained("circular_bar", {bar_instrument, whole(bar_sign), bar_length_mm,
                                  optional(bar_alpha), optional(machine_alpha), channel}));
     rows.push_back(row_of_statement(uncertainty));
+    rows.push_back(chained("circular_start", {text(name_of(plan.start)), plan.trigger_delay_s}));
     return rows;
 }
 
@@ -249,10 +289,16 @@ ChainedRow row_of(const StreamSetup& stream) {
 
 ChainedRow row_of(const StreamBlock& block) {
     const auto& [stream, index, first_count, samples, missing, before, begin, end, low, high,
-                 packed] = block;
+                 packed, time_uncertainty] = block;
     return chained("stream_block",
                    {whole(stream), whole(index), whole(first_count), whole(samples), whole(missing),
                     before, nanoseconds(begin), nanoseconds(end), low, high, Blob{packed}});
+}
+
+ChainedRow time_row_of(const StreamBlock& block) {
+    Value uncertainty;
+    if (block.time_uncertainty > Duration{}) uncertainty = whole(block.time_uncertainty.count());
+    return chained("stream_block_time", {whole(block.stream), whole(block.index), uncertainty});
 }
 
 ChainedRow row_of(const PreflightRecord& check) {
@@ -263,6 +309,16 @@ ChainedRow row_of(const PreflightRecord& check) {
 ChainedRow row_of(const ExclusionRecord& exclusion) {
     const auto& [step, at, utc_ns, reason] = exclusion;
     return chained("exclusion", {whole(step), nanoseconds(at), utc_ns, reason});
+}
+
+ChainedRow row_of(const SynchronisationRecord& record) {
+    const auto& [step, datum_id, stated] = record;
+    Value uncertainty, error;
+    if (stated) {
+        uncertainty = whole(stated->time_uncertainty.count());
+        error = stated->error_um;
+    }
+    return chained("synchronisation", {whole(step), datum_id, uncertainty, error});
 }
 
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake) {

@@ -50,8 +50,11 @@ ChainedRow row_of(const Closing& closing);
 std::vector<ChainedRow> rows_of(const CircularSetup& setup);
 ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
+/// Its u(t), a row of its own: format 3 did not have it.
+ChainedRow time_row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);
 ChainedRow row_of(const ExclusionRecord& exclusion);
+ChainedRow row_of(const SynchronisationRecord& record);
 /// The order, then its points.
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake);
 /// A row that may stand after a closing row: the run is open again from there on.

@@ -102,6 +102,25 @@ void read_air(RunRecord& run, RowReader& in) {
     run.air.oldest = Duration{in.integer()};
 }
 
+void read_rotary(RunRecord& run, RowReader& in) {
+    RotarySetup rotary;
+    rotary.method = in.choice({AngleMethod::indexing_table, AngleMethod::polygon});
+    rotary.step_deg = in.real();
+    rotary.arm = in.length();
+    rotary.range_deg = in.real();
+    rotary.turn_time = Duration{in.integer()};
+    rotary.by_hand = in.flag();
+    rotary.certificate_with_axis = in.flag();
+    rotary.run_out = in.text();
+    if (run.rotary) return in.reject("stands there twice");
+    run.rotary = std::move(rotary);
+}
+
+void read_rotary_deviation(RunRecord& run, RowReader& in) {
+    if (!run.rotary) run.rotary.emplace(); // the writer checks each row by itself
+    run.rotary->deviations_arcsec.push_back(in.real());
+}
+
 template <class Amount> void read_optional(std::optional<Amount>& amount, RowReader& in) {
     if (const auto si = in.optional_real()) amount = Amount::from_si(*si);
 }
@@ -162,6 +181,30 @@ void read_channel(RunRecord& run, RowReader& in) {
     run.channels.push_back(std::move(channel));
 }
 
+void read_channel_calibration(RunRecord& run, RowReader& in) {
+    ChannelCalibration calibration;
+    calibration.channel = in.number<int>();
+    for (auto field : {&ChannelCalibration::certificate_number, &ChannelCalibration::calibrated_on,
+                       &ChannelCalibration::due_on})
+        calibration.*field = in.text();
+    calibration.expanded_uncertainty = in.optional_real();
+    calibration.expanded_uncertainty_per_m = in.optional_real();
+    calibration.coverage = in.real();
+    run.calibrations.push_back(std::move(calibration));
+}
+
+void read_channel_correction(RunRecord& run, RowReader& in) {
+    const int channel = in.number<int>();
+    CorrectionPoint point;
+    point.reading = in.real();
+    point.correction = in.real();
+    if (run.calibrations.empty()) // the writer checks each row by itself
+        run.calibrations.emplace_back().channel = channel;
+    if (run.calibrations.back().channel != channel)
+        return in.reject("belongs to a channel whose calibration does not stand before it");
+    run.calibrations.back().corrections.push_back(point);
+}
+
 void read_alignment(RecordedRun& run, RowReader& in) {
     AlignmentRecord alignment;
     alignment.began_utc_ns = in.integer();
@@ -207,6 +250,28 @@ void read_drift(RecordedRun& run, RowReader& in) {
     drift.place = in.length();
     if (run.attachments.drift) return in.reject("stands there twice");
     run.attachments.drift = drift;
+}
+
+void read_probing(RecordedRun& run, RowReader& in) {
+    ProbingRecord probing;
+    probing.feed_mm_per_min = in.real();
+    probing.probe = in.text();
+    probing.signal_path = in.text();
+    if (run.attachments.probing) return in.reject("stands there twice");
+    run.attachments.probing = std::move(probing);
+}
+
+void read_probing_touch(RecordedRun& run, RowReader& in) {
+    ProbingTouch touch;
+    for (double& component : touch.direction)
+        component = in.real();
+    touch.reference = in.flag();
+    touch.approach = in.length();
+    for (Length& coordinate : touch.latched)
+        coordinate = in.length();
+    auto& probing = run.attachments.probing;
+    if (!probing) probing.emplace(); // the writer checks each row by itself
+    probing->touches.push_back(touch);
 }
 
 void read_eve_source(RecordedRun& run, RowReader& in) {
@@ -327,6 +392,12 @@ void read_circular_uncertainty(RecordedRun& run, RowReader& in) {
     statement.runs = in.number<int>();
 }
 
+void read_circular_start(RecordedRun& run, RowReader& in) {
+    if (!run.circular) run.circular.emplace();
+    run.circular->plan.start = in.choice({StartMethod::feed_step, StartMethod::trigger});
+    run.circular->plan.trigger_delay_s = in.real();
+}
+
 void read_stream(RecordedRun& run, RowReader& in) {
     StreamSetup stream;
     stream.id = in.number<int>();
@@ -351,6 +422,21 @@ void read_stream_block(RecordedRun& run, RowReader& in) {
     block.high = in.real();
     block.packed = in.blob();
     run.blocks.push_back(std::move(block));
+}
+
+void read_stream_block_time(RecordedRun& run, RowReader& in) {
+    const int stream = in.number<int>();
+    const std::int64_t index = in.integer();
+    const auto u_t_ns = in.optional_integer();
+    if (u_t_ns && *u_t_ns <= 0) in.reject("states an uncertainty that is none");
+    if (run.blocks.empty()) { // the writer checks each row by itself
+        run.blocks.emplace_back().stream = stream;
+        run.blocks.back().index = index;
+    }
+    StreamBlock& block = run.blocks.back();
+    if (block.stream != stream || block.index != index)
+        return in.reject("belongs to a block that does not stand before it");
+    block.time_uncertainty = Duration{u_t_ns.value_or(0)};
 }
 
 void read_preflight(RecordedRun& run, RowReader& in) {
@@ -393,6 +479,21 @@ void read_exclusion(RecordedRun& run, RowReader& in) {
     run.revisions.exclusions.push_back(std::move(exclusion));
 }
 
+void read_synchronisation(RecordedRun& run, RowReader& in) {
+    SynchronisationRecord record;
+    record.step = in.number<int>();
+    record.datum_id = in.text();
+    const auto u_t_ns = in.optional_integer();
+    const auto error_um = in.optional_real();
+    if (u_t_ns.has_value() != error_um.has_value())
+        in.reject("states one number without the other");
+    if (u_t_ns && error_um) {
+        if (*u_t_ns <= 0 || *error_um < 0) in.reject("states an uncertainty that is none");
+        record.stated = Synchronisation{Duration{*u_t_ns}, *error_um};
+    }
+    run.attachments.synchronisation.push_back(std::move(record));
+}
+
 void read_closing(RecordedRun& run, RowReader& in) {
     ++run.revisions.closings;
     run.complete = in.flag();
@@ -413,14 +514,20 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     measured<read_laser>,
     measured<read_material>,
     measured<read_air>,
+    measured<read_rotary>,
+    measured<read_rotary_deviation>,
     measured<read_uncertainty>,
     measured<read_uncertainty_target>,
     measured<read_statement>,
     measured<read_instrument>,
     measured<read_channel>,
+    measured<read_channel_calibration>,
+    measured<read_channel_correction>,
     read_alignment,
     read_alignment_place,
     read_drift,
+    read_probing,
+    read_probing_touch,
     read_eve_source,
     measured<read_datum>,
     measured<read_point>,
@@ -429,12 +536,15 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_circular,
     read_circular_bar,
     read_circular_uncertainty,
+    read_circular_start,
     read_stream,
     read_stream_block,
+    read_stream_block_time,
     read_preflight,
     read_retake,
     read_retake_point,
     read_exclusion,
+    read_synchronisation,
     read_closing,
 };
 

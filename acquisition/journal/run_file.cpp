@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <iterator>
+#include <set>
 #include <unistd.h>
 
 namespace axiscal {
@@ -50,13 +51,35 @@ Result<void> check_before_writing(const ChainedRow& row) {
 }
 
 /// What a circular test adds; the chunks are compressed here, on the journal's own thread.
-std::vector<ChainedRow> circular_rows(const RunBatch& batch) {
+std::vector<ChainedRow> circular_rows(const RunBatch& batch, int format) {
     std::vector<ChainedRow> rows;
     if (batch.circular) rows = rows_of(*batch.circular);
     for (const auto& stream : batch.streams)
         rows.push_back(row_of(stream));
-    for (const auto& chunk : batch.chunks)
-        rows.push_back(row_of(packed(chunk)));
+    for (const auto& chunk : batch.chunks) {
+        const StreamBlock block = packed(chunk);
+        rows.push_back(row_of(block));
+        if (format >= 4) rows.push_back(time_row_of(block));
+    }
+    return rows;
+}
+
+/// Each with what is known of its time, in the same transaction, from format 4 on.
+std::vector<ChainedRow> rows_of_captures(const RunBatch& batch, int format) {
+    std::vector<ChainedRow> rows;
+    const bool known = format >= 4;
+    if (batch.datum) {
+        rows.push_back(row_of(*batch.datum));
+        const auto stated = batch.point ? std::nullopt : batch.synchronisation;
+        if (known) rows.push_back(row_of(SynchronisationRecord{-1, batch.datum->id, stated}));
+    }
+    if (batch.point) {
+        const PointRecord& point = *batch.point;
+        rows.push_back(row_of(point));
+        if (known)
+            rows.push_back(
+                row_of(SynchronisationRecord{point.step, point.datum_id, batch.synchronisation}));
+    }
     return rows;
 }
 
@@ -196,13 +219,12 @@ Result<void> RunFileWriter::write(const RunBatch& batch) {
         std::ranges::move(rows_of(retake), std::back_inserter(rows));
     for (const auto& exclusion : batch.exclusions)
         rows.push_back(row_of(exclusion));
-    std::ranges::move(circular_rows(batch), std::back_inserter(rows));
+    std::ranges::move(circular_rows(batch, format_), std::back_inserter(rows));
     for (const auto& reading : batch.environment)
         rows.push_back(row_of(reading));
     for (const auto& event : batch.events)
         rows.push_back(row_of(event));
-    if (batch.datum) rows.push_back(row_of(*batch.datum));
-    if (batch.point) rows.push_back(row_of(*batch.point));
+    std::ranges::move(rows_of_captures(batch, format_), std::back_inserter(rows));
     if (rows.empty() && !broken_) return {};
     return transact(rows);
 }
@@ -286,19 +308,16 @@ Result<void> store_result(const std::string& path, const StoredResult& result) {
 
 Result<void> tidy_run_files(const std::string& folder) {
     std::error_code error;
-    std::vector<std::filesystem::path> found;
+    std::set<std::string> found;
     for (std::filesystem::directory_iterator entry{folder, error}, end; !error && entry != end;
          entry.increment(error))
-        found.push_back(entry->path());
+        found.insert(entry->path().string());
     for (const auto& path : found)
-        if (path.string().ends_with(".axiscal.new") ||
-            path.string().ends_with(".axiscal.new-journal"))
+        if (path.ends_with(".axiscal.new") || path.ends_with(".axiscal.new-journal"))
             std::filesystem::remove(path, error);
     for (const auto& path : found) {
-        if (path.extension() != run_file_ending) continue;
-        const bool side_file = std::filesystem::exists(path.string() + "-wal", error) ||
-                               std::filesystem::exists(path.string() + "-journal", error);
-        if (!side_file) continue;
+        if (!path.ends_with(run_file_ending)) continue;
+        if (!found.contains(path + "-wal") && !found.contains(path + "-journal")) continue;
         AXISCAL_TRY(auto database, Database::open(path, Database::Access::read_write, Fault::io));
         AXISCAL_TRY(const bool closed, is_run_closed(*database));
         if (!closed) continue;

@@ -31,7 +31,8 @@ struct RunBatch {
     std::vector<ExclusionRecord> exclusions;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
-    std::optional<CircularSetup> circular; ///< once, before the first block
+    std::optional<Synchronisation> synchronisation; ///< of the point, else of the datum
+    std::optional<CircularSetup> circular;          ///< once, before the first block
     std::vector<StreamSetup> streams;
     std::vector<StreamChunk> chunks; ///< compressed when they are written
     [[nodiscard]] bool empty() const;
@@ -64,8 +65,8 @@ public:
     ~RunFileWriter(); ///< leaves the run open, to be resumed
 
     /// One transaction, in the order preflight, retakes, exclusions, circular, streams, chunks,
-    /// environment, events, datum, point. @errors Fault::refused, unwritten, for the first three in
-    /// a file of a format before 3.
+    /// environment, events, datum, point; the last two with their synchronisation. @errors
+    /// Fault::refused, unwritten, for the first three in a file of a format before 3.
     Result<void> write(const RunBatch& batch);
     Result<void> append_point(PointRecord point);
     Result<void> append_datum(DatumRecord datum);
@@ -154,6 +155,7 @@ struct RunSummary {
     bool closed = false, complete = false;
     bool evaluated = false; ///< a result is stored since the last closing
     bool drift = false;     ///< a drift test
+    bool probing = false;   ///< a probing test
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Folder of its certificate. A run that was added to after its first one gets another: nothing

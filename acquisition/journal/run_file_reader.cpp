@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace axiscal {
 namespace {
@@ -218,6 +219,22 @@ Result<void> set_superseded_aside(RecordedRun& run, const std::string& path) {
     return {};
 }
 
+/// Before superseded readings are set aside: theirs are among them.
+Result<void> check_synchronisation(const RecordedRun& run, const std::string& path) {
+    std::set<int> steps;
+    std::set<std::string> datums;
+    for (const PointRecord& point : run.points)
+        steps.insert(point.step);
+    for (const DatumRecord& datum : run.datums)
+        datums.insert(datum.id);
+    for (const SynchronisationRecord& record : run.attachments.synchronisation) {
+        if (record.step < 0 ? !datums.contains(record.datum_id) : !steps.contains(record.step))
+            return bad(path, "synchronisation " + std::to_string(record.step) +
+                                 " belongs to no point and no datum");
+    }
+    return {};
+}
+
 void put_in_order(RunRecord& run) {
     std::ranges::stable_sort(run.environment, {}, &EnvironmentReading::at);
 }
@@ -237,6 +254,7 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
     }
+    AXISCAL_CHECK(check_synchronisation(recorded, path));
     AXISCAL_CHECK(set_superseded_aside(recorded, path));
     put_in_order(recorded);
     contents.format = format;
@@ -317,6 +335,10 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     if (format >= 3) {
         AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
         summary.drift = drifts != 0;
+    }
+    if (format >= 4) {
+        AXISCAL_TRY(const auto probings, database->integer_of("SELECT count(*) FROM probing"));
+        summary.probing = probings != 0;
     }
     return summary;
 }

@@ -105,7 +105,8 @@ private:
 class Walk {
 public:
     explicit Walk(ChainReport& report)
-        : report_{report} {}
+        : report_{report}
+        , missing_{report.format} {}
 
     /// All rows that bear the same number; one of them is the row that was written.
     void take(std::vector<StoredRow> same_number) {

@@ -179,6 +179,7 @@ Result<StreamSamples> samples_of(std::span<const StreamBlock> blocks, int stream
         if (dropped > 0 || !block.before.empty())
             samples.gaps.push_back(
                 {samples.at.size(), block.missing, dropped > 0 ? "dropped" : block.before});
+        samples.times.push_back({samples.at.size(), block.time_uncertainty});
         samples.at.insert(samples.at.end(), chunk.at.begin(), chunk.at.end());
         samples.value.insert(samples.value.end(), chunk.value.begin(), chunk.value.end());
     }

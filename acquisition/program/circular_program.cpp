@@ -1,5 +1,6 @@
 // Circles in LinuxCNC's dialect. Source: LinuxCNC 2.9 G-code reference (G2 G3 with centre words,
-// incremental by G91.1, P turns; G17 G18 G19; M62..M68, M66). In every plane G3 turns the first
+// incremental by G91.1, P turns; G17 G18 G19; M62..M68, M66; M67
+// takes effect with the next motion). In every plane G3 turns the first
 // axis to the second (X to Y, Z to X, Y to Z). Wiring as for the linear cycle (docs/trigger.md).
 #include "acquisition/program/circular_program.hpp"
 
@@ -28,7 +29,7 @@ public:
         head();
         for (const PlannedCircle& circle : planned_circles(plan_))
             drive(circle);
-        request(static_cast<int>(planned_circles(plan_).size()) + 1);
+        request(static_cast<int>(planned_circles(plan_).size()) * requests() + 1);
         line("(end of cycle)");
         line("M2");
         return std::move(text_);
@@ -64,6 +65,12 @@ private:
                word(1, plan_.centre_mm[axis(1)] + radius_mm * std::sin(angle));
     }
 
+    [[nodiscard]] int requests() const { return requests_a_circle(plan_); }
+    /// The number changes with the first servo cycle of the next way; nobody waits for an answer.
+    void word_with_next_way(int sequence) {
+        if (plan_.start == StartMethod::trigger) line("M67 E0 Q" + std::to_string(sequence));
+    }
+
     void head() {
         line("(axiscal circular " + std::string{name_of(plan_.plane)} +
              format(" R%.4f", plan_.nominal_radius_mm) + format(" F%.1f", feed()) +
@@ -93,10 +100,13 @@ private:
         if (std::fabs(std::remainder(from - here_deg_, 360)) > least_arc_deg)
             turn(rest_radius_mm(), from);
         here_deg_ = from;
-        request(circle.number);
+        const int sequence = (circle.number - 1) * requests() + 1;
+        request(sequence);
         dwell(handshake() ? rest_s : halt_s);
         line("G1 " + place(plan_.nominal_radius_mm, from));
+        word_with_next_way(sequence + 1);
         turn(plan_.nominal_radius_mm, to);
+        word_with_next_way(sequence + 2);
         line("G1 " + place(rest_radius_mm(), to));
         dwell(handshake() ? rest_s : halt_s);
     }

@@ -1,7 +1,8 @@
 // LinuxCNC dialect. Source: LinuxCNC 2.9 G-code reference (M62..M68, M66, o-words, (ABORT,...)).
 // Wiring in HAL (docs/trigger.md): analog-out-00 = sequence; digital-in-00 = answered (the echo
 // equals the sequence, or the acknowledge bit); coil-and-index also digital-out-00 = trigger coil
-// and digital-in-01 = "register equals sequence". sequence-block reads analog-out-01..05 as well.
+// and digital-in-01 = "register equals sequence". sequence-block reads analog-out-01..05 as well;
+// an indexing table is told its position by analog-out-06.
 #include "acquisition/program/part_program.hpp"
 
 #include <cstdio>
@@ -23,9 +24,10 @@ public:
         head();
         std::uint16_t sequence = order_.last_request;
         bool begun = false;
-        for (const ProgramMove& move : moves_of(order_.plan)) {
+        for (const ProgramMove& move : moves()) {
             if (move.point) announce(++sequence == 0 ? ++sequence : sequence, move);
             line("G1 " + coordinate_word(order_.axis, move.coordinate_mm));
+            if (move.table_position) turn_table(*move.table_position);
             if (move.point)
                 capture(sequence, move);
             else if (!std::exchange(begun, true))
@@ -46,6 +48,22 @@ private:
     }
     [[nodiscard]] bool handshake() const { return order_.shape != TriggerShape::dwell; }
     [[nodiscard]] bool coil() const { return order_.shape == TriggerShape::coil_and_index; }
+
+    [[nodiscard]] bool with_table() const {
+        return order_.rotary && order_.rotary->method == AngleMethod::indexing_table;
+    }
+    [[nodiscard]] std::vector<ProgramMove> moves() const {
+        return with_table() ? moves_with_table(order_.plan, *order_.rotary) : moves_of(order_.plan);
+    }
+    /// A driven table hears analog-out-06; a person reads the message and starts the program again.
+    void turn_table(int position) {
+        line("(MSG,axiscal: indexing table to position " + std::to_string(position) + ")");
+        line("M68 E6 Q" + std::to_string(position));
+        if (order_.rotary->by_hand)
+            line("M0");
+        else
+            dwell(seconds_of(order_.rotary->turn_time));
+    }
 
     void head() {
         line("(axiscal " + program_id(order_.plan) + ")");
@@ -143,6 +161,11 @@ Result<std::string> write_linuxcnc(const ProgramOrder& order) {
                     "a dwell of " + std::to_string(seconds_of(order.dwell)) +
                         " s is shorter than the station needs to see the halt (" +
                         std::to_string(seconds_of(order.least_halt)) + " s): lengthen cycle.dwell");
+    if (order.retakes && order.rotary && order.rotary->method == AngleMethod::indexing_table)
+        return fail(
+            Fault::bad_request,
+            "nobody tells a program where the indexing table stands now: drive to the points "
+            "by hand, from the asked side, and take them with 'axiscal trigger'");
     return Writer{order}.write();
 }
 

@@ -12,6 +12,10 @@ Result<std::string> write_marlin(const ProgramOrder& order) {
     if (order.shape != TriggerShape::dwell)
         return fail(Fault::bad_request,
                     "Marlin cannot wait for the station's answer: set trigger.shape = \"dwell\"");
+    if (order.rotary)
+        return fail(Fault::bad_request,
+                    "a rotary axis needs a control that waits for the station and for the indexing "
+                    "table: use the dialect linuxcnc");
     if (order.dwell < order.least_halt)
         return fail(Fault::bad_request,
                     "a dwell of " + std::to_string(seconds_of(order.dwell)) +

@@ -1,5 +1,7 @@
 #include "acquisition/program/part_program.hpp"
 
+#include "acquisition/program/table_halts.hpp"
+#include "analysis/rotary/rotary_position.hpp"
 #include "drivers/framing/checksum.hpp"
 
 #include <algorithm>
@@ -25,14 +27,36 @@ std::vector<ProgramMove> moves_of(const RunPlan& plan) {
     constexpr double slack_mm = 1e-7;
     const double overrun_mm = plan.overrun.in(mm);
     double here_mm = plan.datum.in(mm);
-    std::vector<ProgramMove> moves{{here_mm, nullptr}};
+    std::vector<ProgramMove> moves{{here_mm, nullptr, {}}};
     for (const PlannedPoint& point : plan.points) {
         const double target_mm = plan.targets[static_cast<std::size_t>(point.target_index)].in(mm);
         const double side = point.direction == Direction::positive ? 1.0 : -1.0;
         if (side * (target_mm - here_mm) < overrun_mm - slack_mm)
-            moves.push_back({target_mm - side * overrun_mm, nullptr});
-        moves.push_back({target_mm, &point});
+            moves.push_back({target_mm - side * overrun_mm, nullptr, {}});
+        moves.push_back({target_mm, &point, {}});
         here_mm = target_mm;
+    }
+    return moves;
+}
+
+std::vector<ProgramMove> moves_with_table(const RunPlan& plan, const RotarySetup& setup) {
+    const double datum_deg = plan.datum.in(mm), overrun_deg = plan.overrun.in(mm);
+    double here_deg = datum_deg;
+    int position = 0;
+    std::vector<ProgramMove> moves{{datum_deg, nullptr, 0}};
+    for (const PlannedPoint& point : plan.points) {
+        const Length target = plan.targets[static_cast<std::size_t>(point.target_index)];
+        const double side = point.direction == Direction::positive ? 1.0 : -1.0;
+        const double begin_deg = target.in(mm)-side * overrun_deg;
+        const int wanted = artefact_index(setup, plan.datum, target);
+        const auto halts = table_halts(setup, datum_deg, here_deg, position, begin_deg, wanted);
+        for (const TableHalt& halt : halts)
+            moves.push_back({halt.coordinate_deg, nullptr, halt.position});
+        if (halts.empty() || halts.back().coordinate_deg != begin_deg)
+            moves.push_back({begin_deg, nullptr, {}});
+        moves.push_back({target.in(mm), &point, {}});
+        position = wanted;
+        here_deg = target.in(mm);
     }
     return moves;
 }

@@ -4,6 +4,7 @@
 #include "analysis/run_record.hpp"
 #include "config/station_config.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,18 +23,23 @@ struct ProgramOrder {
     /// instead of 0 and counts on.
     bool retakes = false;
     std::uint16_t last_request = 0;
+    std::optional<RotarySetup> rotary{}; ///< of a rotary axis
     Duration least_halt{}; ///< dwell trigger: minimum halt + window; a shorter dwell is refused
 };
 
 /// One move of the cycle, before any dialect: where to, and whether a point is taken there.
 struct ProgramMove {
     double coordinate_mm = 0;
-    const PlannedPoint* point = nullptr; ///< nullptr: over-travel or datum
+    const PlannedPoint* point = nullptr;    ///< nullptr: over-travel or datum
+    std::optional<int> table_position = {}; ///< the indexing table is turned there, the axis halts
 };
 
 /// The motion of the plan: datum, then every point reached from its own side by at least the
 /// overrun, with the over-travel moves that this needs.
 std::vector<ProgramMove> moves_of(const RunPlan& plan);
+/// The same of an axis under an indexing table: strides that keep the interferometer in its range,
+/// a halt before each approach at which the table is turned, then the approach by the overrun.
+std::vector<ProgramMove> moves_with_table(const RunPlan& plan, const RotarySetup& setup);
 
 struct ProgramDialect {
     std::string_view name;      ///< "linuxcnc", "marlin"

@@ -17,9 +17,12 @@ namespace axiscal {
 ///   # not_evaluated,<key>,<reason>
 ///   # budget,<term>,<u>,<unit>,<formula>,<status>         standard uncertainties
 ///   # preliminary,not stated,<what>                       absent when the certificate is final
-///   run,direction,target_mm,measured_mm,deviation_um,t_air_degC,p_Pa,rh_percent,t_mat_degC,time
+///   # synchronisation,<um>,um,largest of <n> captures; <m> not stated     or: not stated
+///   run,direction,target_mm,measured_mm,deviation_um,t_air_degC,p_Pa,rh_percent,t_mat_degC,time,
+///                               synchronisation_um
 /// `run` counts the approaches from 1, `direction` is "forward" or "backward", `measured` is
-/// target + deviation at 20 °C, `time` is UTC of the middle of the window. Rows stand in the order
+/// target + deviation at 20 °C, `time` is UTC of the middle of the window,
+/// `synchronisation_um` what the uncertain time of its samples adds. Rows stand in the order
 /// of measuring. A rotary axis has target_deg, measured_deg, deviation_arcsec. Numbers are the
 /// shortest decimals that read back as the same double; what is not known is empty. Fields with
 /// commas or quotes are quoted.

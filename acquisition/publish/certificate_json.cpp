@@ -65,6 +65,24 @@ Json statement_of(const std::optional<UncertaintySetup>& setup) {
     return object;
 }
 
+/// The same of a rotary axis: lengths stand for degrees.
+Json statement_of_angle(const std::optional<UncertaintySetup>& setup) {
+    if (!setup) return {};
+    const auto in_arcsec = [](const std::optional<Length>& angle) {
+        return angle ? Json(arcsec_of(*angle)) : Json{};
+    };
+    Json object;
+    object["device_arcsec"] = in_arcsec(setup->device_U.fixed);
+    object["device_k"] = setup->device_k;
+    object["device_width_arcsec"] = in_arcsec(setup->device_width.fixed);
+    object["eve_arcsec"] = in_arcsec(setup->eve);
+    object["eve_model"] = name_of(setup->eve_model);
+    object["target_arcsec"] = Json::object();
+    for (const auto& [parameter, limit] : setup->targets)
+        object["target_arcsec"][parameter] = arcsec_of(limit);
+    return object;
+}
+
 Json setup_of(const RunRecord& run) {
     Json object;
     object["laser"]["instrument"] = stated_json(run.laser.instrument);
@@ -82,7 +100,24 @@ Json setup_of(const RunRecord& run) {
     object["air"]["formula"] = name_of(run.air.formula);
     object["air"]["co2_ppm"] = run.air.co2_ppm;
     object["air"]["oldest_s"] = seconds_of(run.air.oldest);
-    object["uncertainty"] = statement_of(run.uncertainty);
+    object["uncertainty"] =
+        run.rotary ? statement_of_angle(run.uncertainty) : statement_of(run.uncertainty);
+    return object;
+}
+
+/// Null of a linear axis.
+Json rotary_of(const std::optional<RotarySetup>& rotary) {
+    if (!rotary) return {};
+    Json object;
+    object["method"] = name_of(rotary->method);
+    object["step_deg"] = rotary->step_deg;
+    object["arm_mm"] = rotary->arm > Length{} ? Json(rotary->arm.in(mm)) : Json{};
+    object["range_deg"] = rotary->range_deg;
+    object["turn_time_s"] = seconds_of(rotary->turn_time);
+    object["turned_by_hand"] = rotary->by_hand;
+    object["deviations_arcsec"] = rotary->deviations_arcsec;
+    object["certificate_sense"] = rotary->certificate_with_axis ? "with_axis" : "against_axis";
+    object["run_out"] = stated_json(rotary->run_out);
     return object;
 }
 
@@ -126,6 +161,27 @@ Json set_aside_of(const Certificate& certificate) {
     return list;
 }
 
+/// Null where nothing is stated: a file before format 4, an instrument whose clock tells no u(t).
+Json synchronisation_json(const Certificate& certificate) {
+    const auto& records = certificate.attachments.synchronisation;
+    const SynchronisationSummary over = summarize_synchronisation(certificate.run, records);
+    if (!over.largest) return {};
+    Json object;
+    object["rule"] = "|slope of the window| * u(t) of its samples";
+    object["captures"] = over.captures;
+    object["stated"] = over.stated;
+    object["largest_um"] = over.largest->stated->error_um;
+    object["largest_step"] = over.largest->step;
+    object["readings"] = Json::array();
+    for (const auto& [step, datum_id, stated] : records)
+        object["readings"].push_back(
+            {{"step", step},
+             {"datum", datum_id},
+             {"u_t_us", stated ? Json(seconds_of(stated->time_uncertainty) * 1e6) : Json{}},
+             {"error_um", stated ? Json(stated->error_um) : Json{}}});
+    return object;
+}
+
 Json run_of(const Certificate& certificate) {
     const RunRecord& run = certificate.run;
     Json object;
@@ -142,9 +198,12 @@ Json run_of(const Certificate& certificate) {
     object["statements"] = statements_json(certificate.run.statements);
     object["plan"] = plan_of(certificate);
     object.update(setup_of(run));
+    object["rotary"] = rotary_of(run.rotary);
     object["instruments"] = instruments_json(run.instruments, run_date_of(run));
+    object["calibrations"] = calibrations_json(run.calibrations, run.channels, run_date_of(run));
     object["alignment"] = alignment_to_json(certificate.attachments.alignment);
     object["datums"] = datums_of(run);
+    object["synchronisation"] = synchronisation_json(certificate);
     object["deviations"]["sign"] = "actual minus target";
     object["deviations"]["forward"] = certificate.deviations.forward();
     if (!certificate.deviations.backward().empty())
@@ -166,7 +225,7 @@ Json environment_of(const Certificate& certificate) {
         object["quantity"] = name_of(summary.kind);
         object["medium"] = name_of(summary.medium);
         object["unit"] = stored_unit_of(summary.kind);
-        object["correction"] = summary.correction;
+        object["correction"] = summary.by_table ? Json{} : Json(summary.correction);
         object["readings"] = summary.readings;
         const bool read = summary.readings > 0;
         object["first"] = read ? Json(summary.first) : Json{};
@@ -220,7 +279,8 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
     std::map<std::string, double> targets;
     if (certificate.run.uncertainty)
         for (const auto& [parameter, limit] : certificate.run.uncertainty->targets)
-            targets[parameter] = limit.in(um) / budget_units_per(certificate.result.unit);
+            targets[parameter] =
+                in_budget_units(certificate.run, limit) / budget_units_per(certificate.result.unit);
     if (known.budget)
         add_uncertainty_json(document, *known.budget, targets, certificate.result.unit);
     if (known.budget && known.simulation)

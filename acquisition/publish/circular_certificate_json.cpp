@@ -138,6 +138,12 @@ Json capture_of(const CircularMeasurement& measured) {
     return object;
 }
 
+/// Null where a sample of the arc states no u(t).
+Json synchronisation_json(const std::optional<Synchronisation>& stated) {
+    if (!stated) return {};
+    return {{"u_t_us", seconds_of(stated->time_uncertainty) * 1e6}, {"error_um", stated->error_um}};
+}
+
 Json circles_of(const CircularRun& run) {
     Json list = Json::array();
     for (const CircleCapture& circle : run.circles) {
@@ -149,6 +155,7 @@ Json circles_of(const CircularRun& run) {
         object["start_from"] = name_of(circle.start);
         object["residual_mm"] = circle.residual_mm;
         object["missing_readings"] = circle.missing;
+        object["synchronisation"] = synchronisation_json(circle.synchronisation);
         list.push_back(std::move(object));
     }
     return list;
@@ -187,6 +194,8 @@ Json run_of(const CircularCertificate& certificate) {
         object["circles"] = circles_of(run);
     }
     object["instruments"] = instruments_json(run.instruments, measured.started_utc.substr(0, 10));
+    object["calibrations"] =
+        calibrations_json(run.calibrations, run.channels, measured.started_utc.substr(0, 10));
     if (!measured.taken_elsewhere) object["preflight"] = preflight_json(run.preflight);
     object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;

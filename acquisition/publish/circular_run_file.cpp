@@ -2,6 +2,7 @@
 
 #include "acquisition/journal/stream_packing.hpp"
 #include "analysis/circular/circle_cut.hpp"
+#include "analysis/stream_rate.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -88,6 +89,7 @@ CircularRun header_of(const RunRecord& run, const CircularSetup& setup) {
     circular.statements = run.statements;
     circular.instruments = run.instruments;
     circular.channels = run.channels;
+    circular.calibrations = run.calibrations;
     circular.machine_alpha_per_K = setup.machine_alpha_per_K;
     circular.uncertainty = setup.uncertainty;
     circular.events = run.events;
@@ -109,11 +111,15 @@ Result<CircularRun> circular_run_of(const RunFileContents& contents) {
     circular.preflight = contents.revisions.preflight;
     AXISCAL_TRY(const StreamSamples stream,
                 samples_of(contents.blocks, contents.streams.front().id));
+    // That of the set-up was seen in the second before arming; this one spans the run.
+    if (const double seen = nominal_rate_hz(stream); seen > 0)
+        circular.capture.sample_rate_hz = seen;
     circular.gaps = stream.gaps.size();
     circular.dropped_blocks = stream.dropped_blocks;
     for (const StreamGap& gap : stream.gaps)
         circular.missing += gap.missing;
-    AXISCAL_TRY(circular.circles, cut_circles(setup, stream, circle_marks(contents.run.events)));
+    AXISCAL_TRY(circular.circles,
+                cut_circles(setup, stream, circle_marks(setup.plan, contents.run.events)));
     take_temperatures(circular, contents.run, setup);
     return circular;
 }

@@ -9,22 +9,47 @@ namespace axiscal {
 std::size_t Publisher::pass() {
     const auto run_ids = entry_names(settings_.outbox);
     if (run_ids.empty() || !destination_ready()) return run_ids.size();
-    std::size_t gone = 0;
-    for (const auto& run_id : run_ids) {
-        if (!listener_.go_on()) break;
-        if (!is_due(run_id)) continue;
-        if (auto done = publish(run_id); done) {
-            troubles_.erase(run_id);
-            ++gone;
-        } else {
-            const bool lost = is_share_lost(done.error());
-            remember(lost ? "" : run_id, done.error());
-            if (lost) break;
-        }
-    }
+    auto [own, others] = shared_out(run_ids);
+    const auto wait_for_second_hand = others.empty() ? nullptr : settings_.second_hand(others);
+    const bool may_go_on = publish_all(own);
+    if (wait_for_second_hand) wait_for_second_hand();
+    // What the second hand left is done here, where its trouble is remembered and told.
+    const auto still_there = entry_names(settings_.outbox);
+    std::erase_if(others, [&](const std::string& run_id) {
+        return !std::ranges::binary_search(still_there, run_id);
+    });
+    if (may_go_on) publish_all(others);
+    const auto left = entry_names(settings_.outbox);
     // Moves that a power cut undoes are made again: the receipts are on disk.
-    if (gone > 0) static_cast<void>(sync_outbox(settings_.outbox));
-    return run_ids.size() - gone;
+    if (left != run_ids) static_cast<void>(sync_outbox(settings_.outbox));
+    return left.size();
+}
+
+/// Every other entry is for the second hand, where one is worth its session and nothing is wrong.
+Publisher::Shares Publisher::shared_out(const std::vector<std::string>& run_ids) const {
+    constexpr std::size_t worth_a_session = 16;
+    if (!settings_.second_hand || !troubles_.empty() || run_ids.size() < worth_a_session)
+        return {run_ids, {}};
+    Shares shares;
+    for (const std::string& run_id : run_ids)
+        (shares.own.size() > shares.others.size() ? shares.others : shares.own).push_back(run_id);
+    return shares;
+}
+
+bool Publisher::publish_all(const std::vector<std::string>& run_ids) {
+    for (const auto& run_id : run_ids) {
+        if (!listener_.go_on()) return false;
+        if (!is_due(run_id)) continue;
+        const auto done = publish(run_id);
+        if (done) {
+            troubles_.erase(run_id);
+            continue;
+        }
+        const bool lost = is_share_lost(done.error());
+        remember(lost ? "" : run_id, done.error());
+        if (lost) return false;
+    }
+    return true;
 }
 
 std::optional<MonotonicTime> Publisher::next_due() const {
@@ -51,14 +76,12 @@ bool Publisher::is_due(const std::string& run_id) const {
 // ended in between) only needs to be moved.
 Result<void> Publisher::publish(const std::string& run_id) {
     AXISCAL_TRY(auto entry, read_entry(settings_.outbox, run_id));
-    if (!entry.has_receipt) {
-        const Progress progress = [this] { listener_.progress(); };
-        AXISCAL_TRY(const auto receipt, copy_entry(entry, destination_, clock_.utc_ns(), progress));
+    const Progress progress = [this] { listener_.progress(); };
+    AXISCAL_TRY(const auto receipt, deliver_entry(entry, destination_, clock_.utc_ns(), progress));
+    if (receipt) {
         // Only what arrived proves that the destination is back: a full disk passes its check.
         if (troubles_.erase("") > 0) listener_.destination_back();
-        AXISCAL_CHECK(write_receipt(entry, receipt));
-        entry.has_receipt = true;
-        listener_.published(receipt);
+        listener_.published(*receipt);
     }
     AXISCAL_TRY([[maybe_unused]] const auto place, archive_entry(entry));
     return {};

@@ -15,6 +15,10 @@ namespace axiscal {
 struct PublisherSettings {
     std::string outbox;
     Duration retry = std::chrono::seconds{5}; ///< first pause; doubles up to sixteen times that
+    /// Begins with these entries beside the caller and answers how to wait for its end
+    /// (SecondHand). It may leave any entry as it was.
+    using Beginner = std::function<std::function<void()>(const std::vector<std::string>&)>;
+    Beginner second_hand = nullptr; ///< null: one hand does all
 };
 
 /// Time as the publisher needs it; a call to a share may have taken long.
@@ -51,7 +55,7 @@ public:
         , listener_{listener} {}
 
     /// Tries every entry that is due; a destination that is lost ends the pass. Returns how many
-    /// entries still wait.
+    /// entries wait now.
     std::size_t pass();
     /// When the next waiting entry is due; empty when nothing waits.
     [[nodiscard]] std::optional<MonotonicTime> next_due() const;
@@ -62,7 +66,13 @@ private:
         Duration pause{};
         MonotonicTime due{};
     };
+    struct Shares {
+        std::vector<std::string> own, others;
+    };
     bool destination_ready();
+    [[nodiscard]] Shares shared_out(const std::vector<std::string>& run_ids) const;
+    /// @returns false when the pass ends here: the destination is lost, or the listener says stop.
+    bool publish_all(const std::vector<std::string>& run_ids);
     [[nodiscard]] bool is_due(const std::string& run_id) const;
     Result<void> publish(const std::string& run_id);
     void remember(const std::string& run_id, const Error& why);

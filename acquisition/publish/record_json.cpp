@@ -2,9 +2,19 @@
 
 #include "analysis/certificate_expiry.hpp"
 
+#include <algorithm>
+
 namespace axiscal {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json number_or_null(const std::optional<double>& value) {
+    return value ? Json(*value) : Json{};
+}
+
+} // namespace
 
 /// Json(x), not Json{x}: braces make an array of one.
 Json stated_json(const std::string& text) {
@@ -49,6 +59,30 @@ Json instruments_json(const std::vector<InstrumentRecord>& instruments, const st
         object["calibrated_on"] = stated_json(instrument.calibrated_on);
         object["due_on"] = stated_json(instrument.due_on);
         object["expired"] = has_expired(instrument.due_on, date);
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
+Json calibrations_json(const std::vector<ChannelCalibration>& calibrations,
+                       const std::vector<ChannelRecord>& channels,
+                       const std::string& date) {
+    Json list = Json::array();
+    for (const ChannelCalibration& calibration : calibrations) {
+        const auto channel = std::ranges::find(channels, calibration.channel, &ChannelRecord::id);
+        Json object;
+        object["channel"] = channel == channels.end() ? Json{} : Json(channel->name);
+        object["certificate_number"] = stated_json(calibration.certificate_number);
+        object["calibrated_on"] = stated_json(calibration.calibrated_on);
+        object["due_on"] = stated_json(calibration.due_on);
+        object["expired"] = has_expired(calibration.due_on, date);
+        object["expanded_uncertainty"] = number_or_null(calibration.expanded_uncertainty);
+        object["expanded_uncertainty_per_m"] =
+            number_or_null(calibration.expanded_uncertainty_per_m);
+        object["k"] = calibration.coverage;
+        object["corrections"] = Json::array();
+        for (const auto& [reading, correction] : calibration.corrections)
+            object["corrections"].push_back({{"reading", reading}, {"correction", correction}});
         list.push_back(std::move(object));
     }
     return list;

@@ -19,6 +19,11 @@ nlohmann::ordered_json statements_json(const Statements& said);
 nlohmann::ordered_json instruments_json(const std::vector<InstrumentRecord>& instruments,
                                         const std::string& date);
 
+/// Certificates of single channels; `date` as above.
+nlohmann::ordered_json calibrations_json(const std::vector<ChannelCalibration>& calibrations,
+                                         const std::vector<ChannelRecord>& channels,
+                                         const std::string& date);
+
 nlohmann::ordered_json preflight_json(const std::vector<PreflightRecord>& checks);
 
 nlohmann::ordered_json events_json(const std::vector<EventRecord>& events, const ClockTie& opened);

@@ -53,6 +53,8 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     if (!contents.closed) return still_open(run_file);
     if (contents.attachments.drift)
         return fail(Fault::refused, run_file + " is a drift test: it has no points");
+    if (contents.attachments.probing)
+        return fail(Fault::refused, run_file + " is a probing test: it has no points");
     AXISCAL_TRY(Certificate certificate,
                 make_certificate(std::move(contents.run), std::move(contents.revisions),
                                  std::move(sha256)));

@@ -7,6 +7,7 @@
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/drift_document.hpp"
+#include "acquisition/publish/probing_document.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 
 #include <array>
@@ -35,6 +36,7 @@ constexpr std::array held_places{"/parameters",
                                  "/run/bar",
                                  "/run/config_sha256",
                                  "/run/datums",
+                                 "/run/synchronisation",
                                  "/run/result_digest",
                                  "/run/run_file_sha256"};
 
@@ -126,6 +128,11 @@ Result<Json> document_of_run_file(const std::string& run_file, std::string& dige
         return circular_certificate_to_json(made);
     }
     AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
+    if (summary.probing) {
+        AXISCAL_TRY(const ProbingDocument made, probing_of_run_file(run_file));
+        digest = made.result_digest;
+        return probing_to_json(made);
+    }
     if (summary.drift) {
         AXISCAL_TRY(const DriftDocument made, drift_of_run_file(run_file));
         digest = made.result_digest;

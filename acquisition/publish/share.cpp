@@ -137,6 +137,17 @@ Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
                           iso8601_utc(utc_ns), std::move(journey.files)};
 }
 
+Result<std::optional<PublishReceipt>> deliver_entry(OutboxEntry& entry,
+                                                    Destination& destination,
+                                                    std::int64_t utc_ns,
+                                                    const Progress& progress) {
+    if (entry.has_receipt) return std::nullopt;
+    AXISCAL_TRY(auto receipt, copy_entry(entry, destination, utc_ns, progress));
+    AXISCAL_CHECK(write_receipt(entry, receipt));
+    entry.has_receipt = true;
+    return std::optional{std::move(receipt)};
+}
+
 std::string mark_of(const std::string& outbox) {
     std::string machine;
     std::getline(std::ifstream{"/etc/machine-id"}, machine);

@@ -6,6 +6,7 @@
 #include "acquisition/publish/outbox.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,13 @@ Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
                                   Destination& destination,
                                   std::int64_t utc_ns,
                                   const Progress& progress = {});
+
+/// Copies an entry that has no receipt and writes it into the entry; then it may be archived.
+/// Returns the receipt; none where one lay there already. @errors of both.
+Result<std::optional<PublishReceipt>> deliver_entry(OutboxEntry& entry,
+                                                    Destination& destination,
+                                                    std::int64_t utc_ns,
+                                                    const Progress& progress = {});
 
 /// Writes receipt.json into the entry, synced.
 Result<void> write_receipt(const OutboxEntry& entry, const PublishReceipt& receipt);

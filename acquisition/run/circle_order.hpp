@@ -1,5 +1,6 @@
 #pragma once
-// The order of requests in a circular test: n before circle n, one more after the last. Pure.
+// The order of requests in a circular test: one before each circle, with StartMethod::trigger also
+// one at each end of its arc, one more after the last circle. Pure.
 
 #include "analysis/circular/circular_setup.hpp"
 #include "drivers/trigger_port.hpp"
@@ -11,7 +12,7 @@ namespace axiscal {
 
 enum class CircleAnswer : std::uint8_t {
     ignore, ///< idle, or this request is under way
-    begin,  ///< circle `sequence` comes next: make it durable, then acknowledge
+    begin,  ///< circle `sequence` comes next, or its arc: make it durable, then acknowledge
     end,    ///< the last circle was driven
     again,  ///< the last durable request came again: acknowledge it again
     abort,  ///< the CNC gives up
@@ -46,14 +47,18 @@ public:
     void failed() { pending_.reset(); }
 
     [[nodiscard]] int circles() const { return static_cast<int>(circles_.size()); }
-    [[nodiscard]] int begun() const { return last_ > circles() ? circles() : last_; }
+    [[nodiscard]] int begun() const;
     [[nodiscard]] std::uint16_t last_durable() const { return static_cast<std::uint16_t>(last_); }
 
 private:
+    [[nodiscard]] int requests() const { return circles() * requests_a_circle_; }
+    /// The request before the circle that `sequence` speaks of.
+    [[nodiscard]] int first_of(int sequence) const;
     [[nodiscard]] std::string words_of(int sequence, const char* begins) const;
     [[nodiscard]] CircleVerdict out_of_order(int wanted) const;
 
     std::vector<PlannedCircle> circles_;
+    int requests_a_circle_ = 1;
     int last_ = 0;             ///< sequence that is durable
     bool interrupted_ = false; ///< since then, and nothing was asked yet
     bool whole_ = false;       ///< and its circle was recorded all the same

@@ -49,7 +49,7 @@ std::string doubt_about_zero(const RecordedCircles& from, const BarNow& now) {
 
 CircleResume decide_circle_resume(const RecordedCircles& from, const BarNow& now) {
     const std::size_t circles = planned_circles(from.setup.plan).size();
-    const auto marks = circle_marks(from.run.events);
+    const auto marks = circle_marks(from.setup.plan, from.run.events);
     const int circle = marks.empty() ? 0 : marks.back().number;
     CirclesBefore before;
     before.last = last_request_of(from.run);

@@ -2,6 +2,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/pass_targets.hpp"
+#include "acquisition/run/principal_positions.hpp"
 
 #include <algorithm>
 
@@ -57,6 +58,13 @@ Result<Length> datum_of(const CycleConfig& config, Length first) {
     return datum;
 }
 
+/// A list may leave them out, too; the certificate says so.
+std::string principal_positions_left_out(const Pass& pass, const RunPlan& plan) {
+    if (plan.axis_kind != AxisKind::rotary || is_long_travel(pass.config, pass.end - pass.begin))
+        return {};
+    return missing_principal_positions(plan.targets, lowest(pass), highest(pass));
+}
+
 /// Everything but the phases.
 Result<RunPlan> build_pass(const Pass& pass) {
     const auto& config = pass.config;
@@ -76,6 +84,8 @@ Result<RunPlan> build_pass(const Pass& pass) {
     plan.targets = std::move(targets.positions);
     if (auto told = check_near_tolerance(plan, config); !told)
         return tl::unexpected<Error>(told.error());
+    if (const std::string missing = principal_positions_left_out(pass, plan); !missing.empty())
+        plan.remark = "No target stands at the principal positions " + missing + " degrees.";
     plan.points = order_points(plan.cycle, static_cast<int>(plan.targets.size()), plan.approaches,
                                plan.bidirectional);
     return plan;
@@ -176,8 +186,7 @@ Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_
     if (auto sound = check_basics(config); !sound) return tl::unexpected<Error>(sound.error());
     const auto seed = config.seed.value_or(fresh_seed);
     const bool rotary = config.axis_kind == AxisKind::rotary;
-    const bool is_long =
-        config.travel_high - config.travel_low > (rotary ? full_turn : long_axis) + rounding;
+    const bool is_long = is_long_travel(config, config.travel_high - config.travel_low);
     auto whole = whole_pass(config, seed);
     if (is_long) {
         whole.config.approaches = 1;

@@ -1,6 +1,7 @@
 #include "acquisition/run/pass_targets.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/run/principal_positions.hpp"
 #include "analysis/positioning/target_rule.hpp"
 
 #include <algorithm>
@@ -19,10 +20,23 @@ Result<Length> interval_of(const Pass& pass) {
         return refuse_plan("interval", "Give a list of targets, an interval, or a target count.");
     if (config.target_count && *config.target_count < 2)
         return refuse_plan("target_count", "At least 2 targets are needed.");
-    if (!config.interval)
-        return whole_steps_below((highest(pass) - lowest(pass) - target_step) /
-                                 (*config.target_count - 1 + 2 * random_share));
-    return whole_steps_below(*config.interval);
+    if (config.interval) return whole_steps_below(*config.interval);
+    const Length widest = whole_steps_below((highest(pass) - lowest(pass) - target_step) /
+                                            (*config.target_count - 1 + 2 * random_share));
+    return config.axis_kind == AxisKind::rotary ? std::min(widest, turn_interval) : widest;
+}
+
+/// 0, 90, 180 and 270 degrees are asked for on a rotary axis of up to one turn.
+bool wants_principal_positions(const Pass& pass) {
+    return pass.config.axis_kind == AxisKind::rotary &&
+           !is_long_travel(pass.config, pass.end - pass.begin);
+}
+
+Length usual_first_target(const Pass& pass, Length interval) {
+    if (wants_principal_positions(pass))
+        return first_for_principal_positions(lowest(pass), highest(pass), interval,
+                                             pass.config.target_count.value_or(0));
+    return whole_steps_above(lowest(pass) + interval * random_share);
 }
 
 Result<PassTargets> draw_targets(const Pass& pass) {
@@ -31,30 +45,37 @@ Result<PassTargets> draw_targets(const Pass& pass) {
     if (interval < 10 * target_step)
         return refuse_plan("interval", "An interval of " + in_unit(config, interval) +
                                            " is too small to draw a random part.");
-    const auto reach = interval * random_share;
     const auto low = lowest(pass), high = highest(pass);
-    const auto first = config.first_target.value_or(whole_steps_above(low + reach));
-    const double steps_that_fit = (high - reach - first) / interval;
-    const int fit = static_cast<int>(std::floor(steps_that_fit + 1e-6)) + 1;
+    const auto first = config.first_target.value_or(usual_first_target(pass, interval));
+    const bool principal = wants_principal_positions(pass);
+    const auto reach_at = [&](Length place) {
+        return principal && is_principal_position(place) ? Length{} : interval * random_share;
+    };
+    int fit = static_cast<int>(std::floor((high - first) / interval + 1e-6)) + 1;
+    const Length end = first + interval * (fit - 1);
+    if (fit > 0 && end + reach_at(end) > high + interval * 1e-6) --fit;
     const int count = config.target_count.value_or(fit);
-    if (first - reach < low - rounding)
+    const Length last = first + interval * (count - 1);
+    if (first - reach_at(first) < low - rounding)
         return refuse_plan("first_target", "The first target may fall to " +
-                                               in_unit(config, first - reach) +
+                                               in_unit(config, first - reach_at(first)) +
                                                "; with its overrun the lowest possible is " +
                                                in_unit(config, low) + ".");
     if (count > fit)
-        return refuse_plan(
-            "target_count",
-            std::to_string(count) + " targets at intervals of " + in_unit(config, interval) +
-                " reach up to " + in_unit(config, first + interval * (count - 1) + reach) +
-                "; with the overrun the highest possible is " + in_unit(config, high) + ": " +
-                std::to_string(std::max(fit, 0)) + " fit.");
+        return refuse_plan("target_count", std::to_string(count) + " targets at intervals of " +
+                                               in_unit(config, interval) + " reach up to " +
+                                               in_unit(config, last + reach_at(last)) +
+                                               "; with the overrun the highest possible is " +
+                                               in_unit(config, high) + ": " +
+                                               std::to_string(std::max(fit, 0)) + " fit.");
     if (config.cycle == CycleKind::standard && config.overrun > (1 - 2 * random_share) * interval)
         return refuse_plan("overrun", "An overrun of " + in_unit(config, config.overrun) +
                                           " is longer than the shortest way between two targets, "
                                           "0.4 of the interval: take an interval of " +
                                           in_unit(config, config.overrun / 0.4) + " or more.");
-    return PassTargets{spread_targets(first, interval, count, pass.seed), interval, pass.seed};
+    PassTargets drawn{spread_targets(first, interval, count, pass.seed), interval, pass.seed};
+    if (principal) take_principal_positions(drawn.positions, first, interval, low, high);
+    return drawn;
 }
 
 Result<PassTargets> listed_targets(const Pass& pass) {
@@ -128,8 +149,12 @@ Result<void> check_standard(const Pass& pass, const PassTargets& targets) {
     const auto& config = pass.config;
     const bool rotary = config.axis_kind == AxisKind::rotary;
     const auto travel = pass.end - pass.begin;
-    if (travel > (rotary ? full_turn : long_axis) + rounding)
+    if (is_long_travel(config, travel))
         return check_long_pass(pass, targets, rotary ? turn_interval : long_interval);
+    if (rotary && targets.interval > turn_interval + rounding)
+        return refuse_plan("interval", "The mean interval of " + in_unit(config, targets.interval) +
+                                           " exceeds " + in_unit(config, turn_interval) +
+                                           ", the most on a rotary axis.");
     const int least = least_targets(config.axis_kind, travel);
     const auto count = static_cast<int>(targets.positions.size());
     if (count >= least) return {};
@@ -157,6 +182,12 @@ Length lowest(const Pass& pass) {
 }
 Length highest(const Pass& pass) {
     return std::min(pass.end, pass.config.travel_high - pass.config.overrun);
+}
+
+bool is_long_travel(const CycleConfig& config, Length travel) {
+    if (config.axis_kind == AxisKind::rotary)
+        return travel - config.overrun * 2 > full_turn + rounding;
+    return travel > long_axis + rounding;
 }
 
 int least_targets(AxisKind kind, Length travel) {

@@ -35,6 +35,10 @@ struct PassTargets {
 /// interval (250 mm, 45 degrees): 2.
 int least_targets(AxisKind kind, Length travel);
 
+/// Beyond 2000 mm, or beyond one turn between the overruns of a rotary axis, one approach each way
+/// is what the standard asks for.
+bool is_long_travel(const CycleConfig& config, Length travel);
+
 /// "12.5 mm" | "12.5 degree".
 std::string in_unit(const CycleConfig& config, Length length);
 tl::unexpected<Error> refuse_plan(std::string field, std::string reason);

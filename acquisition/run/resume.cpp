@@ -199,6 +199,9 @@ decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const 
                     serial + "'."};
     auto datum = judge_datum(run, now);
     if (datum.fault != Fault::none) return datum;
+    if (!now.outside_limits.empty())
+        return {ResumeDecision::close_environment, Fault::environment_outside,
+                "The environment is out of limits: " + now.outside_limits + "."};
     auto verdict = judge_first_request(last_durable_request(run).sequence, request);
     if (!request && !datum.sentence.empty())
         verdict.sentence = datum.sentence;

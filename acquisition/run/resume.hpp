@@ -20,7 +20,8 @@ enum class ResumeDecision : std::uint8_t {
     close_config_changed, ///< the station file is not the run's
     close_other_instrument,
     close_never_armed, ///< the daemon ended between opening the run and tying its datum
-    close_datum_lost
+    close_datum_lost,
+    close_environment ///< the air or the machine is outside the station's limits
 };
 
 struct ResumeVerdict {
@@ -77,8 +78,9 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
 /// The station as it is after the restart.
 struct StationNow {
     std::string config_hash, boot_id, laser_serial;
-    std::optional<Sample> laser; ///< first good sample; none: the laser is silent
-    ContinuityLimits limits;     ///< rate_hz 0: taken from the run
+    std::optional<Sample> laser;  ///< first good sample; none: the laser is silent
+    ContinuityLimits limits;      ///< rate_hz 0: taken from the run
+    std::string outside_limits{}; ///< of the environment, in words; empty: nothing is
 };
 
 /// The newest record that a request of the CNC made durable: point, datum by prepare (step -1),
@@ -96,8 +98,8 @@ std::optional<int> skipped_step(const EventRecord& event);
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);
 
-/// Everything: configuration, instrument, datum, then the request. A run whose datum the CNC is to
-/// tie has none to lose; one whose datum a person was tying has to be armed again.
+/// Everything: configuration, instrument, datum, environment, then the request. A run whose datum
+/// the CNC is to tie has none to lose; one whose datum a person was tying has to be armed again.
 ResumeVerdict
 decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now);
 

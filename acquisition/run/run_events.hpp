@@ -47,7 +47,8 @@ struct DiskBack {
     MonotonicTime at;
 };
 /// By what share a reading in vacuum wavelengths exceeds the length at 20 degC, from fresh air and
-/// material readings: n (1 + alpha (T - 20 degC)) - 1; or why it is not known (environment_stale).
+/// material readings: n (1 + alpha (T - 20 degC)) - 1; or why it is not known (environment_stale)
+/// or may not be used (environment_outside).
 /// Until the first one the environment counts as stale.
 struct EnvironmentNow {
     Result<double> scale_minus_1;
@@ -116,10 +117,12 @@ struct CloseWindow {
 /// Make durable; answer with Committed{point.sequence, point.step} or CommitFailed.
 struct CommitPoint {
     PointRecord point;
+    std::optional<Synchronisation> synchronisation{};
 };
 /// Answer with Committed{datum.sequence, -1}.
 struct CommitDatum {
     DatumRecord datum;
+    std::optional<Synchronisation> synchronisation{};
 };
 /// An event that is acknowledged (skip, end, abort). Answer with Committed{event.sequence, step}.
 struct CommitEvent {

@@ -192,11 +192,11 @@ void RunMachine::on(const DiskBack& back, RunActions& out) {
     if (lost->purpose == Purpose::point) {
         if (std::ranges::find(run.points, lost->step, &PointRecord::step) != run.points.end())
             return on(committed, out);
-        out.push_back(CommitPoint{lost->point});
+        out.push_back(CommitPoint{lost->point, lost->synchronisation});
     } else if (lost->purpose == Purpose::datum) {
         if (std::ranges::find(run.datums, lost->datum.id, &DatumRecord::id) != run.datums.end())
             return on(committed, out);
-        out.push_back(CommitDatum{lost->datum});
+        out.push_back(CommitDatum{lost->datum, lost->synchronisation});
     } else {
         if (lost->sequence != 0 && last_durable_request(run).sequence == lost->sequence)
             return on(committed, out);
@@ -323,6 +323,7 @@ RunView RunMachine::view() const {
     view.datum_epoch = datum_epoch_;
     view.last_position = last_position_;
     view.last_deviation = last_deviation_;
+    view.last_synchronisation = last_synchronisation_;
     view.counters = counters_;
     return view;
 }

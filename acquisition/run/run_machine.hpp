@@ -17,7 +17,8 @@ struct RunSetup {
     LaserSetup laser;
     std::string laser_serial; ///< for datum ids
     Duration capture_timeout = std::chrono::seconds{10};
-    RunRevisions revisions{}; ///< of an open run that goes on
+    RunRevisions revisions{};            ///< of an open run that goes on
+    std::optional<RotarySetup> rotary{}; ///< of a rotary axis
 };
 
 /// Counted, never silent.
@@ -39,6 +40,7 @@ struct RunView {
     std::optional<DatumRecord> datum;
     std::uint32_t datum_epoch = 0; ///< of the laser's counter now, while the datum holds
     std::optional<Length> last_position, last_deviation; ///< of the last accepted point, live
+    std::optional<Synchronisation> last_synchronisation; ///< of the last accepted point
     RunCounters counters;
 };
 
@@ -75,7 +77,8 @@ private:
         bool committing = false;
         PointRecord point;
         DatumRecord datum;
-        EventRecord event; ///< of a skip or an end
+        std::optional<Synchronisation> synchronisation; ///< of point or datum
+        EventRecord event;                              ///< of a skip or an end
     };
 
     void on(const Arm& arm, RunActions& out);
@@ -135,6 +138,8 @@ private:
                      std::optional<ApproachClaim> approach,
                      Length expected,
                      RunActions& out);
+    /// Coordinate of the axis by this reading, the artefact being where `target` wants it.
+    [[nodiscard]] Result<Length> position_of(Length reading, Length target) const;
     void accept_datum(const Capture& capture, RunActions& out);
     void accept_point(const Capture& capture, RunActions& out);
     [[nodiscard]] std::optional<Error> objection_to_place(Length position, Length target) const;
@@ -167,6 +172,7 @@ private:
     std::uint64_t windows_ = 0;
     std::optional<Refuse> last_refusal_; ///< an unchanged one is not recorded again
     std::optional<Length> last_position_, last_deviation_;
+    std::optional<Synchronisation> last_synchronisation_;
     RunCounters counters_;
 };
 

@@ -3,9 +3,11 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/live_position.hpp"
+#include "analysis/rotary/rotary_position.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace axiscal {
@@ -20,10 +22,23 @@ double counts_per_mm(AxisKind kind) {
 
 std::string in_words(const RunPlan& plan, const PlannedPoint& point, bool again) {
     return "target index " + std::to_string(point.target_index) + " at " +
-           in_mm(plan.targets[static_cast<std::size_t>(point.target_index)]) + " from the " +
-           std::string{name_of(point.direction)} + " direction (point " +
+           in_axis_unit(plan.axis_kind,
+                        plan.targets[static_cast<std::size_t>(point.target_index)]) +
+           " from the " + std::string{name_of(point.direction)} + " direction (point " +
            std::to_string(point.step + 1) + " of " + std::to_string(plan.points.size()) +
            (again ? ", to be taken again)" : ")");
+}
+
+/// What is off by whole steps is the table, not the axis.
+std::string artefact_in_words(const RotarySetup& setup, Length beside) {
+    constexpr double share_of_step = 0.1;
+    if (setup.method == AngleMethod::polygon) return {};
+    const double steps = beside.in(mm) / setup.step_deg;
+    const auto whole = std::lround(steps);
+    if (whole == 0 || std::abs(steps - static_cast<double>(whole)) > share_of_step) return {};
+    return "; this is what an indexing table shows that stands " +
+           counted(std::labs(whole), "step") +
+           (whole > 0 ? " short of its position" : " beyond its position");
 }
 
 Error datum_lost_error(const std::string& why) {
@@ -92,7 +107,8 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
     if (std::abs(*event.nominal_counts - target.in(mm)*counts) <= 1e-3 * counts)
         return std::nullopt;
     return Error{Fault::wrong_target,
-                 "The CNC claims the position " + in_mm(mm(*event.nominal_counts / counts)) + next,
+                 "The CNC claims the position " +
+                     in_axis_unit(plan.axis_kind, mm(*event.nominal_counts / counts)) + next,
                  {},
                  {}};
 }
@@ -101,13 +117,13 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     const auto step = next_step();
     if (!step) return refuse(event, {Fault::bad_command, "No point is left.", {}, {}}, out);
     if (!datum_)
-        return refuse(
-            event,
-            {Fault::no_run_armed,
-             "No datum is tied yet: send prepare at " + in_mm(setup_.plan.datum) + " first.",
-             {},
-             {}},
-            out);
+        return refuse(event,
+                      {Fault::no_run_armed,
+                       "No datum is tied yet: send prepare at " +
+                           in_axis_unit(setup_.plan.axis_kind, setup_.plan.datum) + " first.",
+                       {},
+                       {}},
+                      out);
     if (datum_broken_) {
         refuse(event, datum_lost_error("The laser's counting was interrupted since the datum."),
                out);
@@ -123,8 +139,10 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     pending.step = *step;
     pending.triggered_at = event.at;
     const PlannedPoint point = planned_at(*step);
-    const ApproachClaim approach{point.direction, setup_.laser.sign, setup_.plan.overrun,
-                                 approach_since_};
+    const Length overrun = setup_.plan.overrun;
+    const ApproachClaim approach{
+        point.direction, setup_.laser.sign,
+        setup_.rotary ? least_reading_of_way(*setup_.rotary, overrun) : overrun, approach_since_};
     open_window(std::move(pending), approach,
                 setup_.plan.targets[static_cast<std::size_t>(point.target_index)], out);
 }
@@ -162,22 +180,32 @@ void RunMachine::accept_datum(const Capture& capture, RunActions& out) {
     datum.sequence = pending_->sequence;
     datum.device_count = capture.device_count;
     pending_->committing = true;
-    out.push_back(CommitDatum{datum});
+    pending_->synchronisation = capture.synchronisation;
+    out.push_back(CommitDatum{datum, capture.synchronisation});
 }
 
 std::string RunMachine::place_in_words(Length position, Length target) const {
-    std::string text = "The axis stands at " + in_mm(position) + ", " +
-                       in_mm(abs(position - target)) + " from the target at " + in_mm(target) +
-                       "; " + in_mm(setup_.plan.near_tolerance) + " are allowed";
+    const auto shown = [this](Length at) { return in_axis_unit(setup_.plan.axis_kind, at); };
+    std::string text = "The axis stands at " + shown(position) + ", " +
+                       shown(abs(position - target)) + " from the target at " + shown(target) +
+                       "; " + shown(setup_.plan.near_tolerance) + " are allowed";
     for (const auto other : setup_.plan.targets)
         if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
-            text += "; it stands at the target at " + in_mm(other);
+            text += "; it stands at the target at " + shown(other);
+    if (setup_.rotary) text += artefact_in_words(*setup_.rotary, position - target);
     return text + ".";
+}
+
+Result<Length> RunMachine::position_of(Length reading, Length target) const {
+    if (!setup_.rotary) return live_position(setup_.laser, *datum_, reading, *scale_minus_1_);
+    const int index = artefact_index(*setup_.rotary, datum_->coordinate, target);
+    return rotary_position(*setup_.rotary, setup_.laser.sign, *datum_, reading, *scale_minus_1_,
+                           index);
 }
 
 std::optional<Error> RunMachine::objection_to_place(Length position, Length target) const {
     if (abs(position - target) <= setup_.plan.near_tolerance) return std::nullopt;
-    if (static_cast<std::size_t>(view().done) >= diagnosed_targets)
+    if (setup_.rotary || static_cast<std::size_t>(view().done) >= diagnosed_targets)
         return Error{Fault::outside_window, place_in_words(position, target), {}, {}};
     auto claims = first_claims_;
     claims.push_back({target, position});
@@ -199,7 +227,9 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     if (!scale_minus_1_) return refuse_pending(scale_minus_1_.error(), capture.end, out);
     const auto planned = planned_at(pending_->step);
     const auto target = setup_.plan.targets[static_cast<std::size_t>(planned.target_index)];
-    const auto position = live_position(setup_.laser, *datum_, capture.mean, *scale_minus_1_);
+    const auto found = position_of(capture.mean, target);
+    if (!found) return refuse_pending(found.error(), capture.end, out);
+    const Length position = *found;
     if (const auto objection = objection_to_place(position, target))
         return refuse_pending(*objection, capture.end, out);
     const auto& way = capture.approach_travel;
@@ -224,13 +254,17 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     point.slope_um_per_s = capture.slope_um_per_s;
     point.n = capture.n;
     point.approach_travel = way.value_or(Length{});
+    if (setup_.rotary)
+        point.approach_travel = point.approach_travel / reading_per_coordinate(*setup_.rotary);
     point.datum_id = datum_->id;
     point.live_deviation = position - target;
     point.samples = capture.samples;
     last_position_ = position;
     last_deviation_ = point.live_deviation;
+    last_synchronisation_ = capture.synchronisation;
     pending_->committing = true;
-    out.push_back(CommitPoint{point});
+    pending_->synchronisation = capture.synchronisation;
+    out.push_back(CommitPoint{point, capture.synchronisation});
 }
 
 void RunMachine::refuse_pending(const Error& error, MonotonicTime at, RunActions& out) {

@@ -1,6 +1,7 @@
 #include "acquisition/station/preflight.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/station/environment_limits.hpp"
 #include "analysis/drift/settling.hpp"
 
 #include <algorithm>
@@ -54,7 +55,8 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
             join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
     // At rest a ballbar may be out of its range: that it speaks is enough.
     const auto& age = facts.circular ? facts.bar_age : facts.laser_age;
-    if (!age || *age > length_limit) join(wrong, length_of(facts) + " gives no fresh reading");
+    if (!facts.typed && (!age || *age > length_limit))
+        join(wrong, length_of(facts) + " gives no fresh reading");
     if (wrong.empty())
         return passed("instruments", "Every instrument is there and its readings are fresh.");
     return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
@@ -116,6 +118,8 @@ PreflightRecord check_sensors(const PreflightFacts& facts) {
         if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
             highest = &sensor;
     }
+    if (lowest == nullptr && facts.config.axis.angle)
+        return passed("sensors", "No material sensor: an angle does not expand.");
     if (lowest == nullptr && facts.circular)
         return passed("sensors", "No material sensor: F and D stand as measured.");
     if (lowest == nullptr) return failed("sensors", "No material sensor gives a reading.");
@@ -206,6 +210,7 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
     for (const SensorFacts& strength : facts.strengths)
         if (const auto found = strength.log->lowest())
             lowest = std::min(lowest.value_or(*found), *found);
+    if (facts.typed) return passed("strength", "A person reads the autocollimator.");
     if (!lowest && facts.circular)
         return passed("strength", "The ballbar does not tell the strength of its signal.");
     if (!lowest) return passed("strength", "The laser does not tell the strength of its signal.");
@@ -267,6 +272,7 @@ PreflightRecord check_drift(const PreflightFacts& facts) {
     const PreflightConfig& limits = facts.config.preflight;
     if (limits.drift_window <= Duration{})
         return passed("drift", "Not asked: preflight.drift_window is 0.");
+    if (facts.typed) return passed("drift", "Not judged: a person reads the autocollimator.");
     constexpr double moved_um = 50; // no drift: the axis was driven
     const DriftSeries series =
         facts.circular ? readings_of_the_bar(facts) : readings_of_the_laser(facts);
@@ -349,12 +355,23 @@ PreflightRecord check_certificates(const PreflightFacts& facts) {
     std::string expired, silent;
     for (const InstrumentConfig& instrument : facts.config.instruments) {
         if (std::ranges::find(facts.in_use, instrument.name) == facts.in_use.end()) continue;
+        for (const ChannelConfig& channel : instrument.channels)
+            if (!channel.calibration.due_on.empty() && channel.calibration.due_on < facts.today)
+                join(expired, instrument.name + "/" + channel.channel +
+                                  " was due for calibration on " + channel.calibration.due_on);
         if (!instrument.due_on.empty() && instrument.due_on < facts.today)
             join(expired, instrument.name + " was due for calibration on " + instrument.due_on);
         else if (instrument.certificate_number.empty())
             join(silent, instrument.name + " has no certificate_number in the station file");
         else if (instrument.due_on.empty())
             join(silent, instrument.name + " has no due_on in the station file");
+    }
+    if (facts.config.axis.angle && !facts.circular) {
+        const InstrumentRecord& artefact = facts.config.axis.angle->artefact;
+        if (!artefact.due_on.empty() && artefact.due_on < facts.today)
+            join(expired, artefact.name + " was due for calibration on " + artefact.due_on);
+        else if (artefact.certificate_number.empty())
+            join(silent, artefact.name + " has no certificate_number in the station file");
     }
     const std::string unknown =
         silent.empty() ? "" : silent + ". Whether it is calibrated and in date is not known.";
@@ -366,12 +383,35 @@ PreflightRecord check_certificates(const PreflightFacts& facts) {
     return passed("certificates", "Every instrument has a certificate that is in date.");
 }
 
+/// Asked for, for the eccentricity of the artefact over the axis shows in the readings; what is not
+/// stated is printed as "not stated".
+PreflightRecord check_run_out(const PreflightFacts& facts) {
+    if (facts.run_out.empty())
+        return warned("run_out", "The run-out of the set-up is not stated. Turn the axis under a "
+                                 "dial gauge at the artefact's rim and say what it shows: axiscal "
+                                 "arm --state-that run_out=\"8 um\".");
+    return passed("run_out", "Run-out of the set-up: " + facts.run_out + ".");
+}
+
+PreflightRecord check_environment(const PreflightFacts& facts) {
+    const EnvironmentLimits& limits = facts.config.environment;
+    if (!limits.stated())
+        return passed("environment", "The station file states no limits of the environment.");
+    const std::string outside = outside_limits(limits, facts.sensors, facts.now);
+    if (outside.empty()) return passed("environment", "Air and machine are within their limits.");
+    return failed("environment", outside + ". Wait until it is back, or mend what drives it.");
+}
+
 } // namespace
 
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
-    return {check_instruments(facts), check_soak(facts),         check_sensors(facts),
-            check_contact(facts),     check_strength(facts),     check_drift(facts),
-            check_expansion(facts),   check_compensation(facts), check_certificates(facts)};
+    std::vector<PreflightRecord> checks{check_instruments(facts),  check_soak(facts),
+                                        check_sensors(facts),      check_contact(facts),
+                                        check_strength(facts),     check_drift(facts),
+                                        check_expansion(facts),    check_compensation(facts),
+                                        check_certificates(facts), check_environment(facts)};
+    if (facts.config.axis.angle && !facts.circular) checks.push_back(check_run_out(facts));
+    return checks;
 }
 
 Result<void> override_checks(std::vector<PreflightRecord>& checks,

@@ -40,6 +40,8 @@ struct PreflightFacts {
     bool circular = false;                   ///< for circles: a ballbar in the laser's place
     std::optional<Duration> bar_age = {};    ///< of its last reading, good or not
     const SensorLog* bar = nullptr;          ///< its good readings lately, m
+    bool typed = false;                      ///< a person reads the angle and types it
+    std::string run_out = {};                ///< of a rotary axis's set-up, as stated
 };
 
 /// How far back `laser_samples` go: a laser that is asked seldom has its last sample before the
@@ -49,7 +51,8 @@ inline Duration drift_reach(const PreflightConfig& config) {
 }
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
-/// "certificates", in this order, of a linear or rotary run and of a circular test alike.
+/// "certificates", "environment", in this order, of a linear or rotary run and of a circular test
+/// alike; of a rotary run also "run_out".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

@@ -40,16 +40,29 @@ find(const RoleConfig& role, const Wanted& wanted, const std::vector<StationChan
                                               known_channels(channels));
 }
 
+/// A laser counts from where it was switched on: a table by its reading would hit by chance.
+Result<void> check_laser(int id, const std::vector<StationChannel>& channels) {
+    const auto laser = std::ranges::find(channels, id, &StationChannel::id);
+    if (laser->calibration.corrections.empty() && laser->correction == 0) return {};
+    return fail(Fault::bad_configuration,
+                "axis.laser = \"" + laser->instrument_name + "/" + laser->name +
+                    "\" has corrections, but its length begins where it was switched on: leave "
+                    "them out, and state what its certificate says as uncertainty = \"0.4 um/m\"");
+}
+
 } // namespace
 
 std::vector<int> StationRoles::environment() const {
-    std::vector<int> ids{air_temperature, air_pressure, air_humidity};
+    std::vector<int> ids;
+    for (const auto& id : {air_temperature, air_pressure, air_humidity})
+        if (id) ids.push_back(*id);
     ids.insert(ids.end(), material.begin(), material.end());
     return ids;
 }
 
 std::vector<int> StationRoles::of_circles() const {
-    std::vector<int> ids{air_temperature};
+    std::vector<int> ids;
+    if (air_temperature) ids.push_back(*air_temperature);
     ids.insert(ids.end(), material.begin(), material.end());
     if (bar_temperature && std::ranges::find(ids, *bar_temperature) == ids.end())
         ids.push_back(*bar_temperature);
@@ -59,18 +72,24 @@ std::vector<int> StationRoles::of_circles() const {
 Result<StationRoles> resolve_roles(const AxisConfig& axis,
                                    const std::vector<StationChannel>& channels) {
     StationRoles roles;
-    AXISCAL_TRY(
-        roles.laser,
-        find(axis.laser, {"axis.laser", ChannelKind::displacement, Medium::none}, channels));
-    AXISCAL_TRY(roles.air_temperature,
-                find(axis.air_temperature,
-                     {"axis.air.temperature", ChannelKind::temperature, Medium::air}, channels));
-    AXISCAL_TRY(roles.air_pressure,
-                find(axis.air_pressure, {"axis.air.pressure", ChannelKind::pressure, Medium::air},
-                     channels));
-    AXISCAL_TRY(roles.air_humidity,
-                find(axis.air_humidity, {"axis.air.humidity", ChannelKind::humidity, Medium::air},
-                     channels));
+    const bool alone = axis.laser.instrument.empty(); // a ballbar, or an autocollimator
+    const auto fill = [&](std::optional<int>& id, const RoleConfig& role,
+                          const Wanted& wanted) -> Result<void> {
+        if (alone && role.instrument.empty()) return {};
+        AXISCAL_TRY(id, find(role, wanted, channels));
+        return {};
+    };
+    AXISCAL_CHECK(
+        fill(roles.laser, axis.laser, {"axis.laser", ChannelKind::displacement, Medium::none}));
+    if (roles.laser) {
+        AXISCAL_CHECK(check_laser(*roles.laser, channels));
+    }
+    AXISCAL_CHECK(fill(roles.air_temperature, axis.air_temperature,
+                       {"axis.air.temperature", ChannelKind::temperature, Medium::air}));
+    AXISCAL_CHECK(fill(roles.air_pressure, axis.air_pressure,
+                       {"axis.air.pressure", ChannelKind::pressure, Medium::air}));
+    AXISCAL_CHECK(fill(roles.air_humidity, axis.air_humidity,
+                       {"axis.air.humidity", ChannelKind::humidity, Medium::air}));
     for (const RoleConfig& role : axis.material_temperature) {
         AXISCAL_TRY(const int id,
                     find(role,
@@ -78,7 +97,7 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
                          channels));
         roles.material.push_back(id);
     }
-    if (roles.material.empty())
+    if (roles.material.empty() && !alone && !axis.angle)
         return fail(Fault::bad_configuration, "axis.material.temperature names no sensor; the axis "
                                               "cannot be brought to 20 degC without one");
     return roles;

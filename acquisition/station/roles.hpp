@@ -11,17 +11,19 @@ namespace axiscal {
 
 /// Channel ids of the station.
 struct StationRoles {
-    int laser = 0;
-    int air_temperature = 0, air_pressure = 0, air_humidity = 0;
-    std::vector<int> material;          ///< contact temperatures, at least one
-    std::optional<int> ballbar;         ///< the length of a circular test's ballbar
+    std::optional<int> laser; ///< absent: the station measures circles alone
+    std::optional<int> air_temperature, air_pressure, air_humidity; ///< all, where there is a laser
+    std::vector<int> material;  ///< contact temperatures; at least one, where there is a laser
+    std::optional<int> ballbar; ///< the length of a circular test's ballbar
     std::optional<int> bar_temperature; ///< of the sensor on it
-    /// All environment channels in the order air temperature, pressure, humidity, material...
+    /// All environment channels that there are, in the order air temperature, pressure, humidity,
+    /// material...
     [[nodiscard]] std::vector<int> environment() const;
     /// What a circular test looks at beside its ballbar: air and material temperatures, the bar's.
     [[nodiscard]] std::vector<int> of_circles() const;
 };
 
+/// An axis without a laser needs nothing; what it names is found all the same.
 /// @errors Fault::bad_configuration naming the role, the name and what there is instead;
 /// Fault::wrong_medium for an air channel in a material role, or the other way round.
 Result<StationRoles> resolve_roles(const AxisConfig& axis,

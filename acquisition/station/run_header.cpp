@@ -1,6 +1,7 @@
 #include "acquisition/station/run_header.hpp"
 
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_store.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,13 +32,14 @@ constexpr std::array<std::pair<std::string_view, Field>, 13> statement_fields{{
 LaserSetup laser_of(const RunHeaderParts& parts) {
     const AxisConfig& axis = parts.config.axis;
     LaserSetup laser;
-    laser.instrument = axis.laser.instrument;
     laser.sign = axis.sign;
+    if (!parts.roles.laser) return laser;
+    laser.instrument = axis.laser.instrument;
     laser.dead_path = axis.dead_path;
     laser.beam_walk = axis.beam_walk;
     laser.beam_walk_travel = axis.beam_walk_travel;
     const int seat =
-        parts.supervisor.channels()[static_cast<std::size_t>(parts.roles.laser)].instrument;
+        parts.supervisor.channels()[static_cast<std::size_t>(*parts.roles.laser)].instrument;
     if (const auto optics = parts.supervisor.instrument(seat).optics()) {
         laser.vacuum_wavelength = optics->vacuum_wavelength;
         laser.optical_fold = optics->optical_fold;
@@ -61,7 +63,7 @@ InstrumentRecord instrument_of(const InstrumentConfig& config, const Identity& i
 std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     std::vector<ChannelRecord> records;
     std::vector<int> ids = parts.roles.environment();
-    ids.push_back(parts.roles.laser);
+    if (parts.roles.laser) ids.push_back(*parts.roles.laser);
     if (parts.plan.pass == circular_pass)
         for (const auto& id : {parts.roles.ballbar, parts.roles.bar_temperature})
             if (id && std::ranges::find(ids, *id) == ids.end()) ids.push_back(*id);
@@ -81,10 +83,19 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
 
 } // namespace
 
+std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,
+                                                const std::vector<ChannelRecord>& recorded) {
+    std::vector<ChannelCalibration> calibrations;
+    calibrations.reserve(recorded.size());
+    for (const ChannelRecord& record : recorded) {
+        const StationChannel& channel = supervisor.channels()[static_cast<std::size_t>(record.id)];
+        if (channel.certified()) calibrations.push_back(channel.calibration);
+    }
+    return calibrations;
+}
+
 std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns) {
-    std::string instant = iso8601_utc(utc_ns);
-    std::erase_if(instant, [](char letter) { return letter == '-' || letter == ':'; });
-    return station + "-" + instant + "-" + axis;
+    return station + "-" + instant_in_name(utc_ns) + "-" + axis;
 }
 
 Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request) {
@@ -101,10 +112,15 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.laser = laser_of(parts);
     run.material = config.axis.material;
     run.air = config.axis.air;
+    if (config.axis.angle) run.rotary = config.axis.angle->setup;
     run.uncertainty = config.uncertainty;
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
     for (const auto& [key, value] : request.statements) {
+        if (run.rotary && key == "run_out") {
+            run.rotary->run_out = value;
+            continue;
+        }
         const auto field =
             std::ranges::find(statement_fields, key, &std::pair<std::string_view, Field>::first);
         if (field == statement_fields.end())
@@ -115,7 +131,9 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     for (std::size_t i = 0; i < config.instruments.size(); ++i)
         run.instruments.push_back(
             instrument_of(config.instruments[i], parts.supervisor.identity(static_cast<int>(i))));
+    if (config.axis.angle) run.instruments.push_back(config.axis.angle->artefact);
     run.channels = channels_of(parts);
+    run.calibrations = calibrations_of(parts.supervisor, run.channels);
     return run;
 }
 

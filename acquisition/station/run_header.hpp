@@ -19,6 +19,10 @@ struct RunHeaderParts {
 /// "<station>-20261121T100000Z-X": unique a second, sortable, fit for a file name.
 std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns);
 
+/// What the station file states of the certificates of `recorded`, in their order.
+std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,
+                                                const std::vector<ChannelRecord>& recorded);
+
 /// @errors Fault::bad_request for a statement that does not exist.
 Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request);
 

@@ -2,6 +2,7 @@
 
 #include "acquisition/run/live_position.hpp"
 #include "analysis/air_refraction.hpp"
+#include "analysis/rotary/rotary_position.hpp"
 #include "drivers/spawn.hpp"
 
 #include <boost/asio/bind_cancellation_slot.hpp>
@@ -13,19 +14,20 @@
 namespace axiscal {
 namespace {
 
-constexpr Duration heartbeat = std::chrono::milliseconds{100};
-constexpr Duration judge_every = std::chrono::seconds{1};
 constexpr Duration log_every =
     std::chrono::milliseconds{500}; // bounds the environment table of a long run
-constexpr Duration judge_outbox_every = std::chrono::seconds{10};
 constexpr Duration port_pause = std::chrono::seconds{1};
+constexpr Duration first_looks =
+    std::chrono::seconds{2}; // the station is judged once after its start
+constexpr Duration judge_within = std::chrono::seconds{2}; // and looked at once more
 constexpr std::size_t kept_notes = 20;
 
 std::vector<WatchedChannel> watched(const StationRoles& roles,
                                     const std::vector<StationChannel>& channels) {
     std::vector<WatchedChannel> list;
-    const auto add = [&](EnvironmentRole role, int id) {
-        const StationChannel& channel = channels[static_cast<std::size_t>(id)];
+    const auto add = [&](EnvironmentRole role, std::optional<int> id) {
+        if (!id) return;
+        const StationChannel& channel = channels[static_cast<std::size_t>(*id)];
         list.push_back({role, channel.instrument_name + "/" + channel.name, channel.place});
     };
     add(EnvironmentRole::air_temperature, roles.air_temperature);
@@ -43,17 +45,39 @@ SampleHistory::Limits history_limits(const StationConfig& config) {
     return limits;
 }
 
+/// After so long without a sample nothing changes any more: every reading is stale for the CNC, its
+/// silence is judged (10 s), and it lies behind every window of the limits.
+Duration age_that_matters(const StationConfig& config) {
+    Duration longest = std::chrono::seconds{15};
+    longest = std::max<Duration>(longest, config.axis.air.oldest);
+    if (config.environment.asks_for_change())
+        longest = std::max<Duration>(longest, config.environment.change_window);
+    return longest + judge_within;
+}
+
 /// A little more than the checks look back.
 std::vector<SensorLog> sensor_logs(const std::vector<StationChannel>& channels,
-                                   const PreflightConfig& config) {
+                                   const StationConfig& config) {
     constexpr Duration shortest = std::chrono::minutes{1};
-    const Duration depth = std::max<Duration>(config.soak_window * 5 / 4, shortest);
+    Duration window = config.preflight.soak_window;
+    if (config.environment.asks_for_change())
+        window = std::max(window, config.environment.change_window);
+    const Duration depth = std::max<Duration>(window * 5 / 4, shortest);
     std::vector<SensorLog> logs;
     logs.reserve(channels.size());
     for (const StationChannel& channel : channels)
         logs.emplace_back(depth, channel.kind == ChannelKind::strength ? SensorLog::Keep::lowest
                                                                        : SensorLog::Keep::newest);
     return logs;
+}
+
+/// Stillness is judged in what the interferometer reads, while the station file speaks of the axis.
+CaptureConfig in_readings(CaptureConfig capture, const RotarySetup& rotary) {
+    const double per_coordinate = reading_per_coordinate(rotary);
+    capture.spread_limit = capture.spread_limit * per_coordinate;
+    capture.slope_limit_um_per_s *= per_coordinate;
+    capture.fastest = capture.fastest * per_coordinate;
+    return capture;
 }
 
 /// The supervisor with every instrument seated; in a function so that the member can be
@@ -82,8 +106,13 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
               watched(roles_, supervisor_.channels()))}
     , latest_(supervisor_.channels().size())
     , logged_(supervisor_.channels().size())
-    , sensor_logs_{sensor_logs(supervisor_.channels(), config_.preflight)}
-    , outbox_watch_{config_.state_directory, config_.publish} {}
+    , sensor_logs_{sensor_logs(supervisor_.channels(), config_)}
+    , outbox_watch_{config_.state_directory, config_.publish}
+    , growing_old_{age_that_matters(config_)}
+    , bell_{scheduler.executor()} {
+    if (config_.axis.angle)
+        config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
+}
 
 Station::~Station() = default;
 
@@ -99,21 +128,27 @@ Task<Result<void>> Station::start() {
                            error);
     }
     supervisor_.start();
+    judged_ = judged_outbox_ = scheduler_.now();
+    time_counts_until_ = std::max(time_counts_until_, judged_ + first_looks);
     spawn(scheduler_, tick());
-    AXISCAL_CO_TRY(std::vector<RunSummary> stored, stored_runs());
-    for (RunSummary& run : stored) {
-        if (run.closed) continue;
-        auto resumed = co_await resume_or_close(run.path);
-        if (!resumed)
-            note("The open run " + run.path +
-                 " could not be continued: " + describe(resumed.error()));
-        if (auto now = summarize_run_file(run.path)) run = *std::move(now);
+    const Result<void> taken = co_await take_over_stored_runs();
+    if (taken) {
+        open_port();
+    } else if (taken.error().fault == Fault::not_durable) {
+        waiting_for_disk_ = true;
+        std::string told = disk_in_words(taken.error());
+        note("What the last daemon left cannot be taken over yet: " + told +
+             " The station tries again by itself; until then the trigger port stays shut.");
+        spawn(scheduler_, take_over_when_disk_is_back(std::move(told)));
+    } else {
+        co_return taken;
     }
-    co_await publish_done_of_closed(stored);
-    spawn(scheduler_, certify_left_over(std::move(stored)));
+    co_return Result<void>{};
+}
+
+void Station::open_port() {
     boost::asio::co_spawn(scheduler_.executor(), serve_port(),
                           boost::asio::bind_cancellation_slot(end_port_.slot(), RethrowOnLoop{}));
-    co_return Result<void>{};
 }
 
 Task<void> Station::stop() {
@@ -138,38 +173,10 @@ Task<void> Station::serve_port() {
     }
 }
 
-/// Ten times a second: what only time decides, and what the CNC reads.
-Task<void> Station::tick() {
-    MonotonicTime judged = scheduler_.now(), judged_outbox = judged;
-    while (!stopping_) {
-        co_await scheduler_.sleep_for(heartbeat);
-        const MonotonicTime now = scheduler_.now();
-        if (now - judged >= judge_every) {
-            supervisor_.judge();
-            judged = now;
-        }
-        if (now - judged_outbox >= judge_outbox_every) {
-            judge_outbox();
-            judged_outbox = now;
-        }
-        feed_with_air(Tick{now});
-        publish_to_port();
-        if (run_ && !run_->shut && journal_.failure() && !std::exchange(waiting_for_disk_, true))
-            spawn(scheduler_, wait_for_disk());
-    }
-}
-
-/// Told once when it begins and once when it is over, however the count goes meanwhile.
-void Station::judge_outbox() {
-    const OutboxView outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
-    if (outbox.alarm.empty() == outbox_alarm_.empty()) return;
-    outbox_alarm_ = outbox.alarm;
-    note(outbox_alarm_.empty() ? "The share takes results again."
-                               : "Alarm: " + outbox_alarm_ + ".");
-}
-
 void Station::on_sample(const Sample& sample) {
     latest_[static_cast<std::size_t>(sample.channel)] = sample;
+    time_counts_until_ = sample.at + growing_old_;
+    if (asleep_) bell_.ring();
     if (sample.channel == roles_.laser) return take_reading(sample);
     if (sample.channel == roles_.ballbar) return take_bar(sample);
     if (circular_ && sample.channel == roles_.bar_temperature)
@@ -193,7 +200,8 @@ void Station::take_reading(const Sample& sample) {
             feed(LaserFault{Fault::datum_lost, "The laser's counter lost its zero.", sample.at});
         return;
     }
-    if (const auto value = sample.value())
+    const auto value = sample.value();
+    if (value && !run_->header.rotary) // whose halts no port judges
         port_->position(
             sample.at,
             live_position(run_->header.laser, *datum_, metre(*value), live_scale_).in(mm));
@@ -260,6 +268,7 @@ void Station::note(const std::string& sentence) {
     const ClockTie tie = scheduler_.clock_tie();
     notes_.push_back(iso8601_utc(tie.utc_ns) + " " + sentence);
     if (notes_.size() > kept_notes) notes_.pop_front();
+    bell_.ring(); // what was worth a word may be worth a look
 }
 
 const StationChannel& Station::channel_of(int id) const {
@@ -278,6 +287,7 @@ Result<double> Station::live_scale_now() const {
     const MonotonicTime now = scheduler_.now();
     const Duration oldest = config_.axis.air.oldest;
     AXISCAL_CHECK(watch_.check(now, oldest));
+    if (reads_polygon()) return 0.0; // an autocollimator counts no wavelengths
     AirState air;
     air.temperature =
         Temperature::celsius(*watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest));
@@ -286,6 +296,7 @@ Result<double> Station::live_scale_now() const {
     air.vacuum_wavelength = run_ ? run_->header.laser.vacuum_wavelength : nm(632.991);
     air.co2_ppm = config_.axis.air.co2_ppm;
     AXISCAL_TRY(const Refractivity refractivity, refractivity_of(config_.axis.air.formula, air));
+    if (config_.axis.angle) return refractivity.n_minus_1; // an angle does not expand
     const Temperature material = Temperature::celsius(
         *watch_.fresh_mean(EnvironmentRole::material_temperature, now, oldest));
     const double growth =

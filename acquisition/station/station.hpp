@@ -11,7 +11,7 @@
 #include "acquisition/capture/sample_rate.hpp"
 #include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_store.hpp"
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/circle_resume.hpp"
 #include "acquisition/run/run_machine.hpp"
@@ -21,6 +21,7 @@
 #include "acquisition/station/station_face.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "config/station_config.hpp"
+#include "drivers/link/doorbell.hpp"
 #include "drivers/trigger_port.hpp"
 
 #include <boost/asio/cancellation_signal.hpp>
@@ -50,7 +51,8 @@ public:
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    /// Instruments first, then an open run is resumed or closed, the trigger port last.
+    /// Instruments first, then an open run is resumed or closed, the trigger port last. While the
+    /// disk takes no records an open run waits for it, and the port with it.
     /// @errors Fault::io when the state directory cannot be used.
     Task<Result<void>> start();
     /// The trigger port is told to end first, then everything noted is made durable; an open run
@@ -60,6 +62,7 @@ public:
     [[nodiscard]] StationStatus status() const override;
     Task<Result<std::string>> arm(ArmRequest request) override;
     Result<void> trigger() override;
+    Result<void> type_reading(double seconds_of_arc) override;
     Result<void> abort(std::string reason) override;
     [[nodiscard]] Result<std::vector<PreflightRecord>>
     preflight(const ArmRequest& request) const override;
@@ -76,7 +79,8 @@ private:
         RunRecord header; ///< without points
         std::string path;
         bool closing = false, closed = false;
-        bool shut = false; ///< its closing row is durable
+        bool shut = false;          ///< its closing row is durable
+        bool limits_waived = false; ///< armed in spite of the environment
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
         std::string certificate;      ///< folder
@@ -124,7 +128,9 @@ private:
     void perform(SetState action);
     void perform(Close action);
     Task<void> watch_window(OpenWindow window);
-    template <class Record> Task<void> commit(Record record);
+    Task<void> await_typed(OpenWindow window); ///< station_polygon.cpp
+    template <class Record>
+    Task<void> commit(Record record, std::optional<Synchronisation> synchronisation);
     Task<void> commit_event(CommitEvent action);
     void settle(Result<JournalReceipt> receipt);
     Task<void> close_run(Close action);
@@ -170,6 +176,10 @@ private:
     /// Tries until the run file can be written again, then goes on with the run or closes it.
     Task<void> wait_for_disk();
     Task<Result<void>> try_disk(std::string path, MonotonicTime since);
+    /// What the last daemon left, tried until the disk takes records; opens the port then.
+    Task<void> take_over_when_disk_is_back(std::string told);
+    /// Why no file may grow where the runs are, if so.
+    Task<std::optional<Error>> disk_trouble();
     Task<Result<void>> go_on_after_disk(std::shared_ptr<const RunRecord> on_disk);
     Task<Result<void>> close_after_disk();
     Task<Result<void>> finish_after_disk();
@@ -179,9 +189,13 @@ private:
     // station_arm.cpp: opening and resuming
     Task<Result<std::string>> open_and_tie(ArmRequest request);
     void begin_run(RunRecord header, std::string path, RunMachine machine);
-    [[nodiscard]] Result<std::vector<RunSummary>> stored_runs() const;
+    [[nodiscard]] std::string runs_folder() const { return config_.state_directory + "/runs"; }
+    /// @errors Fault::not_durable while the disk is why it cannot be done; those of
+    /// look_through_runs().
+    Task<Result<void>> take_over_stored_runs();
+    void open_port();
     /// Certificates of complete runs that the last daemon could not finish.
-    Task<void> certify_left_over(std::vector<RunSummary> runs);
+    Task<void> certify_left_over(StoredRuns stored);
     [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> ready_to_measure() const;
@@ -191,9 +205,17 @@ private:
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
     [[nodiscard]] SensorFacts sensor_facts(int channel) const;
 
+    // station_environment.cpp: the limits of the environment
+    /// Once a second: told when it leaves them and when it is back.
+    void judge_environment();
+    [[nodiscard]] std::vector<SensorFacts> environment_facts() const;
+    /// For the run machine: live_scale_now(), unless the environment is outside and the run was not
+    /// armed in spite of that.
+    [[nodiscard]] Result<double> scale_within_limits() const;
+
     // station_closed_run.cpp: the set-up is watched, the newest run of an earlier daemon taken over
     void watch_set_up(const Sample& sample);
-    [[nodiscard]] Result<RunSummary> newest_closed_run() const;
+    Task<Result<RunSummary>> newest_closed_run();
     Task<Result<void>> take_over_closed_run();
     Task<std::string> doubt_about_datum(const RunRecord& run);
 
@@ -212,8 +234,9 @@ private:
     Task<Result<void>>
     resume(std::string path, RunRecord run, RunRevisions revisions, std::string proof);
     Task<Result<void>> publish_last_done(RunRecord run);
-    Task<void> publish_done_of_closed(const std::vector<RunSummary>& stored);
-    Task<void> close_left_over(std::string path, std::string reason, Fault fault, bool whole);
+    Task<void> publish_done_of_closed(std::string newest_path);
+    Task<Result<void>>
+    close_left_over(std::string path, std::string reason, Fault fault, bool whole);
     [[nodiscard]] std::string laser_serial() const;
     [[nodiscard]] const StationChannel& channel_of(int id) const;
 
@@ -247,9 +270,19 @@ private:
     [[nodiscard]] std::optional<double> seconds_left(const RunView& view) const;
     [[nodiscard]] ChannelView channel_view(const StationChannel& channel) const;
 
-    Task<void> serve_port();
+    // station_time.cpp: what only time decides
+    /// Ten times a second while something can change by time alone, else when somebody rings.
     Task<void> tick();
+    Task<void> pause_before_looking();
+    void look_at_the_time();
+    /// A run, a drift test or an alignment goes on, an instrument speaks, or what was read last
+    /// still grows old.
+    [[nodiscard]] bool time_counts() const;
+    /// When the outbox may give an alarm that nobody has rung for; never without a destination.
+    [[nodiscard]] std::optional<MonotonicTime> outbox_due() const;
     void judge_outbox();
+
+    Task<void> serve_port();
     void take_reading(const Sample& sample);
     void log_environment(int channel, const Sample& sample);
     void log_environment_anew(); ///< the first point needs a reading before it
@@ -260,6 +293,11 @@ private:
     [[nodiscard]] bool run_open() const;
     void refuse_on_port(std::uint16_t sequence, const Error& error);
     [[nodiscard]] Result<double> live_scale_now() const;
+    [[nodiscard]] std::optional<double> position_now_mm(Length reading) const;
+    /// A rotary axis whose angles a person reads off an autocollimator and types.
+    [[nodiscard]] bool reads_polygon() const {
+        return config_.axis.angle && config_.axis.angle->setup.method == AngleMethod::polygon;
+    }
 
     Scheduler& scheduler_;
     StationConfig config_;
@@ -273,8 +311,14 @@ private:
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
     std::vector<SensorLog> sensor_logs_;               ///< by channel; the laser's stays empty
-    mutable OutboxWatch outbox_watch_;  ///< remembers what it read; a look changes nothing else
-    std::string outbox_alarm_;          ///< as told in the notes
+    mutable OutboxWatch outbox_watch_; ///< remembers what it read; a look changes nothing else
+    std::string outbox_alarm_;         ///< as told in the notes
+    int outbox_waiting_ = 0;           ///< at the last look of tick()
+    MonotonicTime judged_{}, judged_outbox_{};
+    Duration growing_old_{};            ///< a sample may change what is shown or judged so long
+    MonotonicTime time_counts_until_{}; ///< at least: everything read has grown old by then
+    bool asleep_ = false;               ///< tick() waits for the bell
+    Doorbell bell_;
     std::optional<RunMachine> machine_; ///< of a linear or rotary run, else:
     std::optional<Circles> circular_;
     SampleRate bar_rate_;
@@ -302,7 +346,9 @@ private:
     std::string port_note_, refused_note_;
     std::deque<std::string> notes_;
     boost::asio::cancellation_signal end_port_;
-    bool waiting_for_disk_ = false; ///< the run file could not be written
+    std::optional<Error> environment_outside_; ///< what lies outside its limits, while it does
+    MonotonicTime last_outside_{};             ///< when something last did
+    bool waiting_for_disk_ = false;            ///< the run file could not be written
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
     bool revising_ = false;         ///< a retake or an exclusion is being kept
     bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same

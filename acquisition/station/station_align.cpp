@@ -11,7 +11,8 @@ constexpr Duration strength_limit = std::chrono::seconds{2}; // an older strengt
 } // namespace
 
 std::optional<double> Station::strength_now() const {
-    const int seat = channel_of(roles_.laser).instrument;
+    if (!roles_.laser) return std::nullopt;
+    const int seat = channel_of(*roles_.laser).instrument;
     for (const StationChannel& channel : supervisor_.channels()) {
         if (channel.kind != ChannelKind::strength || channel.instrument != seat) continue;
         const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
@@ -48,6 +49,7 @@ AlignmentView Station::alignment() const {
 }
 
 Result<void> Station::align(AlignmentOrder order) {
+    if (!roles_.laser) return fail(Fault::refused, "this station has no laser to align");
     if (order.action == AlignmentAction::begin) {
         if (config_.cycle.axis_kind == AxisKind::rotary)
             return fail(Fault::refused, "a rotary axis has no travel along the beam");

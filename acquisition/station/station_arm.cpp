@@ -6,6 +6,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
+#include "acquisition/station/environment_limits.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
 
@@ -41,6 +42,9 @@ Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
 }
 
 Result<void> Station::ready_to_measure() const {
+    if (!roles_.laser && !reads_polygon())
+        return refuse(Fault::bad_request, "pass",
+                      "this station has a ballbar and no laser: 'axiscal arm --pass circular'");
     if (waiting_for_disk_)
         return fail(Fault::not_durable, "the disk of the last run does not take records yet");
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
@@ -52,6 +56,7 @@ Result<void> Station::ready_to_measure() const {
                                      " is going on; let it end or 'axiscal abort' it first");
     const MonotonicTime now = scheduler_.now();
     AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
+    if (reads_polygon()) return {};
     const auto reading = history_.newest();
     if (!reading || now - reading->at > laser_limit)
         return fail(Fault::link_timeout, "the laser (" + config_.axis.laser.instrument +
@@ -61,13 +66,14 @@ Result<void> Station::ready_to_measure() const {
 }
 
 std::string Station::laser_serial() const {
-    const int seat = channel_of(roles_.laser).instrument;
+    if (!roles_.laser) return reads_polygon() ? "autocollimator" : "";
+    const int seat = channel_of(*roles_.laser).instrument;
     const std::string& serial = supervisor_.identity(seat).serial;
     return serial.empty() ? config_.instruments[static_cast<std::size_t>(seat)].serial : serial;
 }
 
 RunSetup Station::setup_of(const RunRecord& header) const {
-    return {header.plan, header.laser, laser_serial(), config_.capture.timeout, {}};
+    return {header.plan, header.laser, laser_serial(), config_.capture.timeout, {}, header.rotary};
 }
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
@@ -103,6 +109,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     }
     RunMachine machine{setup_of(header)};
     begin_run(std::move(header), std::move(path), std::move(machine));
+    run_->limits_waived = waives_limits(checks);
     journal_.note(std::move(checks));
     manual_refusal_.reset();
     feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
@@ -177,37 +184,63 @@ Result<void> Station::abort(std::string reason) {
     return {};
 }
 
-Result<std::vector<RunSummary>> Station::stored_runs() const {
-    const std::string folder = config_.state_directory + "/runs";
-    AXISCAL_CHECK(tidy_run_files(folder));
-    return list_run_files(folder);
-}
-
 bool Station::instruments_returned() const {
     const auto reading = history_.newest();
     return reading && reading->value() && live_scale_now();
 }
 
+Task<Result<void>> Station::take_over_stored_runs() {
+    Result<StoredRuns> stored = co_await journal_.stored_runs(runs_folder());
+    // On a full disk a run that was left open cannot be read: its index would have to grow.
+    if (!stored || stored->unreadable != 0) {
+        const std::optional<Error> trouble = co_await disk_trouble();
+        if (trouble) co_return tl::unexpected<Error>(*trouble);
+    }
+    if (!stored) co_return tl::unexpected<Error>(stored.error());
+    for (RunSummary& run : stored->looked_into) {
+        if (run.closed) continue;
+        const Result<void> resumed = co_await resume_or_close(run.path);
+        if (!resumed && !run_open()) {
+            const std::optional<Error> trouble = co_await disk_trouble();
+            if (trouble) co_return tl::unexpected<Error>(*trouble);
+        }
+        if (!resumed)
+            note("The open run " + run.path +
+                 " could not be continued: " + describe(resumed.error()));
+        auto now = co_await journal_.summarize(run.path);
+        if (now) run = *std::move(now);
+    }
+    if (stored->newest) co_await publish_done_of_closed(stored->newest->path);
+    spawn(scheduler_, certify_left_over(*std::move(stored)));
+    co_return Result<void>{};
+}
+
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
     if (contents.attachments.drift) {
-        co_await close_left_over(path,
-                                 "Nobody watched the resting axis while the station was away.",
-                                 Fault::datum_lost, false);
+        auto closed = co_await close_left_over(
+            path, "Nobody watched the resting axis while the station was away.", Fault::datum_lost,
+            false);
         left_over_fault_.reset(); // no CNC waits for it
-        co_return Result<void>{};
+        co_return closed;
     }
     RunRecord run = std::move(contents.run);
     // Reopened for points to be taken again: what was measured before still makes a whole run.
     const bool whole = contents.revisions.closings > 0 && check_complete(run);
-    if (run_open()) {
-        co_await close_left_over(path, "Another run was open too; only one can go on.", Fault::busy,
-                                 whole);
-        co_return Result<void>{};
-    }
+    if (run_open())
+        co_return co_await close_left_over(path, "Another run was open too; only one can go on.",
+                                           Fault::busy, whole);
     if (run.plan.pass == circular_pass) {
         contents.run = std::move(run);
         co_return co_await resume_or_close_circles(std::move(path), std::move(contents));
+    }
+    if (!roles_.laser) {
+        const std::string why =
+            reads_polygon() ? "What was typed before a restart is not gone on with: nobody knows "
+                              "whether autocollimator and polygon were touched meanwhile."
+                            : "The station file names no laser any more.";
+        co_await close_left_over(path, why, Fault::bad_configuration, whole);
+        co_return Result<void>{};
     }
     // A request may stand in the CNC already: it must not meet sensors that have not spoken yet.
     const MonotonicTime limit = scheduler_.now() + return_limit;
@@ -219,15 +252,16 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     now.laser_serial = laser_serial();
     now.limits.fastest = config_.capture.fastest;
     now.limits.count_modulus =
-        supervisor_.instrument(channel_of(roles_.laser).instrument).count_modulus();
+        supervisor_.instrument(channel_of(*roles_.laser).instrument).count_modulus();
     if (!run.datums.empty() && !counting_rate_hz(run))
         now.limits.rate_hz = co_await laser_rate_hz(limit);
     if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
+    if (!waives_limits(contents.revisions.preflight))
+        now.outside_limits =
+            outside_limits(config_.environment, environment_facts(), scheduler_.now());
     const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
-    if (verdict.decision != ResumeDecision::wait_for_request) {
-        co_await close_left_over(path, verdict.sentence, verdict.fault, whole);
-        co_return Result<void>{};
-    }
+    if (verdict.decision != ResumeDecision::wait_for_request)
+        co_return co_await close_left_over(path, verdict.sentence, verdict.fault, whole);
     co_return co_await resume(path, std::move(run), std::move(contents.revisions),
                               verdict.sentence);
 }
@@ -254,15 +288,17 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     RunRecord header = run;
     header.points.clear();
     RunSetup setup = setup_of(run);
+    const bool waived = waives_limits(revisions.preflight);
     setup.revisions = std::move(revisions);
     RunMachine machine{std::move(setup), run, epoch, scheduler_.now()};
     begin_run(std::move(header), path, std::move(machine));
+    run_->limits_waived = waived;
     const std::string away = run.boot_id == boot_id_
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
                                  : "while the computer was restarted";
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
-    feed(EnvironmentNow{live_scale_now()});
+    feed(EnvironmentNow{scale_within_limits()});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
          " durable points.");
@@ -289,27 +325,27 @@ Task<Result<void>> Station::publish_last_done(RunRecord run) {
 
 /// The last daemon may have closed its run and died before the CNC could read `done` of the last
 /// point: it stands there and waits for it.
-Task<void> Station::publish_done_of_closed(const std::vector<RunSummary>& stored) {
-    if (run_open() || left_over_fault_ || stored.empty()) co_return;
-    const RunSummary& newest = *std::ranges::max_element(stored, {}, &RunSummary::opened_utc_ns);
-    const auto receipt = co_await journal_.receipt_of_closed(newest.path);
+Task<void> Station::publish_done_of_closed(std::string newest_path) {
+    if (run_open() || left_over_fault_) co_return;
+    const auto receipt = co_await journal_.receipt_of_closed(std::move(newest_path));
     if (!receipt) co_return;
     last_receipt_ = *receipt;
     port_->acknowledge(*receipt);
 }
 
-Task<void> Station::close_left_over(std::string path, std::string reason, Fault fault, bool whole) {
-    if (auto reopened = co_await journal_.reopen(path); !reopened) {
-        note("The open run " + path + " cannot be closed: " + describe(reopened.error()));
-        co_return;
-    }
+Task<Result<void>>
+Station::close_left_over(std::string path, std::string reason, Fault fault, bool whole) {
+    if (auto reopened = co_await journal_.reopen(path); !reopened) co_return reopened;
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
     if (whole) reason = "Every planned point is durable; not every retake was done: " + reason;
-    const auto closed = co_await journal_.close(whole, reason);
+    if (auto closed = co_await journal_.close(whole, reason); !closed) {
+        co_await journal_.let_go();
+        co_return closed;
+    }
     const std::string how = whole ? " is closed again: " : " is closed as incomplete: ";
-    note(closed ? "The open run " + path + how + reason
-                : "The open run " + path + " cannot be closed: " + describe(closed.error()));
+    note("The open run " + path + how + reason);
     left_over_fault_ = Error{fault, reason, {}, {}};
+    co_return Result<void>{};
 }
 
 } // namespace axiscal

@@ -82,8 +82,7 @@ Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileCon
         co_return co_await resume_circles(std::move(path), std::move(contents), std::move(verdict));
     if (verdict.decision == CircleResume::Decision::close_complete)
         co_return co_await close_driven_circles(std::move(path));
-    co_await close_left_over(path, verdict.sentence, verdict.fault, false);
-    co_return Result<void>{};
+    co_return co_await close_left_over(path, verdict.sentence, verdict.fault, false);
 }
 
 /// The CNC heard of its last request, or will: publish_done_of_closed() tells it again.
@@ -92,9 +91,12 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
         co_return tl::unexpected<Error>(reopened.error());
     const std::string reason = "Every circle was driven.";
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, Fault::none, 0}});
-    const auto closed = co_await journal_.close(true, reason);
-    if (closed) note("The open run " + path + " is closed as complete: " + reason);
-    co_return closed;
+    if (auto closed = co_await journal_.close(true, reason); !closed) {
+        co_await journal_.let_go();
+        co_return closed;
+    }
+    note("The open run " + path + " is closed as complete: " + reason);
+    co_return Result<void>{};
 }
 
 std::string Station::interruption_in_words(const RunFileContents& contents,

@@ -4,8 +4,8 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/resume.hpp"
+#include "acquisition/station/environment_limits.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace axiscal {
@@ -43,18 +43,20 @@ void Station::watch_set_up(const Sample& sample) {
     if (sample.value()) last_reading_ = sample;
 }
 
-Result<RunSummary> Station::newest_closed_run() const {
-    AXISCAL_TRY(const std::vector<RunSummary> stored, stored_runs());
-    if (stored.empty()) return fail(Fault::no_run_armed, "no run was measured yet: arm one");
-    const RunSummary& newest = *std::ranges::max_element(stored, {}, &RunSummary::opened_utc_ns);
+Task<Result<RunSummary>> Station::newest_closed_run() {
+    AXISCAL_CO_TRY(const StoredRuns stored, co_await journal_.stored_runs(runs_folder()));
+    if (!stored.newest) co_return fail(Fault::no_run_armed, "no run was measured yet: arm one");
+    const RunSummary& newest = *stored.newest;
     if (!newest.complete)
-        return fail(Fault::no_run_armed,
-                    "the last run, " + newest.run_id + ", was " +
-                        (newest.closed ? "closed as incomplete" : "left open") + ": arm a new one");
+        co_return fail(Fault::no_run_armed,
+                       "the last run, " + newest.run_id + ", was " +
+                           (newest.closed ? "closed as incomplete" : "left open") +
+                           ": arm a new one");
     if (newest.circular)
-        return fail(Fault::no_run_armed, "the last run, " + newest.run_id +
-                                             ", is a circular test: its circles are driven again");
-    return newest;
+        co_return fail(Fault::no_run_armed,
+                       "the last run, " + newest.run_id +
+                           ", is a circular test: its circles are driven again");
+    co_return newest;
 }
 
 /// Why the datum of a run of an earlier daemon cannot be relied on; empty when it holds, as for an
@@ -69,8 +71,9 @@ Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
     now.laser_serial = laser_serial();
     now.laser = settled_sample_;
     now.limits.fastest = config_.capture.fastest;
-    now.limits.count_modulus =
-        supervisor_.instrument(channel_of(roles_.laser).instrument).count_modulus();
+    if (roles_.laser)
+        now.limits.count_modulus =
+            supervisor_.instrument(channel_of(*roles_.laser).instrument).count_modulus();
     if (!counting_rate_hz(run)) now.limits.rate_hz = co_await laser_rate_hz(limit);
     const ResumeVerdict verdict = decide_resume(run, std::nullopt, now);
     interruption_ = "axiscald was restarted after the run had been closed. " + verdict.sentence;
@@ -86,8 +89,9 @@ Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
 /// set-up; a retake is refused with `set_up_lost_`.
 Task<Result<void>> Station::take_over_closed_run() {
     if (run_ || arming_) co_return Result<void>{};
-    AXISCAL_CO_TRY(const RunSummary newest, newest_closed_run());
-    AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(newest.path));
+    AXISCAL_CO_TRY(const RunSummary newest, co_await newest_closed_run());
+    if (run_ || arming_) co_return fail(Fault::busy, "somebody else is at it just now");
+    AXISCAL_CO_TRY(RunFileContents contents, co_await journal_.contents(newest.path));
     std::string doubt = co_await doubt_about_datum(contents.run);
     if (run_ || arming_) // meanwhile
         co_return fail(Fault::busy, "somebody else is at it just now");
@@ -96,6 +100,7 @@ Task<Result<void>> Station::take_over_closed_run() {
     last.closed = last.shut = true;
     last.outcome = Close{true, contents.run.closing_reason, Fault::none};
     RunSetup setup = setup_of(contents.run);
+    last.limits_waived = waives_limits(contents.revisions.preflight);
     setup.revisions = std::move(contents.revisions);
     const std::uint32_t epoch = first_sample_ ? first_sample_->epoch : 0;
     machine_.emplace(

@@ -31,6 +31,35 @@ Task<void> Station::wait_for_disk() {
     waiting_for_disk_ = false;
 }
 
+Task<std::optional<Error>> Station::disk_trouble() {
+    const Result<void> tried = co_await journal_.try_folder(config_.state_directory + "/runs");
+    std::optional<Error> trouble;
+    if (!tried) trouble = Error{Fault::not_durable, tried.error().detail, tried.error().cause, {}};
+    co_return trouble;
+}
+
+/// `told`: what was said of it. The same is not said again, however long it lasts.
+Task<void> Station::take_over_when_disk_is_back(std::string told) {
+    const MonotonicTime since = scheduler_.now();
+    while (!stopping_) {
+        co_await scheduler_.sleep_for(try_every);
+        const std::optional<Error> trouble = co_await disk_trouble();
+        if (trouble || stopping_) continue;
+        co_await journal_.let_go();
+        const Result<void> taken = co_await take_over_stored_runs();
+        if (!taken) {
+            std::string why = disk_in_words(taken.error());
+            if (why != told) note("What the last daemon left cannot be taken over yet: " + why);
+            told = std::move(why);
+            continue;
+        }
+        waiting_for_disk_ = false;
+        note("The disk takes records again after " + in_seconds(scheduler_.now() - since) + ".");
+        open_port();
+        co_return;
+    }
+}
+
 /// One attempt. The first thing written is how long nothing was.
 Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
     co_await journal_.let_go();

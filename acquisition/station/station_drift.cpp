@@ -82,6 +82,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request) {
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, statements));
     header.run_id += "-drift";
     header.channels = every_channel();
+    header.calibrations = calibrations_of(supervisor_, header.channels);
     const std::string id = header.run_id;
     std::string path = config_.state_directory + "/runs/" + id + std::string{run_file_ending};
     RunAttachments attachments;
@@ -91,7 +92,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request) {
         !opened)
         co_return tl::unexpected<Error>(opened.error());
     const auto newest = history_.newest();
-    DriftRecorder recorder{setup, roles_.laser, newest ? newest->epoch : 0, scheduler_.now()};
+    DriftRecorder recorder{setup, *roles_.laser, newest ? newest->epoch : 0, scheduler_.now()};
     drift_.emplace(
         CurrentDrift{id, std::move(path), std::move(recorder), false, false, false, {}, {}, {}});
     note("Drift test " + id + " has begun: leave the axis alone.");

@@ -35,6 +35,7 @@ struct ChannelView {
 /// The axis as the laser sees it now.
 struct AxisView {
     std::string name;
+    AxisKind kind = AxisKind::linear; ///< rotary: mm stands for deg, um for 0.001 deg
     std::optional<double> position_mm, deviation_um; ///< needs a datum
     std::optional<double> displacement_mm;           ///< raw, vacuum wavelengths
     std::optional<double> strength_percent;
@@ -55,7 +56,8 @@ struct RunStatus {
     int retakes_asked = 0, retakes_left = 0, excluded = 0; ///< points
     std::optional<double> seconds_left;
     std::optional<double> last_deviation_um;
-    std::string last_fault, last_sentence; ///< empty when all is well
+    std::optional<double> last_synchronisation_um; ///< of the last point; empty: not stated
+    std::string last_fault, last_sentence;         ///< empty when all is well
     std::string certificate; ///< folder of the finished certificate, when there is one
 };
 
@@ -152,6 +154,10 @@ public:
     virtual Task<Result<std::string>> arm(ArmRequest request) = 0;
     /// The technician's own capture of the next point, marked manual.
     virtual Result<void> trigger() = 0;
+    /// What a person reads off the autocollimator: of the point that the CNC asks for, else of the
+    /// next one, marked manual. @errors Fault::bad_request unless the station reads a polygon; the
+    /// reason why the point is refused.
+    virtual Result<void> type_reading(double seconds_of_arc) = 0;
     virtual Result<void> abort(std::string reason) = 0;
     /// What arming would meet now. @errors Fault::bad_request for an override that is none.
     [[nodiscard]] virtual Result<std::vector<PreflightRecord>>

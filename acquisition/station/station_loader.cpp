@@ -1,6 +1,7 @@
 #include "acquisition/station/station_loader.hpp"
 
 #include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/run/rotary_plan.hpp"
 #include "drivers/registry.hpp"
 
 #include <algorithm>
@@ -27,9 +28,11 @@ void check_together(LoadedStation& station, Settings root) {
     }
     if (auto roles = resolve_roles(station.config.axis, channels)) {
         station.roles = *std::move(roles);
-        const int seat = channels[static_cast<std::size_t>(station.roles.laser)].instrument;
-        check_laser(*station.instruments[static_cast<std::size_t>(seat)], station.config.axis,
-                    root);
+        if (const auto laser = station.roles.laser) {
+            const int seat = channels[static_cast<std::size_t>(*laser)].instrument;
+            check_laser(*station.instruments[static_cast<std::size_t>(seat)], station.config.axis,
+                        root);
+        }
     } else
         root.refuse("axis", describe(roles.error()));
     if (station.config.ballbar) {
@@ -45,10 +48,15 @@ void check_together(LoadedStation& station, Settings root) {
         else
             root.refuse("ballbar", describe(bar.error()));
     }
+    if (station.config.circles_alone()) return;
     if (auto passes = plan_passes(station.config.cycle, 0))
         station.passes = *std::move(passes);
     else
         root.refuse("cycle", describe(passes.error()));
+    if (!station.config.axis.angle) return;
+    for (const RunPlan& plan : station.passes)
+        if (auto fits = check_rotary_plan(plan, station.config.axis.angle->setup); !fits)
+            root.refuse("cycle", describe(fits.error()));
 }
 
 } // namespace

@@ -47,12 +47,16 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         {},
         {},
         {}};
-    facts.circular = request.pass == circular_pass && roles_.ballbar && config_.circular;
+    if (config_.axis.angle)
+        facts.run_out = stated(request, "run_out", config_.axis.angle->setup.run_out);
+    facts.typed = reads_polygon();
+    const bool asked = request.pass == circular_pass || !roles_.laser;
+    facts.circular = asked && roles_.ballbar && config_.circular;
     std::vector<int> roles = facts.circular ? roles_.of_circles() : roles_.environment();
     for (const int id : roles)
         facts.sensors.push_back(sensor_facts(id));
-    const int length_id = facts.circular ? *roles_.ballbar : roles_.laser;
-    roles.push_back(length_id);
+    const std::optional<int> length_id = facts.circular ? roles_.ballbar : roles_.laser;
+    if (length_id) roles.push_back(*length_id);
     const auto views = supervisor_.view();
     for (const int id : roles) {
         const StationChannel& channel = channel_of(id);
@@ -62,14 +66,15 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         const auto& view = views[static_cast<std::size_t>(channel.instrument)];
         if (view.state != InstrumentState::available) facts.unavailable.push_back(name);
     }
-    const int seat = channel_of(length_id).instrument;
+    if (!length_id) return facts;
+    const int seat = channel_of(*length_id).instrument;
     for (const StationChannel& channel : supervisor_.channels())
         if (channel.kind == ChannelKind::strength && channel.instrument == seat)
             facts.strengths.push_back(sensor_facts(channel.id));
     if (facts.circular) {
-        if (const auto& reading = latest_[static_cast<std::size_t>(length_id)])
+        if (const auto& reading = latest_[static_cast<std::size_t>(*length_id)])
             facts.bar_age = now - reading->at;
-        facts.bar = &sensor_logs_[static_cast<std::size_t>(length_id)];
+        facts.bar = &sensor_logs_[static_cast<std::size_t>(*length_id)];
         return facts;
     }
     if (const auto reading = history_.newest(); reading && reading->value())

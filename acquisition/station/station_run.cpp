@@ -7,11 +7,13 @@
 #include "drivers/spawn.hpp"
 
 #include <filesystem>
+#include <malloc.h>
 
 namespace axiscal {
 namespace {
 
 constexpr Duration look_every = std::chrono::milliseconds{20}; // adds at most this to a capture
+constexpr Duration after_the_start = std::chrono::seconds{1};
 
 } // namespace
 
@@ -29,7 +31,8 @@ void Station::feed(RunInput input) {
 
 void Station::feed_with_air(RunInput input) {
     if (!machine_) return;
-    feed(EnvironmentNow{live_scale_now()});
+    if (const auto scale = live_scale_now()) live_scale_ = *scale; // also while nothing is captured
+    feed(EnvironmentNow{scale_within_limits()});
     feed(std::move(input));
 }
 
@@ -53,7 +56,7 @@ void Station::perform(PublishArmed) {
 
 void Station::perform(OpenWindow action) {
     open_window_ = action.window;
-    spawn(scheduler_, watch_window(action));
+    spawn(scheduler_, reads_polygon() ? await_typed(action) : watch_window(action));
 }
 
 void Station::perform(CloseWindow action) {
@@ -80,17 +83,18 @@ Task<void> Station::watch_window(OpenWindow window) {
 }
 
 void Station::perform(CommitPoint action) {
-    spawn(scheduler_, commit(std::move(action.point)));
+    spawn(scheduler_, commit(std::move(action.point), action.synchronisation));
 }
 void Station::perform(CommitDatum action) {
-    spawn(scheduler_, commit(std::move(action.datum)));
+    spawn(scheduler_, commit(std::move(action.datum), action.synchronisation));
 }
 void Station::perform(CommitEvent action) {
     spawn(scheduler_, commit_event(std::move(action)));
 }
 
-template <class Record> Task<void> Station::commit(Record record) {
-    settle(co_await journal_.commit(std::move(record)));
+template <class Record>
+Task<void> Station::commit(Record record, std::optional<Synchronisation> synchronisation) {
+    settle(co_await journal_.commit(std::move(record), synchronisation));
 }
 
 Task<void> Station::commit_event(CommitEvent action) {
@@ -180,9 +184,21 @@ bool Station::lacks_certificate(const RunSummary& run) const {
                 config_.state_directory + "/outbox/." + certificate_name(run) + ".staging", error));
 }
 
-Task<void> Station::certify_left_over(std::vector<RunSummary> runs) {
-    for (const RunSummary& run : runs)
+/// The closed ones are looked into one by one and late: beside the loop, and behind whoever waited
+/// for the station. What this daemon measures, or takes over meanwhile, it certifies by itself.
+Task<void> Station::certify_left_over(StoredRuns stored) {
+    for (const RunSummary& run : stored.looked_into)
         if (lacks_certificate(run)) co_await certify(run.run_id, run.path);
+    co_await scheduler_.sleep_for(after_the_start);
+    for (const std::string& path : stored.folded) {
+        if (stopping_) co_return;
+        const auto run = co_await journal_.summarize(path);
+        const bool of_this_daemon =
+            (run_ && run_->path == path) || (drift_ && drift_->path == path);
+        if (run && !of_this_daemon && lacks_certificate(*run)) co_await certify(run->run_id, path);
+    }
+    stored = {};
+    ::malloc_trim(0); // a thousand runs leave half a megabyte that an idle station has no use for
 }
 
 /// Meanwhile a new run may have been armed: the answer belongs to the run named here.

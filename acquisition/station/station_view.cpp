@@ -3,6 +3,7 @@
 
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/run/live_position.hpp"
+#include "analysis/rotary/rotary_position.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,7 @@ void Station::publish_to_port() {
 AxisView Station::axis_view() const {
     AxisView axis;
     axis.name = config_.axis.name;
+    axis.kind = config_.cycle.axis_kind;
     const MonotonicTime now = scheduler_.now();
     const auto newest = history_.newest();
     if (!newest || now - newest->at > laser_limit) return axis;
@@ -58,9 +60,7 @@ AxisView Station::axis_view() const {
     }
     if (const auto value = newest->value()) {
         axis.displacement_mm = metre(*value).in(mm);
-        if (datum_ && run_open())
-            axis.position_mm =
-                live_position(run_->header.laser, *datum_, metre(*value), live_scale_).in(mm);
+        if (datum_ && run_open()) axis.position_mm = position_now_mm(metre(*value));
     }
     if (axis.position_mm && machine_)
         if (const auto next = machine_->view().next) {
@@ -72,6 +72,21 @@ AxisView Station::axis_view() const {
                 axis.deviation_um = deviation_um;
         }
     return axis;
+}
+
+/// Where the indexing table stands shows only near the next target: elsewhere a rotary axis has no
+/// position that could be told.
+std::optional<double> Station::position_now_mm(Length reading) const {
+    const RunRecord& run = run_->header;
+    if (!run.rotary) return live_position(run.laser, *datum_, reading, live_scale_).in(mm);
+    const auto next = machine_ ? machine_->view().next : std::nullopt;
+    if (!next) return std::nullopt;
+    const Length target = run.plan.targets[static_cast<std::size_t>(next->target_index)];
+    const int index = artefact_index(*run.rotary, datum_->coordinate, target);
+    const auto position =
+        rotary_position(*run.rotary, run.laser.sign, *datum_, reading, live_scale_, index);
+    if (!position || abs(*position - target) > run.plan.near_tolerance) return std::nullopt;
+    return position->in(mm);
 }
 
 RunStatus Station::run_status() const {
@@ -86,6 +101,8 @@ RunStatus Station::run_status() const {
     run.done = view.last_durable;
     run.certificate = run_->certificate;
     if (view.last_deviation) run.last_deviation_um = view.last_deviation->in(um);
+    if (view.last_synchronisation)
+        run.last_synchronisation_um = view.last_synchronisation->error_um;
     if (run_->closed)
         run.state = run_->outcome->complete ? "complete" : "incomplete";
     else if (view.stopped)

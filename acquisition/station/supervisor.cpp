@@ -1,8 +1,13 @@
 #include "acquisition/station/supervisor.hpp"
 
+#include "analysis/channel_correction.hpp"
+#include "drivers/link/arrival.hpp"
+#include "drivers/link/can_link.hpp"
+#include "drivers/link/usb_link.hpp"
 #include "drivers/spawn.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace axiscal {
@@ -10,8 +15,56 @@ namespace {
 
 constexpr Duration first_pause = std::chrono::milliseconds{250};
 constexpr Duration longest_pause = std::chrono::seconds{2}; // a cable is back within 5 s
+/// Of a device that is not there and whose coming is told: in case it is not told after all.
+constexpr Duration look_all_the_same = std::chrono::minutes{5};
 constexpr Duration between_notes = std::chrono::seconds{2};
 constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports every few seconds
+
+/// The way to the links, which remembers what could not be opened. The first place decides: a
+/// driver that asks several devices for their serial number ends at a place where nothing is.
+class RememberingOpener final : public LinkOpener, public ClosedLineListener {
+public:
+    explicit RememberingOpener(LinkOpener& links)
+        : links_{links} {}
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                 MonotonicTime deadline) override {
+        auto opened = co_await links_.open(settings, deadline);
+        remember(settings, opened.has_value());
+        co_return opened;
+    }
+    Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override {
+        auto opened = co_await links_.open_usb(settings, deadline);
+        remember(settings, opened.has_value());
+        co_return opened;
+    }
+    Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
+                                                    MonotonicTime deadline) override {
+        auto opened = co_await links_.open_can(settings, deadline);
+        remember(settings, opened.has_value());
+        co_return opened;
+    }
+    void missed(const LinkSettings& settings) override { remember(settings, false); }
+    [[nodiscard]] ModbusBuses* modbus_buses() override { return links_.modbus_buses(); }
+
+    [[nodiscard]] const std::optional<LinkSettings>& missing() const { return missing_; }
+    void forget() {
+        missing_.reset();
+        tried_ = false;
+    }
+
+private:
+    void remember(const LinkSettings& settings, bool opened) {
+        if (opened)
+            missing_.reset();
+        else if (!tried_)
+            missing_ = settings;
+        tried_ = true;
+    }
+    LinkOpener& links_;
+    bool tried_ = false;
+    std::optional<LinkSettings> missing_; ///< of the first opening, where all failed
+};
 
 const ChannelConfig* find_stated(const InstrumentConfig& config, const std::string& channel) {
     const auto found = std::ranges::find(config.channels, channel, &ChannelConfig::channel);
@@ -27,6 +80,12 @@ std::string_view name_of(InstrumentState state) {
     case InstrumentState::faulty: return "faulty";
     }
     return "?";
+}
+
+bool StationChannel::certified() const {
+    const ChannelCalibration& c = calibration;
+    return !c.certificate_number.empty() || !c.calibrated_on.empty() || !c.due_on.empty() ||
+           c.expanded_uncertainty || c.expanded_uncertainty_per_m || !c.corrections.empty();
 }
 
 std::vector<StationChannel> station_channels(const InstrumentConfig& config,
@@ -46,6 +105,8 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
             if (!stated->name.empty()) entry.shown = stated->name;
             entry.place = stated->place;
             entry.correction = stated->correction;
+            entry.calibration = stated->calibration;
+            entry.calibration.channel = entry.id;
             entry.medium = stated->medium.value_or(channel.medium);
         }
         channels.push_back(std::move(entry));
@@ -57,6 +118,7 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
 struct Supervisor::Seat final : SampleSink {
     Seat(Supervisor& owner, std::unique_ptr<Instrument> of)
         : supervisor{owner}
+        , links{owner.links_}
         , instrument{std::move(of)} {}
 
     void take(const Sample& sample) override {
@@ -66,9 +128,19 @@ struct Supervisor::Seat final : SampleSink {
         last_sample = now;
         const int id = first_channel + sample.channel;
         const StationChannel& channel = supervisor.channels_[static_cast<std::size_t>(id)];
-        const Sample forwarded = sample.corrected(channel.id, value ? channel.correction : 0);
+        const Sample forwarded =
+            sample.corrected(channel.id, value ? correction_for(channel, *value) : 0);
         if (value) supervisor.set_state(*this, InstrumentState::available);
         supervisor.listener_.on_sample(forwarded);
+    }
+    /// The certificate's constant, or its table; told once where the table ends.
+    double correction_for(const StationChannel& channel, double value) {
+        const auto& points = channel.calibration.corrections;
+        if (beyond_certificate(points, value) && told_beyond.insert(channel.id).second)
+            note(Fault::none, "\"" + channel.name +
+                                  "\" reads beyond the table of its certificate: "
+                                  "the correction at its end is used");
+        return channel.correction + correction_at(points, value);
     }
     void identify(const Identity& identity) override { view.identity = identity; }
     /// What ended a connection that had given values is told however soon it comes after another
@@ -92,6 +164,7 @@ struct Supervisor::Seat final : SampleSink {
     }
 
     Supervisor& supervisor;
+    RememberingOpener links;
     std::unique_ptr<Instrument> instrument;
     int first_channel = 0;
     InstrumentView view;
@@ -100,6 +173,7 @@ struct Supervisor::Seat final : SampleSink {
     std::optional<MonotonicTime> told_at;
     Fault told_fault = Fault::none; ///< what the listener heard last
     std::string told_note;
+    std::set<int> told_beyond; ///< channels whose table was left
 };
 
 Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListener& listener)
@@ -131,7 +205,8 @@ Task<void> Supervisor::keep_running(Seat& seat) {
     Duration pause{};
     for (;;) {
         const MonotonicTime begun = scheduler_.now();
-        const InstrumentContext context{&scheduler_, &links_, &seat};
+        const InstrumentContext context{&scheduler_, &seat.links, &seat};
+        seat.links.forget();
         const Result<void> ended = co_await seat.instrument->run(context);
         ++seat.view.restarts;
         seat.last_sample.reset();
@@ -140,8 +215,21 @@ Task<void> Supervisor::keep_running(Seat& seat) {
         set_state(seat, InstrumentState::unavailable);
         const bool ran_well = scheduler_.now() - begun > longest_pause;
         pause = ran_well ? first_pause : std::clamp(2 * pause, first_pause, longest_pause);
-        co_await scheduler_.sleep_for(pause);
+        // Who uses a node that has just come is settled a moment later: tried soon again.
+        if (co_await pause_after(seat, pause)) pause = {};
     }
+}
+
+Task<bool> Supervisor::pause_after(const Seat& seat, Duration pause) {
+    const MonotonicTime now = scheduler_.now();
+    const RetryTimes times{now + pause, now + look_all_the_same};
+    auto* listener = dynamic_cast<PlugListener*>(&links_);
+    if (listener == nullptr || !seat.links.missing()) {
+        co_await scheduler_.sleep_until(times.usual);
+        co_return false;
+    }
+    LinkSettings settings = *seat.links.missing();
+    co_return co_await listener->worth_another_try(scheduler_, std::move(settings), times);
 }
 
 void Supervisor::set_state(Seat& seat, InstrumentState state) {
@@ -164,6 +252,11 @@ void Supervisor::judge() {
         const bool good = seat->last_good && now - *seat->last_good < silence;
         if (!good) set_state(*seat, heard ? InstrumentState::faulty : InstrumentState::unavailable);
     }
+}
+
+bool Supervisor::somebody_speaks() const {
+    return std::ranges::any_of(
+        seats_, [](const auto& seat) { return seat->view.state != InstrumentState::unavailable; });
 }
 
 std::vector<InstrumentView> Supervisor::view() const {

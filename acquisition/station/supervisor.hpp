@@ -26,6 +26,8 @@ struct StationChannel {
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
     double correction = 0;
+    ChannelCalibration calibration; ///< its table of corrections is applied as `correction` is
+    [[nodiscard]] bool certified() const; ///< the station file states a certificate of this channel
 };
 
 /// The channels of one instrument as this station uses them, numbered from `first_id`.
@@ -72,6 +74,8 @@ public:
     /// Without a good value for ten seconds an instrument is faulty when it still sends something,
     /// else unavailable. Call it every second.
     void judge();
+    /// Some instrument is available or faulty.
+    [[nodiscard]] bool somebody_speaks() const;
 
     [[nodiscard]] const std::vector<StationChannel>& channels() const { return channels_; }
     [[nodiscard]] std::vector<InstrumentView> view() const;
@@ -81,6 +85,8 @@ public:
 private:
     struct Seat;
     Task<void> keep_running(Seat& seat);
+    /// @returns it was plugged in meanwhile
+    Task<bool> pause_after(const Seat& seat, Duration pause);
     void set_state(Seat& seat, InstrumentState state);
 
     Scheduler& scheduler_;

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double one_degree = std::numbers::pi / 180;
 constexpr double largest_time_error = 0.02; ///< of the programmed path
+/// The machine halts this long after an arc at least; readings may end with its feed-out.
+constexpr Duration shortest_halt = std::chrono::milliseconds{500};
 /// Two samples between which a step may be interpolated lie no further apart than this share of
 /// the feed-in: beyond it the crossing is known to a tenth of the step only.
 constexpr double widest_share_of_step = 0.2;
@@ -25,6 +27,45 @@ struct Stay {
     std::size_t first = 0, last = 0;
 };
 
+/// Sees the samples of an arc one after the other.
+class RadialSpeed {
+public:
+    explicit RadialSpeed(const StreamSamples& stream)
+        : stream_{stream} {}
+
+    void see(std::size_t i) {
+        const bool hole = std::ranges::binary_search(stream_.gaps, i, {}, &StreamGap::at);
+        if (!begun_ || hole) back_ = i;
+        begun_ = true;
+        const Duration uncertainty = time_uncertainty(i);
+        stated_ = stated_ && uncertainty > Duration{};
+        while (back_ + 1 < i && stream_.at[i] - stream_.at[back_ + 1] >= least)
+            ++back_;
+        const Duration span = stream_.at[i] - stream_.at[back_];
+        if (span < least) return;
+        const double way_um = (stream_.value[i] - stream_.value[back_]) * 1e6;
+        const auto here = synchronisation_of(way_um / seconds_of(span), uncertainty);
+        if (here && (!worst_ || here->error_um > worst_->error_um)) worst_ = here;
+    }
+    [[nodiscard]] std::optional<Synchronisation> worst() const {
+        return stated_ ? worst_ : std::nullopt;
+    }
+
+private:
+    /// Shorter steps would tell noise, not speed.
+    static constexpr Duration least = std::chrono::microseconds{999};
+
+    [[nodiscard]] Duration time_uncertainty(std::size_t i) const {
+        const auto next = std::ranges::upper_bound(stream_.times, i, {}, &StreamTime::from);
+        return next == stream_.times.begin() ? Duration{} : std::prev(next)->time_uncertainty;
+    }
+
+    const StreamSamples& stream_;
+    std::size_t back_ = 0;
+    bool begun_ = false, stated_ = true;
+    std::optional<Synchronisation> worst_;
+};
+
 class Cutter {
 public:
     Cutter(const CircularSetup& setup, const StreamSamples& stream)
@@ -32,6 +73,8 @@ public:
         , plan_{setup.plan}
         , stream_{stream}
         , path_mm_{programmed_path_mm(setup.plan)} {}
+
+    [[nodiscard]] bool by_words() const { return plan_.start == StartMethod::trigger; }
 
     [[nodiscard]] double time_error(const Stay& stay) const {
         const double found = seconds_of(stream_.at[stay.last - 1] - stream_.at[stay.first]);
@@ -54,9 +97,43 @@ public:
     [[nodiscard]] Result<CircleCapture> cut(const PlannedCircle& circle, const Stay& stay) const {
         AXISCAL_TRY(const double begin_s, crossing_s(stay.first, "feed-in", circle));
         AXISCAL_TRY(const double end_s, crossing_s(stay.last, "feed-out", circle));
+        return timed(circle, stay, begin_s, end_s);
+    }
+
+    /// By the controller's words at both ends of the arc.
+    [[nodiscard]] Result<CircleCapture> cut_by_words(const PlannedCircle& circle,
+                                                     const CircleMark& mark) const {
+        if (!mark.arc_begin || !mark.arc_end)
+            return fail(Fault::incomplete_run, "the controller gave no word at the " +
+                                                   std::string{mark.arc_begin ? "end" : "begin"} +
+                                                   " of the arc of " + words(circle) +
+                                                   ": is it the program of this station file?");
+        if (stream_.at.empty() || stream_.at.back() + shortest_halt < *mark.arc_end)
+            return fail(Fault::incomplete_run, "the readings end within " + words(circle));
+        const auto said_s = [&](MonotonicTime at) {
+            return seconds_of(at - stream_.at.front()) - plan_.trigger_delay_s;
+        };
+        const double begin_s = said_s(*mark.arc_begin), end_s = said_s(*mark.arc_end);
+        const auto index = [&](double second) {
+            const MonotonicTime at = stream_.at.front() + from_seconds(second);
+            return static_cast<std::size_t>(std::ranges::lower_bound(stream_.at, at) -
+                                            stream_.at.begin());
+        };
+        return timed(circle, {index(begin_s), index(end_s)}, begin_s, end_s);
+    }
+
+    static std::string words(const PlannedCircle& circle) {
+        return "circle " + std::to_string(circle.number) + " (" +
+               std::string{name_of(circle.sense)} + ")";
+    }
+
+private:
+    [[nodiscard]] Result<CircleCapture>
+    timed(const PlannedCircle& circle, const Stay& stay, double begin_s, double end_s) const {
         CircleCapture capture;
         capture.repeat = circle.repeat;
         capture.warm_up = circle.warm_up;
+        capture.start = plan_.start;
         capture.trace.sense = circle.sense;
         capture.residual_mm = (end_s - begin_s) * plan_.feed_mm_per_s - path_mm_;
         capture.speed_residual = capture.residual_mm / path_mm_;
@@ -66,15 +143,11 @@ public:
                             " of path more than programmed: is the feed override at 100 %, and is "
                             "the feed that of the station file?");
         take_arc(capture, stay, (begin_s + end_s) / 2);
+        if (capture.trace.angle_rad.empty())
+            return fail(Fault::incomplete_run, "there are no readings of " + words(circle));
         return capture;
     }
 
-    static std::string words(const PlannedCircle& circle) {
-        return "circle " + std::to_string(circle.number) + " (" +
-               std::string{name_of(circle.sense)} + ")";
-    }
-
-private:
     /// Above the middle of the step: positive away from the circle.
     [[nodiscard]] double height_mm(std::size_t i) const {
         const double deviation = radial_deviation_mm(setup_, stream_.value[i]);
@@ -107,6 +180,7 @@ private:
         const double middle_rad = plan_.start_deg * one_degree + half_rad;
         const double speed_rad = plan_.feed_mm_per_s / plan_.nominal_radius_mm;
         const double sense = sign_of(capture.trace.sense);
+        RadialSpeed rate{stream_};
         for (std::size_t i = stay.first; i < stay.last; ++i) {
             const double turned = (seconds(i) - middle_s) * speed_rad;
             // the end itself belongs to the next turn: a full circle has every angle once
@@ -116,10 +190,12 @@ private:
             else if (hole_before(i))
                 count_hole(capture, i);
             capture.end = stream_.at[i];
+            rate.see(i);
             capture.trace.angle_rad.push_back(middle_rad + sense * turned);
             capture.trace.radial_deviation_mm.push_back(
                 radial_deviation_mm(setup_, stream_.value[i]));
         }
+        capture.synchronisation = rate.worst();
     }
     void count_hole(CircleCapture& capture, std::size_t i) const {
         const auto gap = std::ranges::lower_bound(stream_.gaps, i, {}, &StreamGap::at);
@@ -156,6 +232,7 @@ Result<CircleCapture> cut_by_mark(const Cutter& cutter,
     const auto mark = std::ranges::find(marks, circle.number, &CircleMark::number);
     if (mark == marks.end())
         return fail(Fault::incomplete_run, Cutter::words(circle) + " was never begun");
+    if (cutter.by_words()) return cutter.cut_by_words(circle, *mark);
     const auto next = std::next(mark);
     const std::size_t last = next == marks.end() ? stream.at.size() : index_at(stream, next->at);
     AXISCAL_TRY(const Stay stay,
@@ -179,12 +256,19 @@ Result<std::vector<Stay>> stays_by_order(const Cutter& cutter,
 
 } // namespace
 
-std::vector<CircleMark> circle_marks(std::span<const EventRecord> events) {
+std::vector<CircleMark> circle_marks(const CircularPlan& plan,
+                                     std::span<const EventRecord> events) {
+    const int requests = requests_a_circle(plan);
     std::vector<CircleMark> marks;
     for (const EventRecord& event : events) {
         if (event.kind != EventKind::note || event.sequence == 0) continue;
-        if (!marks.empty() && marks.back().number == event.sequence) marks.pop_back();
-        marks.push_back({event.sequence, event.at});
+        const int number = (event.sequence - 1) / requests + 1;
+        const int word = (event.sequence - 1) % requests;
+        const bool known = !marks.empty() && marks.back().number == number;
+        if (word == 0 && known) marks.pop_back();
+        if (word == 0) marks.push_back({number, event.at});
+        if (word == 1 && known) marks.back().arc_begin = event.at;
+        if (word == 2 && known) marks.back().arc_end = event.at;
     }
     return marks;
 }
@@ -196,7 +280,8 @@ double radial_deviation_mm(const CircularSetup& setup, double reading_m) {
 }
 
 double programmed_path_mm(const CircularPlan& plan) {
-    return driven_deg(plan) * one_degree * plan.nominal_radius_mm + plan.feed_in_mm;
+    const double arc_mm = driven_deg(plan) * one_degree * plan.nominal_radius_mm;
+    return plan.start == StartMethod::trigger ? arc_mm : arc_mm + plan.feed_in_mm;
 }
 
 Result<std::vector<CircleCapture>> cut_circles(const CircularSetup& setup,

@@ -7,6 +7,7 @@
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
+#include "analysis/synchronisation.hpp"
 
 namespace axiscal {
 
@@ -38,6 +39,9 @@ struct CircleCapture {
     double residual_mm = 0;
     double speed_residual = 0;           ///< the same as share of the programmed path
     std::uint64_t gaps = 0, missing = 0; ///< places where samples are missing, and how many
+    /// Where |dr/dt| * u(t) is largest on the evaluated arc, by steps of 1 ms at least (noise
+    /// included); empty unless each sample there has its u(t).
+    std::optional<Synchronisation> synchronisation;
 };
 
 struct CircularRun {
@@ -51,6 +55,7 @@ struct CircularRun {
     Statements statements;
     std::vector<InstrumentRecord> instruments;
     std::vector<ChannelRecord> channels;
+    std::vector<ChannelCalibration> calibrations; ///< at most one a channel
     CircularTemperature bar_temperature, machine_temperature, air_temperature;
     std::optional<double> machine_alpha_per_K;
     CircularUncertaintyStatement uncertainty;

@@ -17,10 +17,11 @@ std::string_view name_of(CircularPlane plane); ///< "XY" | "YZ" | "ZX"
 /// "Z" and "X" for ZX.
 std::array<std::string, 2> axes_of(CircularPlane plane);
 
-/// How the begin of a circle was found in the stream.
+/// How begin and end of a circle are found in the stream. The angle is the programmed feed times
+/// the time from the middle between them.
 enum class StartMethod : std::uint8_t {
-    feed_step, ///< the radial step of feed-in and feed-out; the angle is the constant-feed share
-    trigger    ///< the controller's word at the begin of the sense; the angle is feed times time
+    feed_step, ///< the radial steps of feed-in and feed-out
+    trigger    ///< the controller's words at the begin and at the end of the arc
 };
 std::string_view name_of(StartMethod method); ///< "feed_step" | "trigger"
 
@@ -38,7 +39,15 @@ struct CircularPlan {
     bool feed_in_outside = true;          ///< rest lies outside the circle
     std::array<double, 3> centre_mm{};    ///< X, Y, Z in machine coordinates
     std::string tool_offset, work_offset; ///< "offset to tool and workpiece reference"
+    StartMethod start = StartMethod::feed_step;
+    double trigger_delay_s = 0; ///< of `trigger`: how late the words reach the station, mean
 };
+
+/// Requests that the controller makes for each circle: one before it; of `trigger` also one at the
+/// begin and one at the end of its arc. One more ends the test.
+inline int requests_a_circle(const CircularPlan& plan) {
+    return plan.start == StartMethod::trigger ? 3 : 1;
+}
 
 /// What was done to the readings before they were stored; all of it changes G.
 struct CircularCapture {

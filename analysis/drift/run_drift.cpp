@@ -38,6 +38,8 @@ ChannelDrift drift_of(const ChannelRecord& channel,
     drift.name = channel.name;
     drift.place = channel.place;
     drift.kind = channel.kind;
+    drift.medium = channel.medium;
+    drift.correction = channel.correction;
     const bool length = channel.kind == ChannelKind::displacement;
     drift.unit = length ? "um" : std::string{stored_unit_of(channel.kind)};
     const double first = length && !readings.empty() ? readings.front().value : 0;

@@ -15,6 +15,8 @@ namespace axiscal {
 struct ChannelDrift {
     std::string name, place, unit;
     ChannelKind kind = ChannelKind::temperature;
+    Medium medium = Medium::none;
+    double correction = 0; ///< already in every value, in stored_unit_of(kind)
     DriftSeries series;
     DriftRange total, window;
 };

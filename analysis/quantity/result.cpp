@@ -64,6 +64,10 @@ constexpr std::array rows{
     FaultRow{Fault::wrong_medium, no_own_code, "wrong_medium",
              "An air channel cannot serve as a material temperature."},
     FaultRow{Fault::stale, no_own_code, "stale", "The value is older than its limit."},
+    FaultRow{
+        Fault::environment_outside, 4, "environment_outside",
+        "Air or machine is outside the limits of the station file: wait until it is back, or mend "
+        "what drives it."},
     FaultRow{Fault::bad_configuration, no_own_code, "bad_configuration",
              "The configuration is refused."},
     FaultRow{Fault::bad_request, no_own_code, "bad_request", "The request is refused."},

@@ -37,6 +37,7 @@ enum class Fault : std::uint8_t {
     unknown_instrument,
     wrong_medium,
     stale,
+    environment_outside,
     // files, requests, configuration, data
     bad_configuration,
     bad_request,

@@ -1,5 +1,7 @@
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
+#include "analysis/uncertainty/calibrated_terms.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,8 +65,22 @@ std::optional<double> expansion_width_of(const RunRecord& run, std::vector<std::
     return width;
 }
 
+/// Annex B: the device holds interferometer, artefact, optics and set-up; lengths stand for
+/// degrees.
+UncertaintyStatement statement_of_angle(const UncertaintySetup& setup) {
+    UncertaintyStatement s;
+    s.axis_kind = AxisKind::rotary;
+    if (setup.device_U.fixed) s.device_U = arcsec_of(*setup.device_U.fixed);
+    if (s.device_U) s.device_k = setup.device_k;
+    if (setup.device_width.fixed) s.device_width = arcsec_of(*setup.device_width.fixed);
+    if (setup.eve) s.eve = arcsec_of(*setup.eve);
+    s.eve_model = setup.eve_model;
+    return s;
+}
+
 UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>& remarks) {
     const UncertaintySetup setup = run.uncertainty.value_or(UncertaintySetup{});
+    if (run.plan.axis_kind == AxisKind::rotary) return statement_of_angle(setup);
     UncertaintyStatement s;
     s.axis_kind = run.plan.axis_kind;
     const auto [low, high] = std::ranges::minmax(run.plan.targets);
@@ -72,10 +88,16 @@ UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>
     s.device_U = over_length(setup.device_U, *s.length_m);
     if (s.device_U) s.device_k = setup.device_k;
     s.device_width = over_length(setup.device_width, *s.length_m);
+    if (!s.device_U && !s.device_width) {
+        s.device_U = calibrated_device_um(run, *s.length_m, remarks);
+        if (s.device_U) s.device_k = calibrated_k;
+    }
     s.misalignment_mm = number_of(setup.misalignment, mm);
     s.misalignment_rad = number_of(setup.misalignment_angle, radian);
     s.alpha_um_per_m_K = run.material.coefficient.in(um_per_m_kelvin);
     s.temperature_width_K = number_of(setup.temperature_width, kelvin);
+    if (!s.temperature_width_K)
+        s.temperature_width_K = calibrated_temperature_width_K(run, remarks);
     s.temperature_offset_K = largest_offset_of(run);
     s.alpha_width_um_per_m_K = expansion_width_of(run, remarks);
     s.eve = number_of(setup.eve, um);
@@ -93,6 +115,13 @@ void drop_incomplete(UncertaintyBudget& budget) {
 }
 
 std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s) {
+    if (s.axis_kind == AxisKind::rotary) {
+        std::vector<MissingTerm> missing;
+        if (!s.device_U && !s.device_width)
+            missing.push_back({"device", "the expanded uncertainty of instrument and artefact"});
+        if (!s.eve) missing.push_back({"drift", "E_VE of a drift test"});
+        return missing;
+    }
     const std::array stated{s.device_U || s.device_width, s.misalignment_mm || s.misalignment_rad,
                             s.temperature_width_K.has_value(), s.alpha_width_um_per_m_K.has_value(),
                             s.eve.has_value()};
@@ -154,6 +183,10 @@ void simulate_run(RunUncertainty& known,
         return known.budget->find(figure.key) == nullptr;
     });
     known.simulation = *std::move(simulated);
+}
+
+double in_budget_units(const RunRecord& run, Length amount) {
+    return run.plan.axis_kind == AxisKind::rotary ? arcsec_of(amount) : amount.in(um);
 }
 
 const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter) {

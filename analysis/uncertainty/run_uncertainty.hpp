@@ -49,6 +49,13 @@ void simulate_run(RunUncertainty& known,
                   const RunAt20C& deviations,
                   const PositioningResult& result);
 
+/// Seconds of arc of a coordinate of a rotary axis, where one millimetre stands for one degree.
+constexpr double arcsec_of(Length angle) {
+    return angle.in(mm)*3600;
+}
+/// A stated amount in the unit of the budget: micrometres, of a rotary axis seconds of arc.
+double in_budget_units(const RunRecord& run, Length amount);
+
 /// U_T of one parameter; null when none is stated.
 const TargetUncertainty* target_uncertainty_of(const RunRecord& run, std::string_view parameter);
 

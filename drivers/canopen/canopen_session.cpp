@@ -14,7 +14,9 @@ constexpr Duration open_patience = std::chrono::seconds{2};
 /// the same.
 constexpr Duration boot_patience = std::chrono::seconds{1};
 constexpr std::uint32_t heartbeat_ms = 1000;
-constexpr Duration heartbeat_patience = std::chrono::milliseconds{2500}; ///< 2.5 of them
+/// 2.5 heartbeats of one millisecond.
+constexpr Duration patience_a_ms = std::chrono::microseconds{2500};
+constexpr Duration send_patience = std::chrono::milliseconds{500};
 /// Without PDOs: three periods, and never less than a turn of a busy computer.
 constexpr Duration least_patience = std::chrono::seconds{1};
 constexpr Duration shortest_look = std::chrono::milliseconds{20};
@@ -107,6 +109,7 @@ Task<Result<void>> CanOpenSession::open(InstrumentContext context) {
     layouts_.clear();
     used_.clear();
     beats_ = in_error_ = operational_ = false;
+    guard_.end();
     bus_errors_ = 0;
     then_.reset();
     Scheduler& scheduler = *context.scheduler;
@@ -151,11 +154,28 @@ Task<Result<void>> CanOpenSession::set_up(const PdoLayout& layout) {
     co_return timed;
 }
 
+/// A node that refuses may have a heartbeat of its own that cannot be changed. Without any it is
+/// guarded, and one that does not know guarding is watched by its PDOs alone.
 Task<Result<void>> CanOpenSession::ask_for_heartbeat() {
     const auto asked = co_await node_->write_number(heartbeat_key, heartbeat_ms, 2);
     if (!asked && asked.error().fault != Fault::refused) co_return asked;
-    beats_ = asked.has_value(); // without it the PDOs themselves are watched
+    std::uint32_t period_ms = heartbeat_ms;
+    if (!asked) {
+        AXISCAL_CO_TRY(period_ms, co_await number_or(heartbeat_key, 0));
+    }
+    beats_ = period_ms > 0;
+    beat_patience_ = patience_a_ms * static_cast<std::int64_t>(period_ms);
+    if (!beats_) guard_.begin(context_.scheduler->now());
     co_return Result<void>{};
+}
+
+/// Asks the guarded node when that is due.
+Task<Result<void>> CanOpenSession::guard() {
+    const MonotonicTime now = context_.scheduler->now();
+    if (!guard_.asks(now)) co_return Result<void>{};
+    const CanFrame question = guard_request(setup_.node);
+    auto sent = co_await link_->send(question, now + send_patience);
+    co_return sent;
 }
 
 Task<Result<void>> CanOpenSession::start(std::vector<std::size_t> used) {
@@ -194,8 +214,13 @@ void CanOpenSession::take_emergency(const Emergency& emergency) {
 }
 
 Result<void> CanOpenSession::take(const TimedCanFrame& timed, std::vector<PdoArrival>& arrived) {
-    if (const auto state = decode_heartbeat(timed.frame, setup_.node))
-        return take_state(*state, timed.at);
+    if (const auto state = decode_heartbeat(timed.frame, setup_.node)) {
+        const bool answers = guard_.next_question() && *state != NodeState::boot_up;
+        if (!answers || guard_.take(toggle_of(timed.frame), timed.at))
+            return take_state(*state, timed.at);
+        ++counters_.bad_frames; // an answer went lost, or a stranger sends it
+        return {};
+    }
     if (const auto emergency = decode_emergency(timed.frame, setup_.node)) {
         take_emergency(*emergency);
         return {};
@@ -210,19 +235,31 @@ Result<void> CanOpenSession::take(const TimedCanFrame& timed, std::vector<PdoArr
     return {};
 }
 
+MonotonicTime CanOpenSession::silent_from() const {
+    const MonotonicTime pdo_due = last_pdo_ + std::max(3 * setup_.sample_period, least_patience);
+    const MonotonicTime beat_due = beats_ ? last_beat_ + beat_patience_ : pdo_due;
+    return std::min({pdo_due, beat_due, guard_.silent_from().value_or(pdo_due)});
+}
+
 /// Until something comes or the node has been silent for too long.
 Task<Result<std::vector<TimedCanFrame>>> CanOpenSession::read_on() {
     if (setup_.rest > Duration::zero()) co_await context_.scheduler->sleep_for(setup_.rest);
-    const MonotonicTime pdo_due = last_pdo_ + std::max(3 * setup_.sample_period, least_patience);
-    const MonotonicTime due = beats_ ? std::min(pdo_due, last_beat_ + heartbeat_patience) : pdo_due;
     // A computer that slept may find that all is overdue, and frames that waited.
     const MonotonicTime least = context_.scheduler->now() + shortest_look;
-    auto arrived = co_await link_->read_some(std::max(due, least));
-    counters_.bad_frames += link_->bus_errors() - std::exchange(bus_errors_, link_->bus_errors());
-    const bool silent = arrived ? false : arrived.error().fault == Fault::link_timeout;
-    if (silent) ++counters_.timeouts;
-    if (silent) co_return tl::unexpected<Error>(node_->silence());
-    co_return arrived;
+    for (;;) {
+        const auto guarded = co_await guard();
+        if (!guarded) co_return tl::unexpected<Error>(guarded.error());
+        const MonotonicTime end = std::max(silent_from(), least);
+        const MonotonicTime look = std::min(end, guard_.next_question().value_or(end));
+        auto arrived = co_await link_->read_some(look);
+        counters_.bad_frames +=
+            link_->bus_errors() - std::exchange(bus_errors_, link_->bus_errors());
+        const bool nothing = !arrived && arrived.error().fault == Fault::link_timeout;
+        if (!nothing) co_return arrived;
+        if (look < end) continue; // the next question is due
+        ++counters_.timeouts;
+        co_return tl::unexpected<Error>(node_->silence());
+    }
 }
 
 Task<Result<std::vector<PdoArrival>>> CanOpenSession::next() {

@@ -3,6 +3,7 @@
 // PDOs hold is read from the node itself. Loop-bound.
 
 #include "drivers/canopen/canopen_node.hpp"
+#include "drivers/canopen/node_guard.hpp"
 #include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/instrument.hpp"
 
@@ -40,7 +41,8 @@ public:
     [[nodiscard]] CanOpenNode& node() { return *node_; }
     [[nodiscard]] std::uint32_t device_type() const { return device_type_; }
     [[nodiscard]] const std::vector<PdoLayout>& layouts() const { return layouts_; }
-    /// Sets period and heartbeat and starts the node. @param used  indices into layouts().
+    /// Sets period and heartbeat and starts the node; one that has no heartbeat is guarded. @param
+    /// used  indices into layouts().
     Task<Result<void>> start(std::vector<std::size_t> used);
     /// PDOs that are used, in their order, at least one.
     /// @errors of the link; silence(); Fault::link_closed when the node was reset or stopped.
@@ -55,6 +57,8 @@ private:
     Task<Result<void>> read_layout(int number);
     Task<Result<void>> set_up(const PdoLayout& layout);
     Task<Result<void>> ask_for_heartbeat();
+    Task<Result<void>> guard();
+    [[nodiscard]] MonotonicTime silent_from() const;
     Task<Result<std::vector<TimedCanFrame>>> read_on();
     Result<void> take(const TimedCanFrame& timed, std::vector<PdoArrival>& arrived);
     Result<void> take_state(NodeState state, MonotonicTime at);
@@ -70,6 +74,8 @@ private:
     std::vector<std::size_t> used_;
     bool beats_ = false, in_error_ = false, operational_ = false;
     MonotonicTime last_beat_{}, last_pdo_{};
+    Duration beat_patience_{};
+    NodeGuard guard_;
     std::optional<Error> then_;    ///< told after the PDOs that came before it
     std::uint64_t bus_errors_ = 0; ///< counted so far
 };

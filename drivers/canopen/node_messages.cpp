@@ -1,5 +1,5 @@
-// Source: CiA 301 V4.2: 7.2.8 (network management, heartbeat, boot-up), 7.2.7 (emergency, error
-// code classes of table 26).
+// Source: CiA 301 V4.2: 7.2.8 (network management, node guarding, heartbeat, boot-up), 7.2.7
+// (emergency, error code classes of table 26).
 #include "drivers/canopen/node_messages.hpp"
 
 #include "drivers/framing/byte_order.hpp"
@@ -38,13 +38,25 @@ std::optional<NodeState> decode_heartbeat(const CanFrame& frame, int node) {
     const bool is_one = frame.is_plain() && frame.length == 1 &&
                         frame.id == heartbeat_base + static_cast<std::uint32_t>(node);
     if (!is_one) return std::nullopt;
+    if (byte_at(frame.bytes(), 0) == 0) return NodeState::boot_up; // with a toggle bit it is none
     switch (byte_at(frame.bytes(), 0) & ~toggle_of_guarding) {
-    case 0x00: return NodeState::boot_up;
     case 0x04: return NodeState::stopped;
     case 0x05: return NodeState::operational;
     case 0x7F: return NodeState::pre_operational;
     default: return std::nullopt;
     }
+}
+
+CanFrame guard_request(int node) {
+    CanFrame frame;
+    frame.id = heartbeat_base + static_cast<std::uint32_t>(node);
+    frame.remote = true;
+    frame.length = 1;
+    return frame;
+}
+
+bool toggle_of(const CanFrame& state_frame) {
+    return state_frame.length > 0 && (byte_at(state_frame.bytes(), 0) & toggle_of_guarding) != 0;
 }
 
 std::string_view name_of(NodeState state) {

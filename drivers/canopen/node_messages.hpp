@@ -24,9 +24,14 @@ enum class NodeState : std::uint8_t {
     operational = 0x05,
     pre_operational = 0x7F,
 };
-/// Empty for any other frame.
+/// Empty for any other frame. The answer to `guard_request` has the same form, with a toggle bit.
 std::optional<NodeState> decode_heartbeat(const CanFrame& frame, int node);
 std::string_view name_of(NodeState state);
+
+/// Asks a node for its state: a remote frame for one byte on 0x700 + node (node guarding).
+CanFrame guard_request(int node);
+/// The bit that alternates from answer to answer; of a heartbeat it is 0.
+bool toggle_of(const CanFrame& state_frame);
 
 /// An emergency message, on 0x080 + node.
 struct Emergency {

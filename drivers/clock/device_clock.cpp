@@ -42,8 +42,10 @@ void DeviceClock::restart() {
     lowest_.clear();
     open_.reset();
     line_ = {};
+    seen_.reset();
     fit_uncertainty_s_ = 0;
     pinned_ = false;
+    state_uncertainty();
 }
 
 /// Within how much the delay of the newest record of a read is unknown: it came out of a frame, but
@@ -70,15 +72,17 @@ PlacedTime DeviceClock::place(std::uint64_t number,
     const Duration since_first = period * static_cast<std::int64_t>(number - first_number_);
     const Duration newest = since_first + period * behind;
     observe({seconds_of(newest), seconds_of(read_at - first_read_ - newest)});
+    const double late_s = delay_s(seconds_of(since_first)) - early_s_;
+    return {first_read_ + since_first + from_seconds(late_s), uncertainty_};
+}
 
+void DeviceClock::state_uncertainty() {
     const double unseen_s = pinned_ ? 0 : grain_s();
-    const double device_s = seconds_of(since_first);
-    const double late_s = delay_s(device_s) - (unseen_s + least_delay_s) / 2;
+    early_s_ = (unseen_s + least_delay_s) / 2;
     const double bent_s = window_s() == long_window_s ? swing_s : 0;
     // All rectangular; added, since in one set-up all may lie at their ends for hours.
     const double rectangular_s = (unseen_s + least_delay_s + bent_s) / std::sqrt(12.0);
-    const double uncertainty_s = std::hypot(rectangular_s, fit_uncertainty_s_);
-    return {first_read_ + since_first + from_seconds(late_s), from_seconds(uncertainty_s)};
+    uncertainty_ = from_seconds(std::hypot(rectangular_s, fit_uncertainty_s_));
 }
 
 /// An arrival below the line proves the line wrong before the next fit does.
@@ -88,7 +92,10 @@ double DeviceClock::delay_s(double device_s) const {
     return line_s + std::min(0.0, open_->delay_s - line_.at(open_->device_s));
 }
 
+/// Records that were read together all tell of the newest of them: once is enough.
 void DeviceClock::observe(ClockPoint newest) {
+    if (seen_ == newest) return;
+    seen_ = newest;
     if (open_ && std::floor(open_->device_s / bucket_s) != std::floor(newest.device_s / bucket_s))
         close_bucket();
     if (!open_ && lowest_.empty()) line_ = {newest.delay_s, 0};
@@ -104,6 +111,7 @@ void DeviceClock::close_bucket() {
         begin_flat();
     else
         refit();
+    state_uncertainty();
 }
 
 void DeviceClock::begin_flat() {

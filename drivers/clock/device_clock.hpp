@@ -46,6 +46,7 @@ private:
     void close_bucket();
     void refit();
     void begin_flat();
+    void state_uncertainty();
     [[nodiscard]] double window_s() const;
     [[nodiscard]] double grain_s() const;
     [[nodiscard]] double delay_s(double device_s) const;
@@ -56,9 +57,12 @@ private:
     bool begun_ = false;
     std::deque<ClockPoint> lowest_;  ///< of each bucket of the window
     std::optional<ClockPoint> open_; ///< of the bucket that is filling
+    std::optional<ClockPoint> seen_; ///< the newest record of the last read
     ClockLine line_;
     double fit_uncertainty_s_ = 0;
-    bool pinned_ = false; ///< the line is known to touch the floor of the delays
+    double early_s_ = 0;     ///< a record lies this much before the line
+    Duration uncertainty_{}; ///< u(t); both change with the line only
+    bool pinned_ = false;    ///< the line is known to touch the floor of the delays
 };
 
 } // namespace axiscal

@@ -8,6 +8,7 @@ namespace axiscal {
 /// An arrival: the instrument's time, and how much later than that this computer read it.
 struct ClockPoint {
     double device_s = 0, delay_s = 0;
+    bool operator==(const ClockPoint&) const = default;
 };
 
 struct ClockLine {

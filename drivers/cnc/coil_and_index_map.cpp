@@ -64,10 +64,15 @@ void CoilAndIndexMap::deliver(MapNews& news) {
     undecided_.reset();
 }
 
+// Index 0 is no request: such an edge goes on waiting until an index comes or the coil falls.
+std::optional<MonotonicTime> CoilAndIndexMap::due() const {
+    if (!undecided_ || index_ == 0) return std::nullopt;
+    return undecided_->at + index_grace_;
+}
+
 MapNews CoilAndIndexMap::tick(MonotonicTime now) {
     MapNews news;
-    // Index 0 is no request: such an edge goes on waiting until an index comes or the coil falls.
-    if (undecided_ && index_ != 0 && now - undecided_->at >= index_grace_) deliver(news);
+    if (const auto end = due(); end && now >= *end) deliver(news);
     return news;
 }
 

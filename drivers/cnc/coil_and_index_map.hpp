@@ -20,7 +20,8 @@ public:
     /// The event bears the arrival time of the coil, also when the index came later.
     MapNews write(const ModbusRequest& request, MonotonicTime at) override;
     MapNews tick(MonotonicTime now) override;
-    [[nodiscard]] Duration ticks() const override { return std::chrono::milliseconds{10}; }
+    /// The end of an undecided edge's grace.
+    [[nodiscard]] std::optional<MonotonicTime> due() const override;
     void arm() override;
     /// Nothing to show: the acknowledge stays low and the CNC holds until its own time-out.
     void refuse(std::uint16_t sequence, Fault fault) override;

@@ -49,7 +49,8 @@ void DwellTriggerPort::acknowledge(const JournalReceipt& receipt) {
 }
 
 void DwellTriggerPort::refuse(std::uint16_t /*sequence*/, Fault fault) {
-    detector_.failed(fault == Fault::not_still || fault == Fault::environment_stale);
+    detector_.failed(fault == Fault::not_still || fault == Fault::environment_stale ||
+                     fault == Fault::environment_outside);
 }
 
 void DwellTriggerPort::publish(const PortStatus& status) {

@@ -16,8 +16,8 @@ public:
     Task<Result<void>> run(TriggerContext context) override;
     void publish_armed() override;
     void acknowledge(const JournalReceipt& receipt) override;
-    /// not_still and environment_stale are tried again at the same halt; after other faults the
-    /// axis must leave the window and come back. The number is not used up.
+    /// not_still, environment_stale and environment_outside are tried again at the same halt; after
+    /// other faults the axis must leave the window and come back. The number is not used up.
     void refuse(std::uint16_t sequence, Fault fault) override;
     /// Listens to next_target and next_nominal_mm.
     void publish(const PortStatus& status) override;

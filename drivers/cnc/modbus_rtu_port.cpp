@@ -16,7 +16,7 @@
 namespace axiscal {
 namespace {
 
-constexpr auto listen_slice = std::chrono::milliseconds{100}; // bounds how long stop() waits
+constexpr Duration listen_slice = std::chrono::milliseconds{100}; // where nothing tells of stop()
 /// A frame with such a hole is dropped: longer than an adapter holds bytes back (16 ms), shorter
 /// than a master waits for its answer. The 3.5 characters of the protocol are added.
 constexpr auto adapter_hole = std::chrono::milliseconds{50};
@@ -93,14 +93,24 @@ private:
         return true;
     }
 
-    /// Empty: nothing came for so long. None: the line failed, errno says how.
-    std::optional<std::span<const std::uint8_t>> read(Duration patience) {
-        const auto wait = std::chrono::ceil<std::chrono::milliseconds>(patience);
+    /// Between two frames nothing is waited for but the line and the end.
+    [[nodiscard]] std::optional<Duration> patience_between_frames() const {
+        return mailbox_->stop_signal() >= 0 ? std::nullopt : std::optional{listen_slice};
+    }
+
+    /// Empty: nothing came for so long, or it is to stop. None: the line failed, errno says how.
+    std::optional<std::span<const std::uint8_t>> read(std::optional<Duration> patience) {
+        const auto wait =
+            std::chrono::ceil<std::chrono::milliseconds>(patience.value_or(listen_slice));
+        const int wait_ms = patience ? static_cast<int>(wait.count()) : -1;
         for (;;) {
-            pollfd line{modbus_get_socket(context_.get()), POLLIN, 0};
-            const int ready = ::poll(&line, 1, static_cast<int>(wait.count()));
-            if (ready == 0) return std::span<const std::uint8_t>{};
-            const ssize_t count = ready < 0 ? -1 : ::read(line.fd, came_.data(), came_.size());
+            std::array<pollfd, 2> ends{};
+            ends[0] = {modbus_get_socket(context_.get()), POLLIN, 0};
+            ends[1] = {mailbox_->stop_signal(), POLLIN, 0};
+            const int ready = ::poll(ends.data(), ends.size(), wait_ms);
+            const bool stopping = ready > 0 && ends[1].revents != 0;
+            if (ready == 0 || stopping) return std::span<const std::uint8_t>{};
+            const ssize_t count = ready < 0 ? -1 : ::read(ends[0].fd, came_.data(), came_.size());
             if (count > 0) return std::span{came_}.first(static_cast<std::size_t>(count));
             if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
             if (count == 0) errno = ECONNRESET; // the adapter was pulled
@@ -113,7 +123,8 @@ private:
         RtuFramer framer{static_cast<std::uint8_t>(config_.unit_id)};
         while (!mailbox_->stopped()) {
             const bool within = framer.pending();
-            const auto arrived = read(within ? silence_at(config_.baud) : listen_slice);
+            const auto arrived =
+                read(within ? std::optional{silence_at(config_.baud)} : patience_between_frames());
             if (!arrived) break;
             if (arrived->empty())
                 framer.silence();

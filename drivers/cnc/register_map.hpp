@@ -55,9 +55,10 @@ public:
     /// Takes a write that space().check() allowed. A repeated value is no edge. The first request
     /// seen since the start is reported as `standing`, unless a run was armed before.
     virtual MapNews write(const ModbusRequest& request, MonotonicTime at) = 0;
-    /// Decides what only time can decide; to be called every few milliseconds (ticks()).
+    /// Decides what only time can decide; to be called at due(), a little late does no harm.
     virtual MapNews tick(MonotonicTime now) = 0;
-    [[nodiscard]] virtual Duration ticks() const { return std::chrono::milliseconds{100}; }
+    /// As things stand, tick() has something to decide from then on; empty: nothing ever.
+    [[nodiscard]] virtual std::optional<MonotonicTime> due() const { return std::nullopt; }
     virtual void arm() = 0;
     virtual void refuse(std::uint16_t sequence, Fault fault) = 0;
     virtual void show(const PortStatus& status) = 0;

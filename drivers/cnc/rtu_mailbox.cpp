@@ -1,6 +1,16 @@
 #include "drivers/cnc/rtu_mailbox.hpp"
 
+#include <sys/eventfd.h>
+#include <unistd.h>
+
 namespace axiscal {
+
+RtuMailbox::RtuMailbox()
+    : stop_signal_{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)} {}
+
+RtuMailbox::~RtuMailbox() {
+    if (stop_signal_ >= 0) ::close(stop_signal_);
+}
 
 void RtuMailbox::put(const RegisterImage& image) {
     const std::lock_guard lock{mutex_};
@@ -25,6 +35,8 @@ void RtuMailbox::stop() {
     const std::lock_guard lock{mutex_};
     stopped_ = true;
     changed_.notify_all();
+    // Fails only where there is no descriptor; the line then looks by itself.
+    if (stop_signal_ >= 0) (void)::eventfd_write(stop_signal_, 1);
 }
 
 bool RtuMailbox::stopped() const {

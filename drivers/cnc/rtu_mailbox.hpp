@@ -11,6 +11,11 @@ namespace axiscal {
 
 class RtuMailbox {
 public:
+    RtuMailbox();
+    ~RtuMailbox();
+    RtuMailbox(const RtuMailbox&) = delete;
+    RtuMailbox& operator=(const RtuMailbox&) = delete;
+
     /// The loop: what is to be read from now on.
     void put(const RegisterImage& image);
     /// The loop: one more posted write is in the image.
@@ -21,6 +26,9 @@ public:
 
     void stop();
     [[nodiscard]] bool stopped() const;
+    /// A descriptor that is readable from stop() on, to be polled beside the line; -1 where the
+    /// system had none to give.
+    [[nodiscard]] int stop_signal() const { return stop_signal_; }
     /// The line's thread: a pause that stop() cuts short.
     void pause(Duration span);
 
@@ -30,6 +38,7 @@ private:
     RegisterImage image_;
     std::uint64_t writes_ = 0;
     bool stopped_ = false;
+    int stop_signal_; ///< eventfd
 };
 
 } // namespace axiscal

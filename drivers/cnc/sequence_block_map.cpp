@@ -75,10 +75,15 @@ void SequenceBlockMap::hear_heartbeat(MonotonicTime at, MapNews& news) {
     silent_ = false;
 }
 
+std::optional<MonotonicTime> SequenceBlockMap::due() const {
+    if (!watch_heartbeat_ || silent_ || !heard_at_) return std::nullopt;
+    return *heard_at_ + silence_limit + Duration{1}; // more than the limit
+}
+
 MapNews SequenceBlockMap::tick(MonotonicTime now) {
     MapNews news;
-    if (!watch_heartbeat_ || silent_ || !heard_at_ || now - *heard_at_ <= silence_limit)
-        return news;
+    const auto limit = due();
+    if (!limit || now < *limit) return news;
     silent_ = true;
     news.silent = true;
     return news;

@@ -46,6 +46,8 @@ public:
     /// command here is refused at once as bad_command.
     MapNews write(const ModbusRequest& request, MonotonicTime at) override;
     MapNews tick(MonotonicTime now) override;
+    /// When CNC_HEARTBEAT will have stood still for too long, where that is watched.
+    [[nodiscard]] std::optional<MonotonicTime> due() const override;
     void arm() override;
     void refuse(std::uint16_t sequence, Fault fault) override;
     void show(const PortStatus& status) override;

@@ -47,14 +47,23 @@ void TriggerDesk::publish(const PortStatus& status) {
     changed();
 }
 
+/// What has come up may be due before keep_time() wakes; what falls away it finds by itself.
 void TriggerDesk::changed() const {
+    const auto due = map_->due();
+    const bool sooner = due && (!wakes_at_ || *due < *wakes_at_);
+    if (const auto bell = bell_.lock(); bell && sooner) bell->ring();
     if (on_change) on_change();
 }
 
 Task<void> TriggerDesk::keep_time(Scheduler* scheduler) {
+    const auto bell = std::make_shared<Doorbell>(scheduler->executor());
+    bell_ = bell;
     while (attached()) {
-        co_await scheduler->sleep_for(map_->ticks());
-        deliver(map_->tick(scheduler->now()));
+        wakes_at_ = map_->due();
+        co_await bell->wait(*scheduler, wakes_at_);
+        const MonotonicTime now = scheduler->now();
+        if (const auto due = map_->due(); !due || now < *due) continue;
+        deliver(map_->tick(now));
         changed();
     }
 }

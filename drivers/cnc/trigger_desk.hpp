@@ -4,8 +4,11 @@
 // of the loop.
 
 #include "drivers/cnc/register_map.hpp"
+#include "drivers/link/doorbell.hpp"
 
 #include <functional>
+#include <memory>
+#include <optional>
 
 namespace axiscal {
 
@@ -27,7 +30,8 @@ public:
     void acknowledge(const JournalReceipt& receipt);
     void refuse(std::uint16_t sequence, Fault fault);
     void publish(const PortStatus& status);
-    /// Lets the map decide what only time decides; until cancelled.
+    /// Lets the map decide what only time decides, and sleeps while there is nothing; until
+    /// cancelled.
     Task<void> keep_time(Scheduler* scheduler);
 
     PortCounters counters;
@@ -39,6 +43,8 @@ private:
 
     std::unique_ptr<RegisterMap> map_;
     TriggerContext context_;
+    std::weak_ptr<Doorbell> bell_;          ///< of keep_time()
+    std::optional<MonotonicTime> wakes_at_; ///< keep_time(), by itself
 };
 
 /// What all ports with a register map share. Loop-bound.

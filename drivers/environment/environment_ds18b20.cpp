@@ -6,6 +6,7 @@
 //
 // [w1_slave]     two lines: nine bytes of the scratchpad, ": crc=hh YES" or "NO"; the bytes again,
 //                "t=" and millidegrees. Reading it starts a conversion and takes up to 750 ms.
+//                Empty where the kernel itself has read wrong checksums (5 times), since 5.8.
 // [temperature]  millidegrees alone; empty while a conversion of all sensors is going on.
 //
 // Every reading blocks in the kernel: a thread owns the files, the loop only awaits it.
@@ -18,12 +19,15 @@
 #include "drivers/link/blocking_files.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace axiscal {
 namespace {
 
 /// The kernel's driver works in milliseconds; a reading is up to 750 ms long.
 constexpr Duration conversion_half = std::chrono::milliseconds{375};
+/// So many readings in a row without a value are no single disturbance.
+constexpr int worth_telling = 3;
 
 struct W1Setup {
     std::vector<std::string> sensors; ///< "28-0000075b3c2a"
@@ -45,7 +49,8 @@ class Ds18b20 final : public Instrument {
 public:
     explicit Ds18b20(W1Setup setup)
         : setup_{std::move(setup)}
-        , channels_{channels_of(setup_)} {}
+        , channels_{channels_of(setup_)}
+        , unread_(channels_.size(), 0) {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
@@ -53,11 +58,13 @@ public:
 private:
     Task<Result<int>> round(InstrumentContext context);
     [[nodiscard]] std::string file_of(const std::string& sensor) const;
-    void take(int channel, const FileText& file, SampleSink& sink);
+    std::optional<Error> take(std::size_t sensor, const FileText& file, SampleSink& sink);
+    std::optional<Error> misread(std::size_t sensor, const Error& error);
     void count(Fault fault);
 
     W1Setup setup_;
     std::vector<Channel> channels_;
+    std::vector<int> unread_; ///< readings in a row that gave no value, for each sensor
     InstrumentCounters counters_;
     std::unique_ptr<BlockingFiles> files_; ///< made with the first run, kept: it outlives its tasks
 };
@@ -71,42 +78,59 @@ void Ds18b20::count(Fault fault) {
     if (fault == Fault::bad_frame) ++counters_.bad_frames;
 }
 
+/// A damaged reading says nothing about the sensor: its last value only grows old. Told when it
+/// lasts.
+std::optional<Error> Ds18b20::misread(std::size_t sensor, const Error& error) {
+    count(error.fault);
+    if (++unread_[sensor] < worth_telling) return std::nullopt;
+    return Error{error.fault, channels_[sensor].name + " was read wrongly " +
+                                  std::to_string(worth_telling) +
+                                  " times in a row: " + error.detail};
+}
+
 /// The value is that of a conversion between the beginning and the end of the reading.
-void Ds18b20::take(int channel, const FileText& file, SampleSink& sink) {
+/// @return why there is none, for people
+std::optional<Error> Ds18b20::take(std::size_t sensor, const FileText& file, SampleSink& sink) {
+    const int channel = static_cast<int>(sensor);
     const MonotonicTime at = file.begun_at + (file.read_at - file.begun_at) / 2;
     const auto value =
         setup_.with_scratchpad ? parse_w1_slave(file.text) : parse_w1_temperature(file.text);
+    if (!value && value.error().fault != Fault::signal_error) return misread(sensor, value.error());
+    unread_[sensor] = 0;
     if (!value) {
-        count(value.error().fault);
-        // A damaged reading says nothing about the sensor: its last value only grows old.
-        if (value.error().fault != Fault::signal_error) return;
-        sink.note(Fault::signal_error,
-                  channels_[static_cast<std::size_t>(channel)].name + ": " + value.error().detail);
-        return sink.take(Sample::bad(channel, at, Quality::absent));
+        sink.take(Sample::bad(channel, at, Quality::absent));
+        return Error{Fault::signal_error, channels_[sensor].name + ": " + value.error().detail};
     }
     ++counters_.frames;
     ++counters_.samples;
     Sample sample{channel, at, *value};
     sample.time_uncertainty = conversion_half;
     sink.take(sample);
+    return std::nullopt;
 }
 
-/// How many sensors there are. The files outlive every task of this instrument.
+/// How many sensors there are. What is wrong with any is one note a round: while it stays the same,
+/// it is one line in a log. The files outlive every task of this instrument.
 Task<Result<int>> Ds18b20::round(InstrumentContext context) {
     int present = 0;
+    std::optional<Error> wrong;
     for (std::size_t i = 0; i < setup_.sensors.size(); ++i) {
-        const int channel = static_cast<int>(i);
         std::string path = file_of(setup_.sensors[i]);
         const auto file = co_await files_->read(std::move(path));
+        std::optional<Error> this_one;
         if (file) {
             ++present;
-            take(channel, *file, *context.sink);
-            continue;
+            this_one = take(i, *file, *context.sink);
+        } else {
+            this_one = Error{file.error().fault,
+                             "no sensor " + setup_.sensors[i] + ": " + describe(file.error())};
+            context.sink->take(
+                Sample::bad(static_cast<int>(i), context.scheduler->now(), Quality::absent));
         }
-        context.sink->note(file.error().fault,
-                           "no sensor " + setup_.sensors[i] + ": " + describe(file.error()));
-        context.sink->take(Sample::bad(channel, context.scheduler->now(), Quality::absent));
+        if (wrong && this_one) wrong->detail += "; " + this_one->detail;
+        if (!wrong) wrong = std::move(this_one);
     }
+    if (present > 0 && wrong) context.sink->note(wrong->fault, std::move(wrong->detail));
     co_return present;
 }
 

@@ -115,6 +115,7 @@ private:
     std::string request_;
     InstrumentCounters counters_;
     bool heard_ = false, identified_ = false;
+    bool spoke_ = false; ///< any byte came since the line was opened
 };
 
 void Vaisala::take_reading(const VaisalaReading& reading, MonotonicTime at, SampleSink& sink) {
@@ -154,6 +155,7 @@ Task<Result<void>> Vaisala::hear_until(ByteLink& link,
         const auto arrived = co_await link.read_some(end);
         if (!arrived && arrived.error().fault == Fault::link_timeout) break;
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
+        spoke_ = true;
         framer.feed(arrived->bytes, [&](std::string_view line) {
             take_line(line, arrived->read_at, *context.sink);
         });
@@ -174,11 +176,13 @@ Task<Result<void>> Vaisala::prepare(ByteLink& link, InstrumentContext context, L
     co_return Result<void>{};
 }
 
-/// How many requests were answered before three in a row were not.
+/// How many requests were answered before three in a row were not. Where not a byte came since the
+/// line was opened one is enough: an adapter that stalled must be opened anew.
 Task<Result<int>>
 Vaisala::ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     int answered = 0;
-    for (int silent = 0; silent < silent_requests; silent = heard_ ? 0 : silent + 1) {
+    for (int silent = 0; silent < (spoke_ ? silent_requests : 1);
+         silent = heard_ ? 0 : silent + 1) {
         heard_ = false;
         const MonotonicTime next = context.scheduler->now() + setup_.poll_period;
         auto request = bytes_of(request_);
@@ -199,7 +203,7 @@ Task<Result<void>> Vaisala::run(InstrumentContext context) {
         co_await context.links->open(setup_.link, context.scheduler->now() + link_patience);
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     const std::unique_ptr<ByteLink> link = *std::move(opened);
-    identified_ = false;
+    identified_ = spoke_ = false;
     LineFramer framer{longest_line};
     const auto wrong_before = counters_.checksum_errors;
     for (int silent = 0; silent < tries; ++silent) {
@@ -207,6 +211,7 @@ Task<Result<void>> Vaisala::run(InstrumentContext context) {
         if (!told) co_return told;
         const auto answered = co_await ask_while_heard(*link, context, framer);
         if (!answered) co_return tl::unexpected<Error>(answered.error());
+        if (!spoke_) break;
         if (*answered > 0) silent = -1;
     }
     if (counters_.checksum_errors > wrong_before + tries)

@@ -11,6 +11,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/link/arrival.hpp"
 #include "drivers/link/link_settings.hpp"
 #include "drivers/link/modbus_bus.hpp"
 
@@ -158,7 +159,11 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
     MonotonicTime next = context.scheduler->now();
     for (;;) {
         const auto answered = co_await round(**bus, context);
-        if (!answered) co_return tl::unexpected<Error>(answered.error());
+        if (!answered) { // the line is closed
+            if (auto* listener = dynamic_cast<ClosedLineListener*>(context.links))
+                listener->missed(station_.link);
+            co_return tl::unexpected<Error>(answered.error());
+        }
         silent = *answered > 0 ? 0 : silent + 1;
         if (silent == silent_rounds)
             co_return fail(Fault::link_timeout, profile_.model + " unit " +

@@ -10,6 +10,8 @@ namespace {
 constexpr int records_to_wait_for_facts = 600;
 /// Below 0.1 MHz, and above twice the reference less 0.1 MHz, the counter misses edges.
 constexpr double slew_margin_Hz = 1e5;
+/// Until code 8 tells: the uMD2's.
+constexpr double rate_before_told_Hz = 1000;
 /// A sequence number may run ahead of the host's clock by what the host had buffered, no more.
 constexpr double buffered_seconds = 5;
 /// Interpolation and the last digit may move by this without any motion.
@@ -22,11 +24,14 @@ constexpr std::int64_t no_reference_bits = 0x0400 | 0x2000, no_measurement_bits 
 UmdCounter::UmdCounter(UmdSetup setup, InstrumentCounters& counters)
     : setup_{setup}
     , facts_{setup}
+    , period_{from_seconds(1 / rate_before_told_Hz)}
     , counters_{counters} {}
 
 void UmdCounter::opened(Duration frame) {
     clock_ = DeviceClock{frame};
     facts_ = UmdFacts{setup_}; // another firmware may answer now
+    scale_.reset();
+    period_ = from_seconds(1 / rate_before_told_Hz);
     records_without_facts_ = 0;
     introduced_ = complained_ = contradicted_ = false;
     last_sequence_.reset();
@@ -43,8 +48,14 @@ void UmdCounter::greeted(SampleSink& sink) {
     last_sequence_.reset();
 }
 
-Duration UmdCounter::period() const {
-    return from_seconds(1 / facts_.rate_Hz().value_or(1000));
+/// Most records tell nothing new.
+void UmdCounter::learn(const UmdRecord& record) {
+    facts_.learn(record.low_speed_code, record.low_speed_data);
+    if (record.low_speed_code == 0 && scale_) return;
+    period_ = from_seconds(1 / facts_.rate_Hz().value_or(rate_before_told_Hz));
+    if (facts_.complete())
+        scale_ =
+            Scale{*facts_.head(), *facts_.phase(), *facts_.rate_Hz(), facts_.metres_per_count()};
 }
 
 void UmdCounter::lose_datum(SampleSink& sink, Fault fault, std::string sentence) {
@@ -58,14 +69,16 @@ void UmdCounter::take(std::span<const UmdRecord> records, MonotonicTime read_at,
     auto behind = std::ssize(records);
     for (const UmdRecord& record : records) {
         follow_sequence(record.sequence, read_at, sink);
-        facts_.learn(record.low_speed_code, record.low_speed_data);
-        PlacedTime placed = clock_.place(device_count_, read_at, period(), --behind);
+        learn(record);
+        PlacedTime placed = clock_.place(device_count_, read_at, period_, --behind);
         // Never back: a record that came quicker than all before moves the clock's origin.
         placed.at = std::max(placed.at, last_at_ + std::chrono::microseconds{1});
         last_at_ = placed.at;
-        learn_environment(record, placed.at, sink);
-        introduce(sink);
-        if (facts_.complete())
+        if (record.low_speed_code != 0) {
+            learn_environment(record, placed.at, sink);
+            introduce(sink);
+        }
+        if (scale_)
             hand_up(read(record), placed, sink);
         else
             complain_without_facts(sink);
@@ -122,8 +135,13 @@ void UmdCounter::follow_sequence(std::int64_t sequence, MonotonicTime read_at, S
     }
     const std::int64_t step = step_of(sequence);
     last_sequence_ = sequence;
+    if (step == 1) {
+        ++device_count_;
+        return;
+    }
     const double passed_s = seconds_of(read_at - last_read_at_) + buffered_seconds;
-    const bool too_far = static_cast<double>(step) > passed_s * facts_.rate_Hz().value_or(1000);
+    const bool too_far =
+        static_cast<double>(step) > passed_s * facts_.rate_Hz().value_or(rate_before_told_Hz);
     if (step <= 0 || too_far) {
         ++counters_.restarts;
         device_count_ = static_cast<std::uint64_t>(sequence < 0 ? sequence + 65536 : sequence);
@@ -133,7 +151,6 @@ void UmdCounter::follow_sequence(std::int64_t sequence, MonotonicTime read_at, S
     }
     device_count_ += static_cast<std::uint64_t>(step);
     last_step_ = step;
-    if (step == 1) return;
     ++counters_.gaps;
     counters_.lost_records += static_cast<std::uint64_t>(step - 1);
 }
@@ -141,7 +158,7 @@ void UmdCounter::follow_sequence(std::int64_t sequence, MonotonicTime read_at, S
 /// The order of these tests is the GUI's. A homodyne firmware prints 0 0 here and tells nothing.
 UmdCounter::Reading UmdCounter::read_signal(const UmdRecord& record,
                                             const UmdAxisFields& axis) const {
-    const double margin = slew_margin_Hz / *facts_.rate_Hz();
+    const double margin = slew_margin_Hz / scale_->rate_Hz;
     const auto reference = static_cast<double>(record.reference);
     const auto measurement = static_cast<double>(axis.measurement);
     if (record.reference == 0)
@@ -160,13 +177,13 @@ UmdCounter::Reading UmdCounter::read(const UmdRecord& record) const {
         return {Signal::lost, Quality::absent, Fault::signal_error,
                 "the instrument does not send this axis"};
     const UmdAxisFields& axis = record.axes[static_cast<std::size_t>(setup_.axis - 1)];
-    if (facts_.head() == UmdHead::heterodyne) {
+    if (scale_->head == UmdHead::heterodyne) {
         const Reading fault = read_signal(record, axis);
         if (fault.signal != Signal::good) return fault;
     }
-    const auto counts = umd_position(axis.displacement, axis.phase, *facts_.phase());
+    const auto counts = umd_position(axis.displacement, axis.phase, scale_->phase);
     if (counts) return {Signal::good, Quality::good, Fault::none, "", *counts};
-    if (facts_.phase() == UmdPhase::truncated)
+    if (scale_->phase == UmdPhase::truncated)
         return {Signal::doubtful, Quality::signal_error, Fault::signal_error,
                 "firmware 3.15 cannot tell the sign within one count of its zero: move away"};
     if ((axis.phase & no_reference_bits) != 0)
@@ -179,10 +196,9 @@ UmdCounter::Reading UmdCounter::read(const UmdRecord& record) const {
 
 void UmdCounter::judge_jump(double counts, SampleSink& sink) {
     if (last_counts_) {
-        const double seconds =
-            static_cast<double>(steps_since_counts_) / facts_.rate_Hz().value_or(1000);
+        const double seconds = static_cast<double>(steps_since_counts_) / scale_->rate_Hz;
         const double metres =
-            (std::abs(counts - *last_counts_) - jitter_counts) * facts_.metres_per_count();
+            (std::abs(counts - *last_counts_) - jitter_counts) * scale_->metres_per_count;
         if (metres > setup_.fastest.in(metre_per_second)*seconds)
             lose_datum(sink, Fault::implausible_jump,
                        "the count jumped further than the axis can move");
@@ -207,7 +223,7 @@ void UmdCounter::hand_up(const Reading& reading, PlacedTime placed, SampleSink& 
     signal_lost_ = false;
     judge_jump(reading.counts, sink);
     datum_in_use_ = true;
-    const double metres = reading.counts * facts_.metres_per_count();
+    const double metres = reading.counts * scale_->metres_per_count;
     Sample sample{umd_displacement, placed.at, metres, device_count_, epoch_};
     sample.time_uncertainty = placed.uncertainty;
     sink.take(sample);

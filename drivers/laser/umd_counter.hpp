@@ -45,6 +45,14 @@ private:
         double counts = 0;
     };
 
+    /// What a record is read with; all of it follows from the facts.
+    struct Scale {
+        UmdHead head = UmdHead::homodyne;
+        UmdPhase phase = UmdPhase::none;
+        double rate_Hz = 0, metres_per_count = 0;
+    };
+
+    void learn(const UmdRecord& record);
     void learn_environment(const UmdRecord& record, MonotonicTime at, SampleSink& sink);
     void introduce(SampleSink& sink);
     void complain_without_facts(SampleSink& sink);
@@ -55,10 +63,10 @@ private:
     [[nodiscard]] Reading read_signal(const UmdRecord& record, const UmdAxisFields& axis) const;
     void judge_jump(double counts, SampleSink& sink);
     void hand_up(const Reading& reading, PlacedTime placed, SampleSink& sink);
-    [[nodiscard]] Duration period() const;
-
     UmdSetup setup_;
     UmdFacts facts_;
+    std::optional<Scale> scale_; ///< empty until everything is known
+    Duration period_{};
     InstrumentCounters& counters_;
     std::uint32_t epoch_ = 0;
     bool datum_in_use_ = false; ///< a sample was handed up in this epoch

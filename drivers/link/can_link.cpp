@@ -71,7 +71,8 @@ CanFrame frame_of(const can_frame& raw) {
 
 can_frame raw_of(const CanFrame& frame) {
     can_frame raw{};
-    raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U);
+    raw.can_id =
+        frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
     raw.can_dlc = static_cast<std::uint8_t>(frame.bytes().size());
     std::memcpy(raw.data, frame.data.data(), raw.can_dlc);
     return raw;

@@ -1,6 +1,7 @@
 #include "drivers/link/hid_link.hpp"
 
 #include "drivers/asio_scheduler.hpp"
+#include "drivers/link/hid_place.hpp"
 
 #include <hidapi/hidapi.h>
 
@@ -22,7 +23,7 @@ std::mutex& hidapi_lock() {
 }
 
 /// The socket of a HID node. hidapi over hidraw: "/dev/hidraw3", whose folder in sysfs lies below
-/// the device's; over libusb: "1-2.4:1.1".
+/// the device's, and where there is no USB is the port itself (list_hid); over libusb: "1-2.4:1.1".
 std::string port_of(const std::string& path) {
     std::error_code error;
     const std::filesystem::path node{path};
@@ -30,6 +31,8 @@ std::string port_of(const std::string& path) {
     const auto folder = std::filesystem::canonical(
         "/sys/class/hidraw/" + node.filename().string() + "/device", error);
     // .../usb1/1-2/1-2.4/1-2.4:1.1/0003:413D:2107.0005
+    if (!std::filesystem::exists(folder.parent_path() / "bInterfaceNumber", error))
+        return folder.filename().string();
     const std::string interface = folder.parent_path().filename().string();
     return interface.substr(0, interface.find(':'));
 }
@@ -51,7 +54,7 @@ public:
 private:
     /// hidapi does not say why a call failed.
     [[nodiscard]] tl::unexpected<Error> failed() const {
-        if (!is_plugged(entry_)) return place_.absence();
+        if (!is_hid_plugged(entry_)) return place_.absence();
         return fail(Fault::refused, entry_.describe() + " refuses its reports");
     }
     hid_device* device_;
@@ -64,7 +67,7 @@ private:
 std::string hid_path(const UsbEntry& entry, int interface) {
     hid_device_info* const all = ::hid_enumerate(entry.vendor, entry.product);
     std::string path;
-    int best = -1;
+    int best = -2; // hidapi's number is -1 where there are no interfaces
     for (const hid_device_info* one = all; one; one = one->next) {
         if (port_of(one->path) != entry.port) continue;
         const bool right =
@@ -78,7 +81,7 @@ std::string hid_path(const UsbEntry& entry, int interface) {
 }
 
 Result<std::shared_ptr<HidHandle>> HidHandle::open(const UsbPlace& place) {
-    AXISCAL_TRY(const UsbEntry entry, choose_usb(place, list_usb()));
+    AXISCAL_TRY(const UsbEntry entry, choose_usb(place, list_hid()));
     const std::lock_guard lock{hidapi_lock()};
     if (::hid_init() != 0) return fail(Fault::io, "hidapi does not start");
     const std::string path = hid_path(entry, place.interface);

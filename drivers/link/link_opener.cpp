@@ -46,4 +46,11 @@ Task<Result<std::unique_ptr<CanLink>>> RealLinkOpener::open_can(const LinkSettin
     co_return open_socketcan(scheduler_, settings.path);
 }
 
+Task<bool>
+RealLinkOpener::worth_another_try(Scheduler& scheduler, LinkSettings settings, RetryTimes times) {
+    const Arrival arrival = co_await await_arrival(scheduler, std::move(settings), times.latest);
+    if (arrival == Arrival::cannot_tell) co_await scheduler.sleep_until(times.usual);
+    co_return arrival == Arrival::came;
+}
+
 } // namespace axiscal

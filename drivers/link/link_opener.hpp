@@ -2,7 +2,7 @@
 // Opens real links: serial lines, TCP connections, USB and HID devices, CAN buses, shared Modbus
 // lines. Loop-bound.
 
-#include "drivers/link/byte_link.hpp"
+#include "drivers/link/arrival.hpp"
 #include "drivers/link/modbus_bus.hpp"
 #include "drivers/link/tty_porter.hpp"
 #include "drivers/link/work_thread.hpp"
@@ -11,7 +11,7 @@
 
 namespace axiscal {
 
-class RealLinkOpener final : public LinkOpener {
+class RealLinkOpener final : public LinkOpener, public PlugListener {
 public:
     /// `scheduler` is borrowed and must outlive the opener; the opener must outlive its
     /// instruments' coroutines, and be destroyed before the loop (its threads are joined here).
@@ -25,6 +25,9 @@ public:
                                                     MonotonicTime deadline) override;
     Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
                                                     MonotonicTime deadline) override;
+    /// Hears of serial lines and USB devices; a network says nothing of who comes.
+    Task<bool>
+    worth_another_try(Scheduler& scheduler, LinkSettings settings, RetryTimes times) override;
     [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
 
 private:

@@ -117,7 +117,9 @@ Result<int> open_tty(const LinkSettings& settings) {
     if (tty.get() < 0) return fail(Fault::link_closed, "cannot open " + name, last_error());
     if (::isatty(tty.get()) != 1) return fail(Fault::link_closed, name + " is not a serial line");
     if (::flock(tty.get(), LOCK_EX | LOCK_NB) != 0)
-        return fail(Fault::link_closed, name + " is in use by another program", last_error());
+        return fail(Fault::link_closed,
+                    name + " is in use by another program, or its adapter has not let go of it yet",
+                    last_error());
     ::ioctl(tty.get(), TIOCEXCL); // best effort: root passes it anyway
     if (!make_raw(tty.get(), settings, speed->code))
         return fail(Fault::link_closed, name + " refuses these line settings", last_error());

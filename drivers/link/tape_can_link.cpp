@@ -7,10 +7,11 @@ namespace axiscal {
 namespace {
 
 constexpr std::size_t id_bytes = 4;
-constexpr std::uint32_t extended_flag = 0x80000000U;
+constexpr std::uint32_t extended_flag = 0x80000000U, remote_flag = 0x40000000U;
 
 std::vector<std::byte> bytes_from(const CanFrame& frame) {
-    const std::uint32_t id = frame.id | (frame.extended ? extended_flag : 0U);
+    const std::uint32_t id =
+        frame.id | (frame.extended ? extended_flag : 0U) | (frame.remote ? remote_flag : 0U);
     std::vector<std::byte> bytes;
     bytes.reserve(id_bytes + frame.length);
     for (int shift = 24; shift >= 0; shift -= 8)
@@ -26,7 +27,8 @@ Result<CanFrame> frame_from(std::span<const std::byte> bytes) {
         return fail(Fault::bad_request, "the tape has a line that is no CAN frame");
     const std::uint32_t id = big16(bytes, 0) << 16 | big16(bytes, 2);
     frame.extended = (id & extended_flag) != 0;
-    frame.id = id & ~extended_flag;
+    frame.remote = (id & remote_flag) != 0;
+    frame.id = id & ~(extended_flag | remote_flag);
     frame.length = bytes.size() - id_bytes;
     std::ranges::copy(bytes.subspan(id_bytes), frame.data.begin());
     return frame;

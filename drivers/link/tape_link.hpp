@@ -10,7 +10,8 @@
 //
 // USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
 // endpoints '>' and '<' begin with the endpoint's address.
-// CAN frames: four bytes of identifier, the high one first (80000000: 29 bits), then the data.
+// CAN frames: four bytes of identifier, the high one first (80000000: 29 bits, 40000000:
+// a remote frame, with as many bytes of 0 as it asks for), then the data.
 
 #include "drivers/link/byte_link.hpp"
 

@@ -10,6 +10,8 @@
 namespace axiscal::bench {
 
 using Work = std::function<void()>;
+/// Work whose preparation must not count: the seconds that the part to be measured took.
+using TimedWork = std::function<double()>;
 
 struct Row {
     std::string name;
@@ -39,6 +41,39 @@ inline void measure(const Row& row, const char* kind, const Work& work, const st
         state.counters["goal_numpy"] = row.goal_numpy;
         state.SetLabel(label);
     })->Unit(benchmark::kNanosecond);
+}
+
+/// A row of works that tell their own time.
+struct TimedRow {
+    std::string name;
+    TimedWork ours, limit;
+    double goal_ratio = 0; ///< as in Row
+    std::string limit_name;
+    std::string peer_name = {};
+    TimedWork peer = {};
+};
+
+inline void
+measure(const TimedRow& row, const char* kind, const TimedWork& work, const std::string& label) {
+    if (!work) return;
+    benchmark::RegisterBenchmark((row.name + "/" + kind).c_str(),
+                                 [row, work, label](benchmark::State& state) {
+                                     for ([[maybe_unused]] auto _ : state)
+                                         state.SetIterationTime(work());
+                                     state.counters["goal_ratio"] = row.goal_ratio;
+                                     state.counters["goal_ms"] = 0;
+                                     state.counters["goal_numpy"] = 0;
+                                     state.SetLabel(label);
+                                 })
+        ->UseManualTime()
+        ->Unit(benchmark::kNanosecond);
+}
+
+inline bool add(const TimedRow& row) {
+    measure(row, "this", row.ours, row.limit_name);
+    measure(row, "limit", row.limit, row.limit_name);
+    measure(row, "peer", row.peer, row.peer_name);
+    return true;
 }
 
 /// Registers "<name>/this", "<name>/limit" and "<name>/peer". True, so that a file can do it in a

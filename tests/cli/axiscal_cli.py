@@ -27,7 +27,7 @@ RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
-            "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"],
+            "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],

@@ -20,10 +20,11 @@ import unittest
 
 AXISCAL, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")  # of format 1
-SCHEMA_2 = os.path.join(SOURCE, "acquisition", "journal", "schema_2.sql")
+SCHEMAS = [os.path.join(SOURCE, "acquisition", "journal", f"schema_{name}.sql")
+           for name in ("2", "3_streams", "3", "3_beside", "4")]
 TABLES = ["run", "plan", "plan_target", "plan_point", "laser", "material", "air", "uncertainty",
           "uncertainty_target", "statement", "instrument", "channel", "datum", "point", "environment",
-          "event", "closing"]  # in the order in which a header is written
+          "synchronisation", "event", "closing"]  # in the order in which a header is written
 
 
 def canonical(table, values):
@@ -102,12 +103,13 @@ class Verify(unittest.TestCase):
         self.path = os.path.join(self.folder, "run.axiscal")
 
     def make_whole(self, path):
-        """The reference run with rows of every kind: format 2, with a stored result."""
+        """The reference run in format 4, with rows of every kind that a positioning run has and a result."""
         shutil.copy(RUN, path)
         base = sqlite3.connect(path)
-        with open(SCHEMA_2, encoding="utf-8") as schema:
-            base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
-        base.execute("PRAGMA user_version=2")
+        for name in SCHEMAS:
+            with open(name, encoding="utf-8") as schema:
+                base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
+        base.execute("PRAGMA user_version=4")
         place = base.execute("SELECT link FROM air").fetchone()[0] + 1
         make_room(base, place, 3)
         base.execute("INSERT INTO uncertainty VALUES(?, NULL, NULL, 2.0, 2e-6, 1e-6, 0.001, NULL, 1.0, "
@@ -115,6 +117,12 @@ class Verify(unittest.TestCase):
         for i, name in enumerate(("A", "B_mean")):
             base.execute("INSERT INTO uncertainty_target VALUES(?, ?, 0.000005, x'00')",
                          (place + 1 + i, name))
+        captures = base.execute("SELECT link, -1, id, slope_um_per_s FROM datum UNION ALL "
+                                "SELECT link, step, datum_id, slope_um_per_s FROM point ORDER BY link DESC")
+        for link, step, datum, slope in captures.fetchall():
+            make_room(base, link + 1)
+            base.execute("INSERT INTO synchronisation VALUES(?, ?, ?, 40000, ?, x'00')",
+                         (link + 1, step, datum, abs(slope) * 40e-6))
         base.execute("DELETE FROM result")
         chain_anew(base)
         base.commit()

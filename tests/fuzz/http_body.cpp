@@ -46,6 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(!request.error().detail.empty(), "a refusal has a reason");
     }
     told(abort_reason_from_json(body));
+    told(typed_reading_from_json(body));
     judge_alignment(body);
     judge_drift(body);
     judge_revision(body);

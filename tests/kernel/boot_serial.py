@@ -1,5 +1,6 @@
 """Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm, a
-Modbus sensor by ftdi_sio, behind udev's names. A plain guest with udev, no systemd.
+Modbus sensor by ftdi_sio, behind udev's names; those that answer text, each by an FTDI adapter; and the
+CNC, a Modbus RTU client on libmodbus, by another one. A plain guest with udev, no systemd.
 
 The checks run in their order on one station that never ends: what one of them breaks, it mends.
 """
@@ -10,10 +11,54 @@ import sys
 from pathlib import Path
 
 from guest import check, expect, load_modules, run_checks, start_udev, wait_until
-from usb_station import LINKS, Undisturbed, UsbStation
+from usb_station import LINKS, RECOVERY_S, Undisturbed, UsbStation
 
 SENSORS = ("air", "material")
+TEXT = {  # name: what stands in the station file, what the simulator has behind the adapter, the adapter
+    "ptu": ({"driver": "vaisala", "model": "ptu300"}, "vaisala", "A601AXIS"),
+    "gauge": ({"driver": "ascii-gauge", "model": "mitutoyo", "unit": "mm"}, "mitutoyo", "A602AXIS"),
+    "stick": ({"driver": "temper-serial"}, "temper-serial", "A603AXIS"),
+}
+INSTRUMENTS = (*LINKS, *TEXT)
+CNC_LINE = "/dev/axiscal/ftdi-A800AXIS-00"
 GONE = ("unavailable", "faulty")
+
+
+class LineStation(UsbStation):
+    """The trigger is a serial line, too."""
+
+    def __init__(self):
+        super().__init__()
+        self.trigger("sequence-block", "rtu")
+        self.station["trigger"]["serial_port"] = CNC_LINE
+        self.scenario["cnc"]["poll_s"] = 0.05  # emulation beside other work
+        # The part program waits for an answer as long as a capture may last, and 2 s.
+        self.station["capture"]["timeout"] = "30 s"
+        self.wires["cnc"] = ("ftdi", {"called": "cnc", "serial": "A800AXIS"})
+        self.links["cnc"] = CNC_LINE
+        for name, (keys, kind, serial) in TEXT.items():
+            self.scenario["sensor"].append({"name": name, "kind": kind, "path": str(self.folder / f"{name}.tty")})
+            self.wires[name] = ("ftdi", {"called": name, "serial": serial})
+            self.links[name] = f"/dev/axiscal/ftdi-{serial}-00"
+            self.station["instrument"].append({"name": name, **keys, "link": "serial:" + self.links[name]})
+
+    def line_notes(self, since):
+        lines = [line for line in self.logged()[since:] if CNC_LINE in line]
+        print("\n".join(lines))
+        return lines
+
+    def requested(self):
+        return self.sim("status")["requests"]
+
+    def go_on_until(self, requests):
+        """The CNC moves and asks until it has asked so often; then it stands still."""
+        self.sim(f"hold {requests}")
+
+    def captured(self, points):
+        """So many points are durable, the CNC has read so of the last one, and nothing was taken twice."""
+        self.wait_for_points(points)
+        wait_until(f"the CNC reads done = {points}", lambda: self.sim("status")["done"] == points)
+        expect(self.run()["step"] == points, f"{self.run()['step']} points of {points} requests")
 
 
 def told(station, name, since):
@@ -23,10 +68,11 @@ def told(station, name, since):
     return [line for line in lines if f"{name}:" in line]
 
 
-def suffers(station, names, begin, end, others):
+def suffers(station, names, begin, end, others, back_s=RECOVERY_S, most_reasons=2):
     """`begin` spoils the named instruments, all of them are given up, `end` mends them, all come
     back; the others lose nothing meanwhile. The log says once that each is gone, and each reason once
-    at most (the same one again is only counted): silent, then not to be opened either."""
+    at most (the same one again is only counted): silent, then not to be opened either, for those that say
+    so not let go of by their adapter yet."""
     since = len(station.logged())
     with contextlib.ExitStack() as mending:
         with Undisturbed(station, *others):
@@ -36,38 +82,39 @@ def suffers(station, names, begin, end, others):
             for name in names:
                 station.wait_for_state(name, GONE)
             mending.close()
-            station.wait_until_good(*names)
+            station.wait_until_good(*names, limit_s=back_s)
     for name in names:
         reasons = told(station, name, since)
         gone = [line for line in station.logged()[since:] if any(f"{name} is {state}" in line for state in GONE)]
         expect(len(gone) == 1, f"that {name} is gone is told {len(gone)} times: {gone}")
         sentences = {line.split("info: ")[1] for line in reasons}
-        expect(len(reasons) == len(sentences) <= 2, f"why {name} is gone is told {len(reasons)} times: {reasons}")
+        expect(len(reasons) == len(sentences) <= most_reasons, f"why {name} is gone is told {len(reasons)} times: {reasons}")
 
 
 def unplugged(station, names, others):
-    nodes = {name: os.path.realpath(LINKS[name]) for name in names}
+    links = [station.links[name] for name in names]
+    nodes = {os.path.realpath(link) for link in links}
 
     def plug(name):
         station.usb(f"plug {name}")
-        wait_until(f"udev made {LINKS[name]} again", Path(LINKS[name]).exists)
+        wait_until(f"udev made {station.links[name]} again", Path(station.links[name]).exists)
 
     suffers(station, names, lambda name: station.usb(f"unplug {name}"), plug, others)
-    back = {name: os.path.realpath(LINKS[name]) for name in names}
+    back = {os.path.realpath(link) for link in links}
     expect(back == nodes, f"a dead descriptor held its node: {nodes} came back as {back}")
 
 
-def spoilt(station, names, fault, others):
+def spoilt(station, names, fault, others, **more):
     suffers(station, names, lambda name: station.usb(f"fault {name} {fault}"),
-            lambda name: station.usb(f"fault {name} none"), others)
+            lambda name: station.usb(f"fault {name} none"), others, **more)
 
 
 @check("StationReadsInstrumentsThroughTheKernelsDrivers")
 def reads(station):
     station.start()
-    station.wait_until_good(*LINKS, limit_s=30)
+    station.wait_until_good(*INSTRUMENTS, limit_s=30)
     expect([line for line in station.logged() if "laser:" in line] == [], "a fresh station complains")
-    print({name: os.path.realpath(link) for name, link in LINKS.items()})
+    print({name: os.path.realpath(link) for name, link in station.links.items()})
 
 
 @check("UnpluggedCounterIsUnavailableAndComesBack")
@@ -157,6 +204,95 @@ def broken_descriptors(station):
         station.wait_until_good("air")
 
 
+@check("UnpluggedTextInstrumentsAreUnavailableAndComeBack")
+def text_unplugged(station):
+    unplugged(station, TEXT, LINKS)
+
+
+@check("TextInstrumentsThatSayNakForEverAreGivenUpAndComeBack")
+def text_mute(station):
+    spoilt(station, TEXT, "mute", LINKS, most_reasons=3)
+
+
+@check("StalledTextInstrumentsAreGivenUpAndComeBack")
+def text_stalled(station):
+    """ftdi_sio reads no more until the line is opened anew: 2.5 s of a Vaisala's silence, a pause of 2 s,
+    and what it is told before it is asked, 1.5 s."""
+    spoilt(station, TEXT, "stall", LINKS, back_s=2 * RECOVERY_S)
+
+
+@check("TextThatIsCutShortIsNoReading")
+def text_cut(station):
+    spoilt(station, TEXT, "cut 3", LINKS)  # two of the three are the adapter's status
+
+
+@check("GarbledTextIsNoReading")
+def text_garbled(station):
+    """A bit above ASCII, for a gauge and the stick send no checksum. Of the stick's two lines in a transfer
+    one stays whole and is read."""
+    spoilt(station, ("ptu", "gauge"), "corrupt 128", LINKS)
+    before = station.instrument("stick")["bad_frames"]
+    station.usb("fault stick corrupt 128")
+    wait_until("the stick's damaged lines are counted", lambda: station.instrument("stick")["bad_frames"] >= before + 3)
+    station.usb("fault stick none")
+    station.wait_until_good("stick")
+
+
+@check("CncTriggersPointsOverAModbusRtuLineOfTheKernel")
+def triggered(station):
+    station.write_program()
+    station.go_to_datum()
+    station.go_on_until(3)
+    station.arm()
+    station.captured(3)
+    timer = Path(f"/sys/bus/usb-serial/devices/{Path(os.path.realpath(CNC_LINE)).name}/latency_timer")
+    expect(timer.read_text().strip() == "1", "the rules have not set the trigger line's latency timer")
+    print(station.status()["trigger"])
+
+
+@check("TriggerLineUnpluggedInMidExchangeIsOpenAgainAndNoPointIsLost")
+def trigger_unplugged(station):
+    """The first four bytes of each request arrive, then the adapter is pulled. Half a request is none;
+    the CNC asks again, as a PLC does, and the point is taken once."""
+    since = len(station.logged())
+    with Undisturbed(station, "laser", *SENSORS):
+        station.usb("fault cnc cut 6")  # two of the six are the adapter's status
+        station.go_on_until(5)
+        wait_until("the CNC has asked for the fourth point", lambda: station.requested() >= 4)
+        wait_until("the CNC has waited in vain", lambda: not station.sim("status")["connected"])
+        expect(station.run()["step"] == 3, "half a request was taken for one")
+        station.usb("unplug cnc")
+        wait_until("the station knows", lambda: any("tried again and again" in line for line in station.logged()[since:]))
+        station.usb("fault cnc none")
+        station.usb("plug cnc")
+        wait_until(f"udev made {CNC_LINE} again", Path(CNC_LINE).exists)
+        station.captured(5)
+    lines = station.line_notes(since)
+    expect(len(lines) == 2 and lines[1].endswith("is open again."), f"{lines}")
+
+
+@check("RequestsWithAWrongChecksumTriggerNothing")
+def trigger_corrupt(station):
+    since = len(station.logged())
+    with Undisturbed(station, "laser", *SENSORS):
+        station.usb("fault cnc corrupt 1")
+        wait_until("the CNC has waited in vain", lambda: not station.sim("status")["connected"])
+        answered = station.status()["trigger"]["requests"]
+        station.go_on_until(7)
+        wait_until("the CNC has asked for the sixth point", lambda: station.requested() >= 6)
+        for _ in range(2):  # what it stands at is written anew with each connection
+            wait_until("the CNC tries again", lambda: station.sim("status")["connected"])
+            wait_until("the CNC has waited in vain", lambda: not station.sim("status")["connected"])
+        trigger = station.status()["trigger"]
+        expect(trigger["requests"] == answered, f"damaged requests were answered: {answered} became {trigger}")
+        expect(station.run()["step"] == 5, "a damaged request was taken for one")
+        station.usb("fault cnc none")
+        station.captured(7)
+    expect(station.line_notes(since) == [], "the line was closed for a damaged request")
+    station.axiscal("abort", "--reason", "seven points are enough")
+    station.sim("stop")
+
+
 @check("LongLatencyTimerOfAnFtdiAdapterIsToldOnce")
 def latency(station):
     """The rules set 1 ms; here somebody undid that before the start."""
@@ -181,7 +317,7 @@ def latency(station):
 def main():
     load_modules("vhci_hcd", "cdc_acm", "ftdi_sio")
     start_udev()
-    with UsbStation() as station:
+    with LineStation() as station:
         return run_checks(station)
 
 

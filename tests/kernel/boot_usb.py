@@ -1,5 +1,7 @@
 """USB instruments on the kernel's own usbfs and hidraw: a Dracal USBTenki by control requests, a
-LabJack U6 by its bulk stream, a TEMPer by HID reports. A plain guest with udev, no systemd.
+LabJack U6 by its bulk stream, a TEMPer by HID reports; two DS18B20 behind a DS9490R by ds2490 and
+w1_therm. The TEMPer comes by three ways: our emulation on vhci_hcd, the kernel's own USB device side
+on dummy_hcd, and uhid without any USB. A plain guest with udev, no systemd.
 
 The checks run in their order on one station that never ends: what one of them breaks, it mends.
 """
@@ -17,21 +19,28 @@ NAMES = ("air", "material", "ballbar")
 WITH_CHECKSUM = ("air", "ballbar")  # a TEMPer has none
 GONE = ("unavailable", "faulty")
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
+CONTACTS = "contacts"
+SENSORS = ("28-000000000001", "28-000000000002")
+BITS = 10  # of the DS18B20: 0.25 K, 0.19 s
+CARRIERS = {"gadget": ("dummy-hcd", "TEMPer2_V3.7"), "uhid": ("uhid", "TEMPer2_V3.9")}  # the third is in all others
 HIDAPI_LIBUSB = "/usr/lib/x86_64-linux-gnu/libhidapi-libusb.so.0"
 
 
 class DirectStation(UsbStation):
     """Instruments without a terminal: they are devices of their own."""
 
-    def __init__(self, only=NAMES):
+    def __init__(self, only=(*NAMES, CONTACTS)):
         super().__init__()
         wires = {"air": ("usbtenki", {"called": "air", "serial": "A10234"}),
                  "material": ("temper", {"called": "material"}),
-                 "ballbar": ("labjack-u6", {"called": "ballbar", "serial": "470012345", "volts": str(VOLTS)})}
+                 "ballbar": ("labjack-u6", {"called": "ballbar", "serial": "470012345", "volts": str(VOLTS)}),
+                 CONTACTS: ("ds9490r", {"called": CONTACTS, "sensors": str(len(SENSORS)), "bits": str(BITS)})}
         drivers = {"air": {"driver": "dracal-usbtenki", "link": "usb:A10234"},
                    "material": {"driver": "temper", "link": "usb:any",
                                 "channel": [{"channel": "probe temperature", "medium": "material"}]},
-                   "ballbar": {"driver": "labjack-u6", "link": "usb:470012345", "scale_length": "1 mm"}}
+                   "ballbar": {"driver": "labjack-u6", "link": "usb:470012345", "scale_length": "1 mm"},
+                   CONTACTS: {"driver": "ds18b20", "sensors": list(SENSORS), "poll_period": "500 ms",
+                              "channel": [{"channel": f"contact {n}", "medium": "material"} for n in (1, 2)]}}
         self.names = only
         instruments = {one["name"]: one for one in self.station["instrument"]}
         for name in only:
@@ -45,6 +54,11 @@ class DirectStation(UsbStation):
             self.station["ballbar"] = {"sensor": "ballbar/ballbar"}
         if "material" in only:
             self.station["axis"]["material"]["temperature"] = ["material/probe temperature"]
+            for name, (carrier, firmware) in CARRIERS.items():
+                self.wires[name] = ("temper", {"called": name, "carrier": carrier, "firmware": firmware, "plugged": "no"})
+        if CONTACTS in only:
+            self.station["axis"]["material"]["temperature"] += [f"{CONTACTS}/contact {n}" for n in (1, 2)]
+            self.station["axis"]["air"]["oldest"] = "5 s"  # what grows old is seen to be no number
         self.station["instrument"] = list(instruments.values())
 
     def value(self, instrument, channel):
@@ -96,7 +110,7 @@ def near(what, value, expected, within):
 @check("StationReadsUsbInstrumentsByControlBulkAndHid")
 def reads(station):
     station.start()
-    station.wait_until_good("laser", *NAMES, limit_s=30)
+    station.wait_until_good("laser", *NAMES, CONTACTS, limit_s=30)
     # The truth moves by less than these within the test; scenarios/demo.toml, with each chip's step.
     air = station.scenario["air"]
     near("air temperature", station.value("air", "air temperature"), air["temperature"]["start"], 0.5)
@@ -105,6 +119,10 @@ def reads(station):
     near("probe", station.value("material", "probe temperature"), station.scenario["thermal"]["material"]["start"], 0.5)
     # Half a count of 0.316 mV is 16 nm.
     near("ballbar", station.value("ballbar", "ballbar"), VOLTS * 1e-4, 2e-8)
+    # Half of the sensors' step is 0.125 K.
+    for n in (1, 2):
+        near(f"contact {n}", station.value(CONTACTS, f"contact {n}"),
+             station.scenario["thermal"]["material"]["start"], 0.5)
     expect(station.instrument("ballbar")["serial"] == "470012345", "another U6 was taken")
     print([(one["name"], one["model"], one["serial"], one["firmware"]) for one in station.status()["instruments"]])
 
@@ -115,10 +133,12 @@ def found(station):
     told = json.loads(run(PROGRAMS / "axiscal", "devices", "--json", "--socket", station.socket, "--config",
                           station.folder / "station.toml"))
     known = {one["in_station"]: one for one in told["plugged"] if one["in_station"]}
-    expect(set(known) == {"laser", "air", "material"}, f"known are {sorted(known)}")
+    expect(set(known) == {"laser", "air", "material", CONTACTS}, f"known are {sorted(known)}")
     expect(known["air"]["usb"]["serial"] == "A10234", f"{known['air']}")
     expect(known["laser"]["kernel_driver"] == "cdc_acm", f"{known['laser']}")
     expect(known["material"]["node"].startswith("/dev/hidraw"), f"{known['material']}")
+    expect(Path(known["material"]["node"]).group() == "axiscal", "the rules do not know the stick")
+    expect(known[CONTACTS]["kernel_driver"] == "w1_therm", f"{known[CONTACTS]}")
     for one in known.values():
         expect(one["missing"] == [], f"{one}")
         expect(Path(one["node"]).exists(), f"{one}")
@@ -184,6 +204,106 @@ def corrupt(station):
         expect(station.instrument(name)["checksum_errors"] > before[name], f"{name} counts no wrong checksum")
 
 
+def kernel_text(sensor):
+    """What the kernel shows of a thermometer now; a reading of its own, beside the daemon's."""
+    return Path(f"/sys/bus/w1/devices/{sensor}/w1_slave").read_text()
+
+
+def no_number(station, trouble, channels, word):
+    """The cable suffers, these channels lose their values, the others keep theirs; the log tells why, at
+    most once a sensor. Once mended, all have values again. Gives back what the kernel showed of the first."""
+    since = len(station.logged())
+    mended = "mended" + (trouble[trouble.index(":"):] if ":" in trouble else "")
+    with Undisturbed(station, "laser"):
+        station.usb(f"tell {CONTACTS} {trouble}")
+        try:
+            for n in channels:
+                wait_until(f"contact {n} is no number", lambda n=n: station.value(CONTACTS, f"contact {n}") is None)
+            wait_until(f"the note says {word}", lambda: word in station.instrument(CONTACTS)["note"])
+            shown = kernel_text(SENSORS[channels[0] - 1])
+            for n in {1, 2} - set(channels):
+                expect(station.value(CONTACTS, f"contact {n}") is not None, f"contact {n} has no value either")
+        finally:
+            station.usb(f"tell {CONTACTS} {mended}")
+        station.wait_until_good(CONTACTS)
+    told = station.lines_of(CONTACTS, since)
+    expect(1 <= len(told) <= len(channels) and word in told[0], f"that {word} is told {len(told)} times: {told}")
+    print(shown)
+    return shown
+
+
+@check("PowerOnValueOfAThermometerIsNoNumber")
+def power_on(station):
+    """The kernel shows 85 degC, and a right checksum."""
+    shown = no_number(station, "power-lost:2", [2], "85 degC")
+    expect(" YES\n" in shown and shown.endswith("t=85000\n"), f"the kernel showed {shown!r}")
+
+
+@check("WrongChecksumOnOneWireIsNoNumber")
+def wrong_crc(station):
+    """The kernel reads five times and then shows nothing; the last value grows old."""
+    before = station.instrument(CONTACTS)["bad_frames"]
+    shown = no_number(station, "wrong-crc:1", [1], "was read wrongly")
+    expect(shown == "", f"the kernel showed {shown!r}")
+    expect(station.instrument(CONTACTS)["bad_frames"] >= before + 3, "unread ones are not counted")
+
+
+@check("ShortedOneWireCableIsNoNumber")
+def shorted(station):
+    """Zeros, whose checksum is right."""
+    shown = no_number(station, "shorted", [1, 2], "all bytes are zero")
+    expect(" YES\n" in shown and shown.endswith("t=0\n"), f"the kernel showed {shown!r}")
+
+
+@check("UnpluggedOneWireAdapterIsUnavailableAndComesBack")
+def adapter_unplugged(station):
+    since = len(station.logged())
+    with Undisturbed(station, "laser"):
+        station.usb(f"unplug {CONTACTS}")
+        station.wait_for_state(CONTACTS, GONE)
+        expect([station.value(CONTACTS, f"contact {n}") for n in (1, 2)] == [None, None], "a value outlived its sensor")
+        station.usb(f"plug {CONTACTS}")
+        wait_until("the kernel has found both again", lambda: all(Path(f"/sys/bus/w1/devices/{one}").exists() for one in SENSORS))
+        station.wait_until_good(CONTACTS)
+    # The first of them may be missed while the other is still there.
+    told = station.lines_of(CONTACTS, since)
+    expect(1 <= len(told) <= 2 and "none of the sensors" in told[-1], f"{told}")
+    changes = station.changes_of(CONTACTS, since)
+    expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{changes}")
+
+
+def comes_by(station, name):
+    """The TEMPer by another way in the place of the one on vhci_hcd: read, unplugged, back."""
+    _, firmware = CARRIERS[name]
+    station.usb("unplug material")
+    station.wait_for_state("material", GONE)
+    try:
+        station.usb(f"plug {name}")
+        station.wait_until_good("material")
+        one = station.instrument("material")
+        print(one["model"], one["firmware"], station.value("material", "probe temperature"))
+        expect(one["firmware"] == firmware, f"another stick answers: {one}")
+        near("probe", station.value("material", "probe temperature"),
+             station.scenario["thermal"]["material"]["start"], 0.5)
+        suffers(station, ["material"], lambda _: station.usb(f"unplug {name}"), lambda _: station.usb(f"plug {name}"))
+    finally:
+        station.usb(f"unplug {name}")
+        station.usb("plug material")
+    station.wait_until_good("material", limit_s=10)
+
+
+@check("TemperThatTheKernelItselfEmulatesIsReadAlike")
+def gadget(station):
+    """Descriptors, enumeration and class requests are the kernel's (libcomposite, usb_f_hid on
+    dummy_hcd): what our emulation got wrong would show here."""
+    comes_by(station, "gadget")
+
+
+@check("TemperWithoutUsbIsReadByUhid")
+def uhid(station):
+    comes_by(station, "uhid")
+
+
 @check("TemperIsReadByHidapiOverLibusbToo")
 def libusb_back_end(station):
     """The same library calls, served by libusb instead of hidraw. A station of its own: the other
@@ -201,12 +321,15 @@ def libusb_back_end(station):
                  other.scenario["thermal"]["material"]["start"], 0.5)
             suffers(other, ["material"], lambda name: other.usb(f"unplug {name}"),
                     lambda name: other.usb(f"plug {name}"))
+            comes_by(other, "gadget")
     finally:
         del os.environ["LD_PRELOAD"]
 
 
 def main():
-    load_modules("vhci_hcd", "cdc_acm", "ftdi_sio", "usbhid", "hid_generic")
+    load_modules("vhci_hcd", "cdc_acm", "ftdi_sio", "usbhid", "hid_generic", "ds2490", "w1_therm", "uhid", "dummy_hcd",
+                 "usb_f_hid")
+    run("mount", "-t", "configfs", "none", "/sys/kernel/config")
     start_udev()
     with DirectStation() as station:
         return run_checks(station)

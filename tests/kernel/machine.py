@@ -21,6 +21,7 @@ HERE = Path(__file__).resolve().parent
 RIG = HERE.parent.parent / "build" / "rig"
 PROGRAMS = ("qemu-system-x86_64", "busybox", "cpio", "modprobe", "depmod", "apt-get", "dpkg")
 SAYS_GOODBYE = 0xF4  # port of isa-debug-exit; a guest that writes n ends qemu with 2 n + 1
+COUNTED = ("-accel", "tcg", "-icount", "shift=1", "-cpu", "qemu64")
 FIRST_MODULES = ("virtio_pci", "9p", "9pnet_virtio", "overlay")
 
 
@@ -105,7 +106,7 @@ def folder_words(tag, path, read_only):
             "-device", f"virtio-9p-pci,fsdev={tag},mount_tag={tag}"]
 
 
-def boot(share, command, limit_s, append="", devices=(), memory_mb=1536):
+def boot(share, command, limit_s, append="", devices=(), memory_mb=1536, accelerator=COUNTED):
     """Runs `command` (a shell line) as root in a fresh guest; returns its exit status. `share` is
     /hostshare inside: overlay/ is laid over the root first; console.log and what the guest writes
     stay there; `devices` are further words for QEMU. None: the guest did not reach its end within limit_s
@@ -117,7 +118,7 @@ def boot(share, command, limit_s, append="", devices=(), memory_mb=1536):
         f"{{ {command}; }} >/hostshare/output.txt 2>&1; status=$?; sync\n"
         f"printf \"\\\\$(printf %o $status)\" | dd of=/dev/port bs=1 seek={SAYS_GOODBYE} 2>/dev/null\n"
     )
-    words = ["qemu-system-x86_64", "-accel", "tcg", "-icount", "shift=1", "-cpu", "qemu64", "-M", "q35",
+    words = ["qemu-system-x86_64", *accelerator, "-M", "q35",
              "-m", str(memory_mb), "-nodefaults", "-no-reboot", "-display", "none",
              "-serial", f"file:{share}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
              "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),

@@ -68,9 +68,10 @@ class UsbStation(bench.Bench):
         return wait_until(f"{name} is {' or '.join(states)}", lambda: self.state(name) in states, limit_s)
 
     def good(self, name):
-        """Every channel of the instrument that a role uses has a value now."""
-        channels = [c for c in self.status()["channels"] if c["instrument"] == name and c["used"]]
-        return channels and all(c["value"] is not None for c in channels)
+        """Every channel of the instrument that a role uses has a value now; each it has where none does."""
+        channels = [c for c in self.status()["channels"] if c["instrument"] == name]
+        used = [c for c in channels if c["used"]] or [c for c in channels if c["quality"] != "none"]
+        return used and all(c["value"] is not None for c in used)
 
     def wait_until_good(self, *names, limit_s=RECOVERY_S):
         for name in names:

@@ -1,9 +1,12 @@
 """A circular test on the wire: a simulated machine with hidden errors, a ballbar read by a counter at
 1 kHz, a CNC that runs the generated part program."""
 
+import contextlib
 import json
 import math
+import os
 import signal
+import sqlite3
 
 import bench
 from bench import expect, sentence, wait_until
@@ -118,6 +121,72 @@ def arcs(b):
     expect_hidden(answer)
 
 
+LASER_HZ, LEFT_OUT = 50_000, 50
+
+
+def rows(path, query):
+    with contextlib.closing(sqlite3.connect(f"file:{path}?mode=ro", uri=True)) as file:
+        file.row_factory = sqlite3.Row
+        return [dict(row) for row in file.execute(query)]
+
+
+def shown_stream(b, points):
+    door = bench.UnixHttp(b.socket)
+    try:
+        door.request("GET", f"/v1/stream?points={points}")
+        return json.load(door.getresponse())
+    finally:
+        door.close()
+
+
+@sentence("LaserAt50KilohertzIsStoredSampleForSampleInFewBytes")
+def fifty_kilohertz(b):
+    """The bar's counter is a laser at 50 kHz that once counts records and does not send them. A record of so
+    few (1 ms, 0.1 mm of path) may be missing anywhere, at the feed-in, too."""
+    with_ballbar(b, overshoot="90 deg")
+    b.scenario["ballbar"]["rate_hz"] = float(LASER_HZ)
+    armed = {}
+
+    def leave_out(b):
+        armed.update(b.sim("status")["ballbar"])
+        b.sim(f"skip-bar {LEFT_OUT}")
+
+    answer = measure(b, leave_out)
+    expect_hidden(answer)
+    sent = b.sim("status")["ballbar"]
+    path = b.run()["file"]
+    blocks = rows(path, "SELECT block, first_count, samples, missing, before, begin_ns, end_ns, low, high"
+                        " FROM stream_block ORDER BY block")
+    expect([one["block"] for one in blocks] == list(range(len(blocks))), "a block was dropped")
+    first = blocks[0]["first_count"]
+    last = blocks[-1]["first_count"] + blocks[-1]["samples"] - 1
+    stored = sum(one["samples"] for one in blocks)
+    missing = sum(one["missing"] for one in blocks)
+    expect(first <= armed["sequence"] < last <= sent["sequence"], f"{first}..{last}, {armed}, {sent}")
+    for before, after in zip(blocks, blocks[1:]):
+        expect(after["first_count"] == before["first_count"] + before["samples"] + after["missing"],
+               f"{before} and {after} do not follow each other")
+    expect(stored == last - first + 1 - missing, f"{stored} of {first}..{last}, {missing} missing")
+    expect(any(one["before"] == "gap" and one["missing"] >= LEFT_OUT for one in blocks),
+           f"what was left out is no gap: {missing}")
+    # Record k belongs to the instant k / rate of the same clock. The daemon knows it from arrivals alone: a
+    # millisecond of frames at either end, and what a busy computer adds.
+    span_s = (blocks[-1]["end_ns"] - blocks[0]["begin_ns"]) * 1e-9
+    expect(abs(span_s - (last - first) / LASER_HZ) < 0.005, f"{span_s} s for {last - first} periods")
+    nominal = rows(path, "SELECT nominal_rate_hz FROM stream")[0]["nominal_rate_hz"]
+    expect(abs(nominal / LASER_HZ - 1) < 0.5, f"{nominal} Hz seen before arming, by arrivals alone")
+    rate = answer["run"]["capture"]["sample_rate_hz"]
+    expect(rate == LASER_HZ, f"{rate} Hz over the run")
+    size = os.path.getsize(path)  # with everything else that is in it
+    expect(size <= 8 * stored, f"{size / stored} bytes a sample")
+    seen = shown_stream(b, 64)
+    expect(seen["samples"] == stored and seen["missing"] == missing, f"{stored}, {missing}: {seen}")
+    expect(seen["gaps"] == sum(one["before"] != "" for one in blocks), f"{seen['gaps']} gaps")
+    expect(32 <= len(seen["high"]) <= 64, f"{len(seen['high'])} stretches")
+    expect(max(seen["high"]) == max(one["high"] for one in blocks) * 1e3, "the highest is shown")
+    expect(min(seen["low"]) == min(one["low"] for one in blocks) * 1e3, "the lowest is shown")
+
+
 @sentence("CirclesGoOnAfterAKillAtTheCircleThatWasCut")
 def killed(b):
     """The CNC holds before circle 2, whose request is durable, and asks again when the station is back."""
@@ -139,6 +208,21 @@ def killed(b):
     expect("Circle 2 of 2 was not recorded to its end" in told[0], told[0])
     events = [one["text"] for one in answer["run"]["events"]]
     expect(any("Circle 2 of 2 begins again" in one for one in events), f"{events}")
+
+
+@sentence("CirclesByTheTriggerNeedNoFeedIn")
+def by_trigger(b):
+    """A simulated CNC's words come 10 ms late in the mean (its client's polling), 1 mm of path or 25 mrad of
+    a circle of 40 mm at 100 mm/s: the form stays, its causes turn. G is that of the circles by feed-in."""
+    with_ballbar(b, overshoot="90 deg", start_from="trigger")
+    answer = measure(b)
+    for circle in answer["run"]["circles"]:
+        expect(circle["start_from"] == "trigger", f"{circle}")
+        # started and braked once at 5 m/s2: v2/a = 2 mm; both words up to 20 ms late or early
+        expect(abs(circle["residual_mm"] - 2) < 2, f"{circle}")
+    found = answer["diagnosis"]["squareness_rad"]
+    hidden = HIDDEN["squareness_um_per_m"] * 1e-6
+    expect(abs(found - hidden) < 0.15 * hidden, f"squareness {found}, hidden {hidden}")
 
 
 if __name__ == "__main__":

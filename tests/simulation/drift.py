@@ -36,6 +36,7 @@ def drift(b):
     expect(found["run"]["statements"]["operator"] == "Shift 2", f"{found['run']['statements']}")
     names = {channel["channel"] for channel in found["channels"]}
     expect({"air temperature", "contact 1", "contact 2"} <= names, f"{names}")
+    expect((folder / "certificate.pdf").read_bytes().startswith(b"%PDF-"), "there is no PDF")
     rows = list(csv.DictReader((folder / "certificate.csv").open(newline="")))
     axis = [row for row in rows if row["channel"] == "axis at 20 degC"]
     expect(len(axis) == found["test"]["readings"], f"{len(axis)} rows")

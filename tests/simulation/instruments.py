@@ -1,7 +1,10 @@
 """One instrument that fails disturbs no other, is told, and comes back by itself."""
 
+import json
+
 import bench
 from bench import expect, sentence
+from truth import compare
 
 
 def laser_was_undisturbed(b):
@@ -33,6 +36,53 @@ def fails_and_comes_back(b, sensor, behaviour, words):
     b.finish()
     expect(b.run()["step"] == 20, f"{b.run()}")
     laser_was_undisturbed(b)
+
+
+def by_ids(b):
+    """The axis by an attocube IDS3010 instead of the counter."""
+    port = bench.free_port()
+    laser = b.scenario["laser"]
+    b.scenario["laser"] = {"kind": "ids3010", "port": port, "wavelength_nm": 1530.0, "fold": 2,
+                           "dead_path_mm": laser["dead_path_mm"], "zero_mm": laser["zero_mm"]}
+    b.station["instrument"] = [one for one in b.station["instrument"] if one["name"] != "laser"]
+    b.station["instrument"].append({
+        "name": "laser", "driver": "ids3010", "link": f"tcp:127.0.0.1:{port}", "air": "corrected here",
+        "wavelength": "1530 nm", "fastest": "40 m/min",
+        "certificate_number": "simulated", "due_on": "2099-12-31",
+    })
+
+
+@sentence("IdsLaserThatFallsSilentOrSendsGarbageIsToldAndComesBack")
+def ids_fails(b):
+    by_ids(b)
+    b.start()
+    others = ("air", "material")
+    for behaviour in ("off", "garbage"):
+        before = {name: b.instrument(name)["restarts"] for name in others}
+        b.sim(f"sensor laser {behaviour}")
+        bench.wait_until("the laser is given up", lambda: b.instrument("laser")["state"] != "available", 20)
+        b.sim("sensor laser on")
+        bench.wait_until("the laser is back", b.channels_are_good, 5)
+        expect({name: b.instrument(name)["restarts"] for name in others} == before, "others were disturbed")
+    log = "\n".join(log.read_text(errors="replace") for log in b.logs if log.name.startswith("axiscald"))
+    expect(log.count("laser is unavailable") + log.count("laser is faulty") == 2, log)
+
+
+@sentence("AxisByAnIdsLaserIsTheTruth")
+def ids_run(b):
+    by_ids(b)
+    # It is asked a hundred times a second: a still window is longer, and a gap of 40 ms about the end of an
+    # overrun hides 0.05 mm of it.
+    b.station["capture"]["window"] = "0.4 s"
+    b.station["cycle"]["dwell"] = "0.4 s"
+    b.scenario["axis"]["acceleration_mm_per_s2"] = 250.0
+    b.scenario["truth"]["window_s"] = 0.4
+    b.begin_run()
+    certificate = b.finish()
+    expect(b.run()["step"] == 20, f"{b.run()}")
+    b.sim("truth truth.json")
+    missed = compare(json.loads((b.folder / "truth.json").read_text()), certificate)
+    expect(not missed, f"outside of the truth: {', '.join(missed)}")
 
 
 @sentence("AirSensorThatFallsSilentIsStaleAndComesBack")

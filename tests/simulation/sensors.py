@@ -66,6 +66,31 @@ def air_tcp(b):
     run_completes(b)
 
 
+@sentence("MaterialByATemperX232IsReadWhileItsProbeIsTheOnlySensor")
+def temper_serial(b):
+    b.scenario["sensor"].append({"name": "stick", "kind": "temper-serial", "path": "stick.tty"})
+    b.station["instrument"].append({
+        "name": "stick", "driver": "temper-serial", "link": f"serial:{b.folder}/stick.tty",
+        "certificate_number": "simulated", "due_on": "2099-12-31",
+        "channel": [{"channel": "probe temperature", "medium": "material", "place": "screw"}],
+    })
+    b.station["axis"]["material"]["temperature"] = ["stick/probe temperature"]
+    b.start()
+    shown = {one["channel"]: one["value"] for one in b.status()["channels"] if one["instrument"] == "stick"}
+    thermal, air = b.scenario["thermal"], b.scenario["air"]
+    # The stick's last digit is 0.01; the truth moves by 0.02 K (air) and 0.02 % at most within two minutes.
+    for channel, truth, bound in (
+        ("probe temperature", thermal["material"]["start"] + thermal["sensor_difference_k"][0], 0.02),
+        ("stick temperature", air["temperature"]["start"], 0.05),
+        ("stick humidity", air["humidity_percent"]["start"], 0.1),
+    ):
+        expect(abs(shown[channel] - truth) < bound, f"{channel}: {shown}, true {truth}")
+    b.sim("sensor stick off")
+    bench.wait_until("the stick is missed", lambda: b.instrument("stick")["state"] != "available", 30)
+    b.sim("sensor stick on")
+    bench.wait_until("it is back", lambda: b.instrument("stick")["state"] == "available", 30)
+
+
 @sentence("HomodyneCounterCarriesARun")
 def homodyne(b):
     """No reference, no interpolation, no error mask: four counts a fringe and a sequence number."""

@@ -81,8 +81,8 @@ public:
         if (bus_.state != CanState::up)
             co_return tl::unexpected<Error>(can_absence("can0", bus_.state));
         bus_.sent.push_back(frame);
-        simulate::CanMessage message{frame.id, {}};
-        for (const std::byte byte : frame.bytes())
+        simulate::CanMessage message{frame.id, {}, frame.remote};
+        for (const std::byte byte : frame.remote ? std::span<const std::byte>{} : frame.bytes())
             message.data.push_back(std::to_integer<std::uint8_t>(byte));
         for (simulate::CanNode* node : bus_.nodes)
             bus_.deliver(node->take(message, bus_.now_s()), scheduler_.now());

@@ -36,9 +36,16 @@ Result<void> draw_drift(const Options& options, const std::string& folder) {
     return write_drift_files(document, options.run_file, folder);
 }
 
+Result<void> draw_probing(const Options& options, const std::string& folder) {
+    if (options.to.empty()) AXISCAL_CHECK(seal_probing(options.run_file));
+    AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(options.run_file));
+    return write_probing_files(document, options.run_file, folder);
+}
+
 /// The first evaluation is the station's own report; an export changes nothing.
-Result<void> draw(const Options& options, bool drift, const std::string& folder) {
-    if (drift) return draw_drift(options, folder);
+Result<void> draw(const Options& options, const RunSummary& run, const std::string& folder) {
+    if (run.drift) return draw_drift(options, folder);
+    if (run.probing) return draw_probing(options, folder);
     if (options.to.empty()) AXISCAL_CHECK(seal_result(options.run_file));
     AXISCAL_TRY(const bool circular, is_circular_run(options.run_file));
     if (circular) {
@@ -58,7 +65,7 @@ Result<std::string> stage(const Options& options) {
     const std::string name = certificate_name(run);
     AXISCAL_TRY(const std::string temporary, begin_entry(folder, name));
     AXISCAL_CHECK(sync_folder(folder));
-    if (auto drawn = draw(options, run.drift, temporary); !drawn) {
+    if (auto drawn = draw(options, run, temporary); !drawn) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(drawn).error());
@@ -101,7 +108,7 @@ std::string paths_line(const std::string& entry, const std::string& run_file, bo
     line["json"] = entry + "/" + certificate_json_name;
     line["csv"] = entry + "/" + certificate_csv_name;
     const std::string pdf = entry + "/" + certificate_pdf_name;
-    if (std::filesystem::exists(pdf)) line["pdf"] = pdf; // a drift test has none
+    if (std::filesystem::exists(pdf)) line["pdf"] = pdf; // a probing test has none
     line[of_case ? "case" : "run_file"] =
         entry + "/" + std::filesystem::path(run_file).filename().string();
     return line.dump();

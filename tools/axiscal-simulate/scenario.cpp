@@ -186,7 +186,7 @@ void read_sensor(Fields& f, SensorScenario& sensor) {
     f.read("name", sensor.name);
     f.one_of("kind", sensor.kind,
              {"dracal-vcp", "tm-th8", "xy-md02", "comet", "nd-28x", "mitutoyo", "sylvac", "vaisala",
-              "vaisala-hmp", "labjack-t7", "m-7015", "ds18b20"});
+              "vaisala-hmp", "labjack-t7", "m-7015", "ds18b20", "temper-serial"});
     f.read("path", sensor.path);
     f.read("port", sensor.port);
     f.read("unit", sensor.unit);
@@ -196,6 +196,14 @@ void read_sensor(Fields& f, SensorScenario& sensor) {
     const std::set<std::string> on_tcp{"tm-th8",      "xy-md02",    "comet",
                                        "vaisala-hmp", "labjack-t7", "m-7015"};
     if (!on_tcp.contains(sensor.kind) && sensor.path.empty()) f.refuse("path", "is missing");
+}
+
+void read_indexing_table(Fields& f, TableScenario& table) {
+    f.positive("step_deg", table.step_deg);
+    f.positive("turn_deg_per_s", table.turn_deg_per_s);
+    f.positive("arm_mm", table.arm_mm);
+    f.positive("range_deg", table.range_deg);
+    f.read("deviation_arcsec", table.deviation_arcsec);
 }
 
 void read_ballbar(Fields& f, BallbarScenario& bar) {
@@ -263,6 +271,8 @@ void read_all(Fields& f, Scenario& s) {
     });
     f.table("laser", [&](Fields& t) { read_laser(t, s.laser); });
     f.tables("sensor", [&](Fields& t) { read_sensor(t, s.sensors.emplace_back()); });
+    f.table("indexing_table",
+            [&](Fields& t) { read_indexing_table(t, s.indexing_table.emplace()); });
     f.table("ballbar", [&](Fields& t) { read_ballbar(t, s.ballbar.emplace()); });
     f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });
     f.table("truth", [&](Fields& t) {

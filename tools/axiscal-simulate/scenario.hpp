@@ -66,6 +66,15 @@ struct LaserScenario {
     bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
 };
 
+/// An indexing table on a rotary axis, with the reflectors of an angular interferometer on it. Of
+/// the axis a millimetre then stands for a degree, a micrometre for a thousandth; nothing expands.
+struct TableScenario {
+    double step_deg = 5, turn_deg_per_s = 60;
+    double arm_mm = 32.61;                ///< between the reflectors
+    double range_deg = 10;                ///< beyond it the beam is lost
+    std::vector<double> deviation_arcsec; ///< of each position; + stands turned with the axis
+};
+
 /// A ballbar between spindle and table, and what it shall find; ways of its plane move it.
 struct BallbarScenario {
     std::string path, plane = "XY"; ///< letters of the first and the second axis
@@ -118,6 +127,7 @@ struct Scenario {
     AirScenario air;
     LaserScenario laser;
     std::vector<SensorScenario> sensors;
+    std::optional<TableScenario> indexing_table;
     std::optional<BallbarScenario> ballbar;
     std::optional<CncScenario> cnc;
     TruthScenario truth;

@@ -68,6 +68,17 @@ double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperatu
     return thermal.fixed_point_mm + from_fixed_mm * (1.0 + growth.si());
 }
 
+double rest_deg(const TableScenario& table, double axis_deg, double table_deg) {
+    const auto count = static_cast<long>(table.deviation_arcsec.size());
+    const long position = std::lround(table_deg / table.step_deg);
+    const double deviation_arcsec =
+        count == 0
+            ? 0
+            : table
+                  .deviation_arcsec[static_cast<std::size_t>(((position % count) + count) % count)];
+    return axis_deg - table_deg + deviation_arcsec / 3600.0;
+}
+
 SimulatedMachine::SimulatedMachine(const Scenario& scenario)
     : scenario_{scenario}
     , errors_{scenario.errors}
@@ -97,13 +108,24 @@ double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t
     last_drive_mm_ = drive_mm;
     last_seconds_ = seconds;
     const double at_20_mm = drive_mm + deviation_um * 1e-3 + offset_mm;
+    if (scenario_.indexing_table) return at_20_mm; // an angle does not grow
     return grown_mm(scenario_.thermal, at_20_mm, material_at(scenario_.thermal, seconds));
 }
 
 double SimulatedMachine::cycles(double slide_mm, double seconds) {
     const LaserScenario& laser = scenario_.laser;
     const double way_mm = laser.sign * (slide_mm - laser.zero_mm);
-    const double length_mm = laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_);
+    return cycles_of_path(laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_), seconds);
+}
+
+double SimulatedMachine::cycles_of_rest(double rest_deg, double seconds) {
+    const double rest_rad = rest_deg * std::numbers::pi / 180.0;
+    const double arm_mm = scenario_.indexing_table ? scenario_.indexing_table->arm_mm : 0;
+    return cycles_of_path(scenario_.laser.sign * arm_mm * std::sin(rest_rad), seconds);
+}
+
+double SimulatedMachine::cycles_of_path(double length_mm, double seconds) {
+    const LaserScenario& laser = scenario_.laser;
     const double index =
         1.0 + refractivity(air_at(scenario_.air, seconds), nm(laser.wavelength_nm));
     const double optical_mm = index * length_mm;

@@ -48,6 +48,10 @@ Temperature material_at(const ThermalScenario& thermal, double seconds);
 /// Exact expansion of a coordinate about the fixed point of the machine, mm.
 double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperature material);
 
+/// What is left of the axis's angle after the table was turned back to `table_deg`: true steps, and
+/// the deviation of the position that is nearest. Pure.
+double rest_deg(const TableScenario& table, double axis_deg, double table_deg);
+
 /// Steps through samples in order. One thread.
 class SimulatedMachine {
 public:
@@ -59,6 +63,9 @@ public:
     /// Optical cycles since the counter started, from the exact equation
     /// N = fold (n L - n0 L0) / lambda with L the length from interferometer to reflector.
     double cycles(double slide_mm, double seconds);
+    /// The same of an angular interferometer: N = fold (n D - n0 D0) / lambda with the displacement
+    /// D = arm sin(rest) between its reflectors, which stand square when the rest is 0.
+    double cycles_of_rest(double rest_deg, double seconds);
     /// The counter starts anew: the next sample is its zero.
     void zero_counter() { zeroed_ = false; }
     /// The beam turns about the interferometer by this angle to the motion: of the way from the
@@ -66,6 +73,7 @@ public:
     void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
 
 private:
+    double cycles_of_path(double length_mm, double seconds);
     double approach_offset_mm(double drive_mm, double dt_s);
 
     Scenario scenario_;

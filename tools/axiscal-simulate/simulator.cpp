@@ -22,6 +22,7 @@ PlanePoint start_of(const Scenario& scenario) {
 Simulator::Simulator(const Scenario& scenario)
     : scenario_{scenario}
     , axis_{scenario.axis.start_mm, scenario.axis.acceleration_mm_per_s2}
+    , table_{0, scenario.axis.acceleration_mm_per_s2}
     , plane_{start_of(scenario), scenario.axis.acceleration_mm_per_s2}
     , lines_{scenario.cnc.value_or(CncScenario{})} {}
 
@@ -45,7 +46,8 @@ Result<void> Simulator::open_faces() {
         sensors_.push_back(std::move(face));
     } else if (!scenario_.laser.path.empty()) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
-        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_, drive);
+        const auto table = [this](double seconds) { return table_.position_mm(seconds); };
+        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_, drive, table);
     }
     for (const SensorScenario& sensor : scenario_.sensors) {
         AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_));
@@ -58,7 +60,7 @@ Result<void> Simulator::open_faces() {
         sensors_.push_back(std::move(bar));
     }
     if (!scenario_.cnc) return {};
-    runner_ = std::make_unique<CncRunner>(scenario_, axis_, plane_, lines_, clock_);
+    runner_ = std::make_unique<CncRunner>(scenario_, axis_, plane_, lines_, clock_, &table_);
     if (scenario_.cnc->shape == "dwell") return {};
     if (scenario_.cnc->transport == "server") {
         AXISCAL_TRY(exchange_, CncServer::open(*scenario_.cnc, lines_, clock_));
@@ -150,6 +152,7 @@ nlohmann::json Simulator::places() const {
 nlohmann::json Simulator::status() const {
     nlohmann::json status = runner_ ? runner_->status() : nlohmann::json::object();
     if (laser_) status["laser"] = laser_->status();
+    if (bar_ != nullptr) status["ballbar"] = bar_->status();
     if (exchange_) status["connected"] = exchange_->connected();
     return status;
 }
@@ -175,6 +178,13 @@ Result<void> Simulator::obey_laser(const std::string& word, std::istream& argume
     if (word == "fields") laser_->set_fields(number);
     if (word == "error-mask") laser_->set_error_mask(number);
     return {};
+}
+
+Result<void> Simulator::obey_bar(std::istream& arguments) {
+    std::uint64_t records = 0;
+    if (bar_ == nullptr) return fail(Fault::not_found, "this scenario has no ballbar");
+    if (!(arguments >> records)) return fail(Fault::bad_request, "skip-bar needs a number");
+    return bar_->leave_out(records), Result<void>{};
 }
 
 Result<void> Simulator::obey_cnc(const std::string& word, std::istream& arguments) {
@@ -219,6 +229,7 @@ Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& ar
     if (word == "beam" || word == "restart-counter" || word == "skip" || word == "fields" ||
         word == "error-mask" || word == "steer")
         return done(obey_laser(word, arguments));
+    if (word == "skip-bar") return done(obey_bar(arguments));
     if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect" ||
         word == "hold" || word == "go")
         return done(obey_cnc(word, arguments));

@@ -48,12 +48,13 @@ private:
     void feed_faces(const std::vector<double>& positions_mm, int field);
     Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
+    Result<void> obey_bar(std::istream& arguments);
     Result<void> obey_cnc(const std::string& word, std::istream& arguments);
     [[nodiscard]] nlohmann::json status() const;
 
     Scenario scenario_;
     SimClock clock_;
-    CommandedAxis axis_;
+    CommandedAxis axis_, table_; ///< the table in degrees that it is turned back
     CommandedPlane plane_;
     CncLines lines_;
     std::unique_ptr<LaserFace> laser_;

@@ -150,7 +150,28 @@ double air_step_index(const Scenario& s) {
 /// Two accepted equations for n differ by at most this near 20 C, RH up to 100 %.
 constexpr double equations_differ = 6e-8;
 
+/// Least count of the laser, um of its displacement.
+double count_um(const LaserScenario& laser) {
+    const double count = laser.wavelength_nm * 1e-3 / (laser.fold * laser.counts_per_cycle);
+    const bool heterodyne = laser.kind == "umd1" || laser.kind == "umd2-heterodyne";
+    return heterodyne ? count / std::pow(2.0, laser.phase_bits) : count;
+}
+
+/// Behind an indexing table the laser measures the rest alone, at most half a step at each of two
+/// targets; a um stands for a thousandth of a degree.
+Systematic systematic_of_angle(const Scenario& s, const TableScenario& table) {
+    const double rest = table.step_deg / 2 * 1e3;
+    const double reflectors_um_per_mdeg = table.arm_mm * std::numbers::pi / 180.0;
+    Systematic sys;
+    sys.air = 2 * rest * 2 * air_step_index(s);
+    sys.formula = 2 * rest * equations_differ;
+    sys.counting = count_um(s.laser) / reflectors_um_per_mdeg;
+    sys.drift = std::abs(s.errors.drift_um_per_hour) * s.truth.duration_s / 3600.0;
+    return sys;
+}
+
 Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
+    if (s.indexing_table) return systematic_of_angle(s, *s.indexing_table);
     const double span_um = (plan.targets_mm.back() - plan.targets_mm.front()) * 1e3;
     const double beam_um = span_um + s.laser.dead_path_mm * 1e3;
     const double alpha = s.thermal.expansion_um_per_m_k * 1e-6;
@@ -167,10 +188,7 @@ Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
     sys.air = beam_um * 2 * air_step_index(s);
     sys.formula = span_um * equations_differ;
     sys.first_order = span_um * alpha * alpha * from_20 * from_20;
-    sys.counting = s.laser.wavelength_nm * 1e-3 / (s.laser.fold * s.laser.counts_per_cycle);
-    const LaserScenario& laser = s.laser;
-    if (laser.kind == "umd1" || laser.kind == "umd2-heterodyne")
-        sys.counting /= std::pow(2.0, laser.phase_bits);
+    sys.counting = count_um(s.laser);
     sys.drift = std::abs(s.errors.drift_um_per_hour) * s.truth.duration_s / 3600.0;
     sys.fixed_point = off_mm * 1e3 * alpha * material.width();
     return sys;
@@ -229,7 +247,8 @@ const char* const bound_formula =
     "true| "
     "+ (span + dead path) air steps + span 6e-8 + span (alpha dT)^2 + count + drift time + fixed "
     "point; between readings at one place (B, B_mean, R): the material sensor's change of error "
-    "in place of the scale terms.";
+    "in place of the scale terms. Of a rotary axis (mm stands for degree): 2 rests of half a step "
+    "times (2 air steps + 6e-8) + count / (arm pi / 180) + drift time.";
 
 bool is_between(const std::string& key) {
     return key.starts_with("B") || key.starts_with("R");

@@ -256,6 +256,12 @@ int command_trigger(const StationClient& client, bool json) {
     });
 }
 
+int command_reading(const StationClient& client, double seconds_of_arc, bool json) {
+    const Json body{{"arcsec", seconds_of_arc}};
+    return ask(client.post("/v1/run/reading", body.dump()), json,
+               [](const Json&) { return std::string{"The reading is taken.\n"}; });
+}
+
 int command_abort(const StationClient& client, const std::string& reason, bool json) {
     const Json body = reason.empty() ? Json::object() : Json{{"reason", reason}};
     return ask(client.post("/v1/run/abort", body.dump()), json, [](const Json&) {

@@ -35,6 +35,8 @@ struct RevisionOrder {
 int command_retake(const StationClient& client, const RevisionOrder& order, bool json);
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json);
 int command_trigger(const StationClient& client, bool json);
+/// What the autocollimator shows at the next face of the polygon.
+int command_reading(const StationClient& client, double seconds_of_arc, bool json);
 int command_abort(const StationClient& client, const std::string& reason, bool json);
 
 } // namespace axiscal

@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", AXISCAL_VERSION);
     add_run_commands(app, options, chosen);
     add_rest_commands(app, options, chosen);
+    add_probing_commands(app, options, chosen);
     add_instrument_commands(app, options, chosen);
     add_tape_commands(app, options, chosen);
     add_paper_commands(app, options, chosen);

@@ -7,6 +7,7 @@
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/drift_document.hpp"
+#include "acquisition/publish/probing_document.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -75,6 +76,12 @@ int analyze_run(const std::string& path) {
         std::cout << drift_json_text(*document);
         return exit_ok;
     }
+    if (summary && summary->probing) {
+        const auto document = probing_of_run_file(path);
+        if (!document) return complain(document.error());
+        std::cout << probing_json_text(*document);
+        return exit_ok;
+    }
     const auto circular = is_circular_run(path);
     if (!circular) return complain(circular.error());
     if (*circular) return analyze_circular_run(path);
@@ -105,6 +112,7 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     order.dwell = config.cycle.dwell;
     order.shape = config.trigger.shape;
     order.answer_limit = config.capture.timeout + std::chrono::seconds{2};
+    if (config.axis.angle) order.rotary = config.axis.angle->setup;
     if (order.shape == TriggerShape::dwell)
         order.least_halt = config.trigger.minimum_halt + config.capture.window;
     return order;
@@ -202,12 +210,19 @@ int command_program(const ProgramRequest& request, bool json) {
     if (!request.run_file.empty()) return write_retake_program(request, config, json);
     if (request.seed) config.cycle.seed = request.seed;
     std::random_device entropy;
-    const auto passes = plan_passes(config.cycle, entropy());
-    if (!passes) return complain(passes.error());
+    std::vector<RunPlan> passes;
+    if (!config.circles_alone()) {
+        auto planned = plan_passes(config.cycle, entropy());
+        if (!planned) return complain(planned.error());
+        passes = *std::move(planned);
+    }
     const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
     if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
+    if (passes.empty() && dialect->name != "linuxcnc")
+        return std::cerr << "circles are written for LinuxCNC only: --dialect linuxcnc\n",
+               exit_refused;
     Json list = Json::array();
-    for (const RunPlan& plan : *passes) {
+    for (const RunPlan& plan : passes) {
         const auto path = write_program(config, plan, *dialect, request.out_directory);
         if (!path) return complain(path.error());
         list.push_back(plan_json(plan, *path));

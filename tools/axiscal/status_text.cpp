@@ -27,17 +27,33 @@ std::string number_or_dashes(const Json& value, const char* pattern, const std::
     return std::string{text} + " " + unit;
 }
 
+/// Of a rotary axis the interface's millimetres are degrees, on paper with seconds of arc.
+struct ShownUnits {
+    std::string coordinate = "mm", deviation = "µm";
+    double deviation_factor = 1;
+    [[nodiscard]] std::string of_deviation(const Json& value, const char* pattern) const {
+        if (!value.is_number()) return number_or_dashes(value, pattern, deviation);
+        return number_or_dashes(value.get<double>() * deviation_factor, pattern, deviation);
+    }
+};
+
+ShownUnits units_of(const Json& status) {
+    constexpr double arcsec_per_millidegree = 3.6;
+    if (status.at("axis").value("kind", "linear") != "rotary") return {};
+    return {"°", "″", arcsec_per_millidegree};
+}
+
 std::string clock_text(double seconds) {
     const int whole = static_cast<int>(std::lround(seconds));
     return format("%d:%02d", whole / 60, whole % 60);
 }
 
-std::string next_text(const Json& run) {
+std::string next_text(const Json& run, const ShownUnits& units) {
     const Json& next = run.at("next");
     if (next.is_null()) return "none";
     const std::string arrow = next.at("direction") == "positive" ? "↑ from below" : "↓ from above";
     return format("P%d = ", next.at("target").get<int>() + 1) +
-           number_or_dashes(next.at("nominal_mm"), "%.3f", "mm") + "  " + arrow +
+           number_or_dashes(next.at("nominal_mm"), "%.3f", units.coordinate) + "  " + arrow +
            format("  approach %d", next.at("approach").get<int>() + 1);
 }
 
@@ -56,7 +72,8 @@ std::string run_text(const Json& status) {
                        run.value("retakes_asked", 0));
     if (run.value("excluded", 0) > 0) text += format(", %d left out", run.value("excluded", 0));
     text += "\n";
-    if (status.at("run_open") == true) text += "Next         " + next_text(run) + "\n";
+    if (status.at("run_open") == true)
+        text += "Next         " + next_text(run, units_of(status)) + "\n";
     if (!run.at("sentence").get<std::string>().empty())
         text += "FAULT        " + run.at("sentence").get<std::string>() + "\n";
     if (!run.at("certificate").get<std::string>().empty())
@@ -162,6 +179,7 @@ std::string instruments_text(const Json& instruments) {
 
 std::string status_text(const Json& status) {
     const Json& axis = status.at("axis");
+    const ShownUnits units = units_of(status);
     std::string text = "Station      " + status.at("station").get<std::string>() + "   " +
                        status.at("utc").get<std::string>() + "\n";
     text += run_text(status);
@@ -169,8 +187,8 @@ std::string status_text(const Json& status) {
     if (status.contains("drift") && !status.at("drift").is_null())
         text += drift_text(status.at("drift"));
     text += "Axis " + axis.at("name").get<std::string>() + "       " +
-            number_or_dashes(axis.at("position_mm"), "%.4f", "mm") + "   deviation " +
-            number_or_dashes(axis.at("deviation_um"), "%+.2f", "µm") + "   spread " +
+            number_or_dashes(axis.at("position_mm"), "%.4f", units.coordinate) + "   deviation " +
+            units.of_deviation(axis.at("deviation_um"), "%+.2f") + "   spread " +
             number_or_dashes(axis.at("spread_um"), "%.2f", "µm") +
             (axis.at("still") == true ? "   still" : "   moving") + "\n";
     if (axis.at("strength_percent").is_number())
@@ -199,8 +217,13 @@ std::string progress_line(const Json& status) {
         text += format("next P%02d %s %d  ", next.at("target").get<int>() + 1,
                        next.at("direction") == "positive" ? "↑" : "↓",
                        next.at("approach").get<int>() + 1);
-    text += "x " + number_or_dashes(status.at("axis").at("position_mm"), "%9.4f", "mm") +
-            "  last e " + number_or_dashes(run.at("last_deviation_um"), "%+7.2f", "µm");
+    const ShownUnits units = units_of(status);
+    text += "x " +
+            number_or_dashes(status.at("axis").at("position_mm"), "%9.4f", units.coordinate) +
+            "  last e " + units.of_deviation(run.at("last_deviation_um"), "%+7.2f");
+    if (const auto time = run.find("last_synchronisation_um");
+        time != run.end() && time->is_number())
+        text += "  by time " + number_or_dashes(*time, "%.4f", "µm");
     for (const Json& channel : status.at("channels"))
         if (channel.at("kind") == "temperature" && channel.at("used") == true)
             text += "  " + channel.at("medium").get<std::string>() + " " +

@@ -103,14 +103,16 @@ def main():
     with open(settings.find("BENCH", "PID"), "w") as file:
         file.write(f"{os.getpid()}\n")
     cnc = Cnc(settings)
-    sampler = start_stream(settings.find("BENCH", "POSITIONS"))
+    positions = settings.find("BENCH", "POSITIONS")
+    sampler = start_stream(positions) if positions else None
     try:
         cnc.make_ready()
         cnc.run(settings.find("DISPLAY", "OPEN_FILE"))
     finally:
         cnc.command.abort()
-        sampler.terminate()
-        sampler.wait()
+        if sampler:
+            sampler.terminate()
+            sampler.wait()
     return 1 if cnc.failed else 0
 
 

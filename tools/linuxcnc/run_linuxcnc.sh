@@ -2,12 +2,15 @@
 # Runs one part program of `axiscal program` on a LinuxCNC without a screen, then shuts it down.
 #
 #   run_linuxcnc.sh --program FILE --shape SHAPE --port PORT --positions PIPE --scratch DIR
+#   run_linuxcnc.sh --program FILE --block FILE --scratch DIR
 #
-#   --program    LinuxCNC dialect, axes X, Y and Z
+#   --program    LinuxCNC dialect, axes X, Y and Z; with --block one of `axiscal probing program`
 #   --shape      single-register | coil-and-index: as in the station file's [trigger]
 #   --port       the station's Modbus TCP port on this computer; mb2hal is its client
 #   --positions  named pipe (made when missing) that gets the 1 kHz position stream; something must
 #                read it before: axiscal-simulate --positions PIPE
+#   --block      three axes with a touch probe instead: X, Y, Z of the block's corner in mm and DELAY_00 to
+#                DELAY_15 in s, as lines KEY = VALUE
 #   --scratch    existing folder for LinuxCNC's files; the caller removes it
 #
 # While it runs DIR/cnc.events gets a line for each step: homed, "waiting X" (the program stands at
@@ -18,21 +21,24 @@
 # and refuses to disturb a foreign one. Needs no terminal; runs as root or as an ordinary user.
 set -euo pipefail
 
-usage() { sed -n '2,5p' "$0" >&2; exit 2; }
+usage() { sed -n '4,5p' "$0" >&2; exit 2; }
 refuse() { echo "run_linuxcnc: $1" >&2; exit "${2:-1}"; }
 
-program='' shape='' port='' positions='' scratch=''
+program='' shape='' port='' positions='' scratch='' block=''
 while [ $# -gt 0 ]; do
     case "$1" in
-    --program | --shape | --port | --positions | --scratch) [ $# -ge 2 ] || usage ;;
+    --program | --shape | --port | --positions | --scratch | --block) [ $# -ge 2 ] || usage ;;
     *) usage ;;
     esac
     printf -v "${1#--}" %s "$2"
     shift 2
 done
-[ -n "$program" ] && [ -n "$shape" ] && [ -n "$port" ] && [ -n "$positions" ] && [ -n "$scratch" ] || usage
+[ -n "$program" ] && [ -n "$scratch" ] || usage
+kind=machine
+[ -z "$block" ] || kind=probe
+[ "$kind" = probe ] || { [ -n "$shape" ] && [ -n "$port" ] && [ -n "$positions" ]; } || usage
 home=$(cd "$(dirname "$0")" && pwd)
-[ -f "$home/$shape.hal" ] || refuse "--shape is single-register or coil-and-index, not \"$shape\"" 2
+[ "$kind" = probe ] || [ -f "$home/$shape.hal" ] || refuse "--shape is single-register or coil-and-index, not \"$shape\"" 2
 [ -f "$program" ] || refuse "there is no program $program" 2
 [ -d "$scratch" ] || refuse "there is no folder $scratch" 2
 for tool in linuxcnc mb2hal halsampler; do
@@ -40,8 +46,13 @@ for tool in linuxcnc mb2hal halsampler; do
 done
 program=$(realpath "$program") scratch=$(realpath "$scratch")
 
-[ -p "$positions" ] || mkfifo "$positions"
-positions=$(realpath "$positions")
+if [ "$kind" = machine ]; then
+    [ -p "$positions" ] || mkfifo "$positions"
+    positions=$(realpath "$positions")
+else
+    [ -f "$block" ] || refuse "there is no block $block" 2
+    block=$(realpath "$block")
+fi
 
 # The lock is the program file itself: nothing to create, and every user can take it.
 exec 9<"$(command -v linuxcnc)"
@@ -79,8 +90,9 @@ if [ "$(id -u)" = 0 ]; then
 fi
 
 fill() { sed -e "s#@HOME@#$home#g; s#@PROGRAM@#$program#g; s#@SCRATCH@#$scratch#g; s#@POSITIONS@#$positions#g; s#@SHAPE@#$shape#g" "$1"; }
-fill "$home/machine.ini.in" >"$scratch/machine.ini"
-sed -e "s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/" "$home/$shape.mb2hal.ini" >"$scratch/mb2hal.ini"
+fill "$home/$kind.ini.in" >"$scratch/machine.ini"
+[ -z "$block" ] || { printf '\n[BLOCK]\n'; cat "$block"; } >>"$scratch/machine.ini"
+[ "$kind" = probe ] || sed -e "s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/" "$home/$shape.mb2hal.ini" >"$scratch/mb2hal.ini"
 printf 'T1 P1 D1 Z0\n' >"$scratch/tool.tbl"
 : >"$scratch/machine.var"
 : >"$scratch/cnc.events"

@@ -34,8 +34,7 @@ std::string reading_words(const std::optional<FarRest>& far) {
 
 } // namespace
 
-void draw_alignment(Sheet& sheet, const Certificate& certificate) {
-    const auto& alignment = certificate.attachments.alignment;
+void draw_alignment(Sheet& sheet, const std::optional<AlignmentRecord>& alignment) {
     if (!alignment) return;
     sheet.heading("Alignment of the beam", 100);
     std::vector<StatedField> fields{

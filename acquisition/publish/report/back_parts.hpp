@@ -1,5 +1,5 @@
 #pragma once
-// What the last pages of every certificate have: all instruments, remarks, events.
+// What the last pages of every certificate have: all instruments, channels, remarks, events.
 
 #include "acquisition/publish/report/sheet.hpp"
 #include "analysis/run_record.hpp"
@@ -12,6 +12,12 @@ namespace axiscal {
 void draw_instruments(Sheet& sheet,
                       const std::vector<InstrumentRecord>& instruments,
                       const std::string& run_date);
+
+/// Certificates of single channels with their tables; nothing where none is stated.
+void draw_calibrations(Sheet& sheet,
+                       const std::vector<ChannelCalibration>& calibrations,
+                       const std::vector<ChannelRecord>& channels,
+                       const std::string& run_date);
 
 /// @param shortened  what the front page could not print in full
 void draw_remarks(Sheet& sheet,

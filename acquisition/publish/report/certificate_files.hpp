@@ -2,6 +2,7 @@
 // From a closed run file to the files that leave the station.
 
 #include "acquisition/publish/drift_document.hpp"
+#include "acquisition/publish/probing_document.hpp"
 #include "analysis/certificate.hpp"
 #include "analysis/circular/circular_certificate.hpp"
 
@@ -26,9 +27,14 @@ Result<void> write_certificate_files(const Certificate& certificate,
 Result<void> write_circular_files(const CircularCertificate& certificate,
                                   const std::string& source_file,
                                   const std::string& folder);
-/// The same of a drift test: certificate.json, .csv with every reading, and the run file.
+/// The same of a drift test; its .csv holds every reading.
+/// @errors Fault::io; Fault::refused when the run file changed meanwhile; render_drift_pdf().
 Result<void> write_drift_files(const DriftDocument& document,
                                const std::string& run_file,
                                const std::string& folder);
+/// Of a probing test, with every touch; it has no .pdf.
+Result<void> write_probing_files(const ProbingDocument& document,
+                                 const std::string& run_file,
+                                 const std::string& folder);
 
 } // namespace axiscal

@@ -1,5 +1,5 @@
 #pragma once
-// The pages of a linear positioning certificate, in the order in which they are bound.
+// The pages of a positioning certificate, in the order in which they are bound.
 
 #include "acquisition/publish/report/front_parts.hpp"
 #include "acquisition/publish/report/sheet.hpp"
@@ -24,7 +24,10 @@ void draw_condition_pages(Sheet& sheet,
 /// The budget: what is stated, each term, each parameter, U against its target.
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 
+/// How the angle of a rotary axis was measured; in the place of the compensation.
+void draw_angle(Sheet& sheet, const Certificate& certificate);
+
 /// How the beam was aligned, and what its angle costs; nothing where nobody recorded it.
-void draw_alignment(Sheet& sheet, const Certificate& certificate);
+void draw_alignment(Sheet& sheet, const std::optional<AlignmentRecord>& alignment);
 
 } // namespace axiscal

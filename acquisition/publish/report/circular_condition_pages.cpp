@@ -108,6 +108,21 @@ void draw_temperatures(Sheet& sheet, const CircularCertificate& certificate) {
                note);
 }
 
+/// @param circles  at least one
+std::string synchronisation_words(const std::vector<CircleCapture>& circles) {
+    Synchronisation worst;
+    for (const CircleCapture& circle : circles) {
+        if (!circle.synchronisation)
+            return "Synchronisation error: not stated; no uncertainty of the readings' time is "
+                   "known.";
+        if (circle.synchronisation->error_um >= worst.error_um) worst = *circle.synchronisation;
+    }
+    return "Synchronisation error: at most " + fixed_up(worst.error_um, 4) +
+           " µm, the speed of the radius times the standard uncertainty u(t) of the readings' "
+           "time, there " +
+           fixed_up(seconds_of(worst.time_uncertainty) * 1e6, 1) + " µs.";
+}
+
 void draw_circles(Sheet& sheet, const CircularCertificate& certificate) {
     std::vector<TableRow> rows;
     for (const CircleCapture& circle : certificate.measured.run.circles)
@@ -129,7 +144,8 @@ void draw_circles(Sheet& sheet, const CircularCertificate& certificate) {
                  {"Missing readings", ""}},
                 rows, 7);
     sheet.text("Path residual: time found from the begin to the end of the circle minus the "
-               "programmed one, times the feed.",
+               "programmed one, times the feed. " +
+                   synchronisation_words(certificate.measured.run.circles),
                note);
 }
 
@@ -188,6 +204,7 @@ void draw_circular_condition_pages(Sheet& sheet,
     draw_circular_uncertainty(sheet, certificate);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, run.instruments, iso_date_of(certificate.measured));
+    draw_calibrations(sheet, run.calibrations, run.channels, iso_date_of(certificate.measured));
     draw_remarks(sheet, certificate.remarks, shortened);
     draw_events(sheet, events_on_paper(run), run.opened);
     if (!certificate.measured.taken_elsewhere)

@@ -42,7 +42,8 @@ void draw_environment_table(Sheet& sheet, const Certificate& certificate) {
         rows.push_back({summary.channel, stated(summary.place), paper.quantity, paper.unit,
                         value(summary.first), value(summary.last), value(summary.minimum),
                         value(summary.maximum),
-                        fixed(summary.correction * paper.factor, paper.decimals),
+                        summary.by_table ? "by table"
+                                         : fixed(summary.correction * paper.factor, paper.decimals),
                         std::to_string(summary.readings)});
     }
     sheet.table(columns, rows, 7);
@@ -165,20 +166,25 @@ void draw_compensation_table(Sheet& sheet, const Certificate& certificate) {
 
 // ---- cycle, instruments, remarks ------------------------------------------------------------
 
+/// "12.500 mm", or "12.500°" of a rotary axis.
+std::string coordinate_words(const RunPlan& plan, Length coordinate, int decimals) {
+    return fixed(coordinate.in(mm), decimals) + (plan.axis_kind == AxisKind::rotary ? "°" : " mm");
+}
+
 std::string target_rule(const RunPlan& plan) {
     if (!plan.seed) return "given list of positions";
-    return "P\u1d62 = (i − 1) p + r, p = " + fixed(plan.interval.in(mm), 3) +
-           " mm, r random from seed " + std::to_string(*plan.seed);
+    return "P\u1d62 = (i − 1) p + r, p = " + coordinate_words(plan, plan.interval, 3) +
+           ", r random from seed " + std::to_string(*plan.seed);
 }
 
 std::string datum_words(const RunRecord& run) {
     if (run.datums.empty()) return "not stated";
     const DatumRecord& datum = run.datums.back();
-    return fixed(datum.coordinate.in(mm), 4) + " mm, id " + stated(datum.id);
+    return coordinate_words(run.plan, datum.coordinate, 4) + ", id " + stated(datum.id);
 }
 
 std::string approach_travel_words(const RunPlan& plan) {
-    return plan.overrun > Length{} ? fixed(plan.overrun.in(mm), 3) + " mm" : "not stated";
+    return plan.overrun > Length{} ? coordinate_words(plan, plan.overrun, 3) : "not stated";
 }
 
 std::string beam_words(const LaserSetup& laser) {
@@ -199,7 +205,7 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
          {"Feed", stated(said.feed)},
          {"Dwell", stated(said.dwell)},
          {"Datum", datum_words(run)},
-         {"Capture tolerance", "±" + fixed(run.plan.near_tolerance.in(mm), 3) + " mm"},
+         {"Capture tolerance", "±" + coordinate_words(run.plan, run.plan.near_tolerance, 3)},
          {"Warm-up", stated(said.warm_up)},
          {"Offsets of the measuring line", stated(said.offsets)},
          {"Positions of idle axes", stated(said.idle_axes)},
@@ -210,6 +216,7 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
           certificate.attachments.alignment ? "recorded: see below" : "not recorded"}},
         2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
+    sheet.text(synchronisation_words(certificate), {7, false, grey});
 }
 
 } // namespace
@@ -220,13 +227,19 @@ void draw_condition_pages(Sheet& sheet,
     sheet.new_page();
     draw_environment(sheet, certificate);
     draw_environment_table(sheet, certificate);
-    sheet.heading("Compensation to 20 °C", 120);
-    draw_compensation_summary(sheet, certificate);
-    draw_formulas(sheet, certificate);
-    draw_compensation_table(sheet, certificate);
+    draw_calibrations(sheet, certificate.run.calibrations, certificate.run.channels,
+                      run_date_of(certificate.run));
+    if (certificate.run.rotary) {
+        draw_angle(sheet, certificate);
+    } else {
+        sheet.heading("Compensation to 20 °C", 120);
+        draw_compensation_summary(sheet, certificate);
+        draw_formulas(sheet, certificate);
+        draw_compensation_table(sheet, certificate);
+    }
     draw_uncertainty(sheet, certificate);
     draw_cycle(sheet, certificate);
-    draw_alignment(sheet, certificate);
+    draw_alignment(sheet, certificate.attachments.alignment);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, certificate.run.instruments, run_date_of(certificate.run));
     draw_remarks(sheet, certificate.remarks, shortened);

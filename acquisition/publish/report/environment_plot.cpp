@@ -8,17 +8,6 @@
 namespace axiscal {
 namespace {
 
-struct TimeScale {
-    double seconds_per_unit = 1;
-    std::string unit = "s";
-};
-
-TimeScale time_scale_for(double seconds) {
-    if (seconds < 180) return {1, "s"};
-    if (seconds < 4 * 3600) return {60, "min"};
-    return {3600, "h"};
-}
-
 std::pair<double, double> range_of(const std::vector<EnvironmentPanel>& panels, bool of_time) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const EnvironmentPanel& panel : panels)
@@ -110,7 +99,8 @@ std::vector<EnvironmentPanel> environment_panels_of(const Certificate& certifica
 
 void draw_environment_plot(Canvas& canvas,
                            PageBox box,
-                           const std::vector<EnvironmentPanel>& panels) {
+                           const std::vector<EnvironmentPanel>& panels,
+                           std::string_view since) {
     if (panels.empty()) return;
     const auto [begin_s, end_s] = range_of(panels, true);
     const TimeScale scale = time_scale_for(end_s - begin_s);
@@ -135,8 +125,8 @@ void draw_environment_plot(Canvas& canvas,
         draw_panel(canvas, panels[i], frame, scale, i + 1 == panels.size());
         y += height + gap;
     }
-    canvas.text({box.right() - 8, box.bottom() - 2}, "Time since the first point, " + scale.unit,
-                label_style, Align::right);
+    canvas.text({box.right() - 8, box.bottom() - 2},
+                "Time since " + std::string{since} + ", " + scale.unit, label_style, Align::right);
 }
 
 } // namespace axiscal

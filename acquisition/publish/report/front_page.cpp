@@ -45,7 +45,9 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certific
         {"Serial number", stated(said.machine_serial)},
         {"Control compensation", stated(said.control_compensation)},
         {"Axis", axis_words(certificate)},
-        {"Reference temperature", "20 °C; all values hold there"}};
+        certificate.run.rotary
+            ? StatedField{"Run-out of the set-up", stated(certificate.run.rotary->run_out)}
+            : StatedField{"Reference temperature", "20 °C; all values hold there"}};
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
@@ -97,7 +99,8 @@ void draw_uncertainty_notes(Sheet& sheet, const Certificate& certificate) {
         for (const ParameterLine& line : evaluated(lines)) {
             const auto* known = budget->find(line.key);
             const auto* target = target_uncertainty_of(certificate.run, line.key);
-            if (known && target && known->expanded > target->limit.in(um))
+            if (known && target &&
+                known->expanded > in_budget_units(certificate.run, target->limit))
                 exceeded += (exceeded.empty() ? "" : ", ") + std::string{line.symbol};
         }
     if (!exceeded.empty())

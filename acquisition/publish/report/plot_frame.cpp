@@ -54,6 +54,12 @@ PlotFrame frame_along(double low, double high, double margin) {
     return frame;
 }
 
+TimeScale time_scale_for(double span_s) {
+    if (span_s < 180) return {1, "s"};
+    if (span_s < 4 * 3600) return {60, "min"};
+    return {3600, "h"};
+}
+
 double widest(Canvas& canvas, const Ticks& ticks) {
     double found = 0;
     for (const double value : ticks.all())

@@ -38,6 +38,13 @@ struct PlotFrame {
 /// A frame that leaves a little air on both sides of the data.
 PlotFrame frame_along(double low, double high, double margin);
 
+/// Seconds, minutes or hours, as the span asks for.
+struct TimeScale {
+    double seconds_per_unit = 1;
+    std::string unit = "s";
+};
+TimeScale time_scale_for(double span_s);
+
 /// Of the marks' numbers.
 double widest(Canvas& canvas, const Ticks& ticks);
 void draw_rows(Canvas& canvas, const PlotFrame& frame);

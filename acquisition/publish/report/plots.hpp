@@ -21,9 +21,10 @@ struct EnvironmentPanel {
 /// kinds without a reading are left out. The pointers live as long as the certificate.
 std::vector<EnvironmentPanel> environment_panels_of(const Certificate& certificate);
 
-/// Panels under one time axis, which is named below the last one.
+/// Panels under one time axis, which is named below the last one: its zero is `since`.
 void draw_environment_plot(Canvas& canvas,
                            PageBox box,
-                           const std::vector<EnvironmentPanel>& panels);
+                           const std::vector<EnvironmentPanel>& panels,
+                           std::string_view since = "the first point");
 
 } // namespace axiscal

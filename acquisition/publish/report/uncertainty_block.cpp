@@ -1,5 +1,5 @@
 // The uncertainty budget as a reader checks it: what is stated, what each term gives, how the terms
-// combine for each parameter. Micrometres; runs are of linear axes.
+// combine for each parameter. Micrometres; seconds of arc of a rotary axis.
 
 #include "acquisition/publish/report/certificate_pages.hpp"
 
@@ -33,7 +33,12 @@ std::string words_of(const DeviceLimit& limit) {
     return words;
 }
 
-std::string device_words(const UncertaintySetup& setup) {
+std::string device_words(const UncertaintySetup& setup, const UncertaintyStatement& s) {
+    const bool stated_here = setup.device_U.stated() || setup.device_width.stated();
+    if (!stated_here)
+        return "U = " + fixed(s.device_U.value_or(0), 3) +
+               " µm, k = " + as_stated(s.device_k.value_or(2)) +
+               ", of the instruments' certificates";
     if (setup.device_U.stated())
         return "U_cal = " + words_of(setup.device_U) + ", k = " + as_stated(setup.device_k);
     return "R_D = " + words_of(setup.device_width);
@@ -45,14 +50,29 @@ std::string alignment_words(const UncertaintySetup& setup) {
     return "δ = " + as_stated(setup.misalignment_angle->in(radian)*1e3) + " mrad";
 }
 
-std::string temperature_words(const UncertaintyStatement& s) {
-    return "α = " + as_stated(s.alpha_um_per_m_K.value_or(0)) +
-           " µm/(m·K), R(θ) = " + as_stated(s.temperature_width_K.value_or(0)) + " K";
+std::string temperature_words(const UncertaintySetup& setup, const UncertaintyStatement& s) {
+    const double width_K = s.temperature_width_K.value_or(0);
+    return "α = " + as_stated(s.alpha_um_per_m_K.value_or(0)) + " µm/(m·K), R(θ) = " +
+           (setup.temperature_width ? as_stated(width_K) : fixed(width_K, 3)) + " K";
 }
 
 std::string expansion_words(const UncertaintyStatement& s) {
     return "ΔT = " + fixed(s.temperature_offset_K.value_or(0), 2) +
            " K, R(α) = " + fixed(s.alpha_width_um_per_m_K.value_or(0), 2) + " µm/(m·K)";
+}
+
+std::string unit_of(const Certificate& certificate) {
+    return certificate.run.rotary ? "″" : "µm";
+}
+
+/// Annex B: what a rotary axis has.
+std::string angle_device_words(const UncertaintySetup& setup) {
+    if (setup.device_U.fixed)
+        return "U_cal = " + as_stated(arcsec_of(*setup.device_U.fixed)) +
+               "″, k = " + as_stated(setup.device_k);
+    if (setup.device_width.fixed)
+        return "R_D = " + as_stated(arcsec_of(*setup.device_width.fixed)) + "″";
+    return {};
 }
 
 struct TermLine {
@@ -65,9 +85,12 @@ std::vector<TermLine> term_lines(const Certificate& certificate) {
     const UncertaintySetup& setup = *certificate.run.uncertainty;
     const UncertaintyStatement& s = certificate.uncertainty.statement;
     using enum UncertaintyTerm;
-    return {{device, "Laser system u_D", device_words(setup)},
+    if (certificate.run.rotary)
+        return {{device, "Instrument, artefact and set-up u_D", angle_device_words(setup)},
+                {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + "″"}};
+    return {{device, "Laser system u_D", device_words(setup, s)},
             {misalignment, "Misalignment of the beam u_MIS", alignment_words(setup)},
-            {machine_temperature, "Temperature of the material u_M,M", temperature_words(s)},
+            {machine_temperature, "Temperature of the material u_M,M", temperature_words(setup, s)},
             {machine_expansion, "Expansion coefficient u_E,M", expansion_words(s)},
             {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};
 }
@@ -84,7 +107,7 @@ void draw_terms(Sheet& sheet, const Certificate& certificate) {
     }
     sheet.table({{"Term", "", Align::left},
                  {"Stated, or of the run", "", Align::left, true},
-                 {"u", "µm"},
+                 {"u", unit_of(certificate)},
                  {"Formula", "", Align::left},
                  {"Mark", "", Align::left}},
                 rows);
@@ -112,7 +135,8 @@ std::vector<ParameterGroup> parameter_groups(const Certificate& certificate) {
         const auto line = std::ranges::find(lines, figure.key, &ParameterLine::key);
         if (line == lines.end() || !line->value) continue;
         const TargetUncertainty* target = target_uncertainty_of(certificate.run, figure.key);
-        const auto target_um = target ? std::optional{target->limit.in(um)} : std::nullopt;
+        const auto target_um =
+            target ? std::optional{in_budget_units(certificate.run, target->limit)} : std::nullopt;
         const bool same = !groups.empty() && groups.back().figure->u == figure.u &&
                           groups.back().figure->formula == figure.formula &&
                           groups.back().target_um == target_um;
@@ -134,11 +158,11 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
         groups, [](const ParameterGroup& group) { return group.target_um.has_value(); });
     std::vector<TableColumn> columns{
         {"Parameter", "", Align::left},
-        {"u by formula", "µm"},
-        {"u simulated", "µm"},
-        {"U = " + fixed(certificate.uncertainty.budget->coverage, 0) + " u", "µm"}};
+        {"u by formula", unit_of(certificate)},
+        {"u simulated", unit_of(certificate)},
+        {"U = " + fixed(certificate.uncertainty.budget->coverage, 0) + " u", unit_of(certificate)}};
     if (targets) {
-        columns.push_back({"U_T", "µm"});
+        columns.push_back({"U_T", unit_of(certificate)});
         columns.push_back({"U ≤ U_T", "", Align::left});
     }
     columns.push_back({"Combined as", "", Align::left, true});
@@ -170,7 +194,7 @@ void draw_legend(Sheet& sheet, const Certificate& certificate) {
         words +=
             " u(R) of the source counts the repeatability of both directions as common; strict "
             "propagation would give " +
-            of_u(*both->strict_u) + " µm.";
+            of_u(*both->strict_u) + " " + unit_of(certificate) + ".";
     sheet.text(words, note);
 }
 
@@ -206,9 +230,12 @@ void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
         sheet.text("Not evaluated: the budget lacks " + missing + ".", {7.5});
         return;
     }
-    sheet.text("Budget of ISO 230-2, annex A, over the span of the targets L = " +
-                   fixed(known.statement.length_m.value_or(0) * 1e3, 3) +
-                   " mm; n = " + std::to_string(known.budget->approaches) +
+    const std::string source =
+        certificate.run.rotary ? std::string{"annex B"}
+                               : "annex A, over the span of the targets L = " +
+                                     fixed(known.statement.length_m.value_or(0) * 1e3, 3) + " mm";
+    sheet.text("Budget of ISO 230-2, " + source +
+                   "; n = " + std::to_string(known.budget->approaches) +
                    ", m = " + std::to_string(certificate.deviations.targets().size()) +
                    " targets; u_EVE counts in a mean of n readings by the model \"" +
                    std::string{name_of(known.budget->eve_model)} + "\".",

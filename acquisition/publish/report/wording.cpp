@@ -157,6 +157,28 @@ ChannelPaper paper_of(ChannelKind kind, Medium medium) {
     return {};
 }
 
+std::string synchronisation_words(const Certificate& certificate) {
+    const SynchronisationSummary over =
+        summarize_synchronisation(certificate.run, certificate.attachments.synchronisation);
+    if (!over.largest)
+        return "Synchronisation error: not stated; no uncertainty of the samples' time is known.";
+    const Synchronisation& most = *over.largest->stated;
+    const std::string where =
+        over.largest->step < 0 ? "the datum" : "point " + std::to_string(over.largest->step + 1);
+    constexpr double least_um = 1e-4; // what four decimals can show
+    const std::string amount =
+        most.error_um < least_um ? "less than 0.0001" : "at most " + fixed_up(most.error_um, 4);
+    const std::string unit = certificate.run.rotary ? " µm of the interferometer's reading" : " µm";
+    std::string words = "Synchronisation error: " + amount + unit + " (at " + where +
+                        "), the speed of the axis in the window of the "
+                        "capture times the standard uncertainty u(t) of its samples' time, there " +
+                        fixed_up(seconds_of(most.time_uncertainty) * 1e6, 1) + " µs.";
+    if (over.stated < over.captures)
+        words += " Not stated for " + std::to_string(over.captures - over.stated) + " of " +
+                 std::to_string(over.captures) + " captures.";
+    return words;
+}
+
 std::string air_formula_words(const std::string& name) {
     if (name == "ciddor") return "Ciddor (1996)";
     if (name == "edlen") return "Edlén, modified by Birch and Downs (1994)";

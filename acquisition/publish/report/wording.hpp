@@ -57,6 +57,10 @@ struct ChannelPaper {
 };
 ChannelPaper paper_of(ChannelKind kind, Medium medium);
 
+/// What the uncertain time of the samples adds at most, in one or two sentences; "not stated" where
+/// nothing tells.
+std::string synchronisation_words(const Certificate& certificate);
+
 std::string air_formula_words(const std::string& name);
 std::string expansion_form_words(const std::string& name);
 

@@ -4,6 +4,7 @@
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 #include "acquisition/publish/publisher_report.hpp"
+#include "acquisition/publish/second_hand.hpp"
 #include "acquisition/publish/smb/smb_destination.hpp"
 #include "config/station_config.hpp"
 
@@ -172,7 +173,14 @@ int serve(const Options& options) {
     const PublisherClock clock{[] { return monotonic_from_ns(clock_ns(CLOCK_MONOTONIC)); },
                                [] { return clock_ns(CLOCK_REALTIME); }};
     Speaker speaker{options.json_lines, options.outbox, (*destination)->place()};
-    Publisher publisher{{options.outbox, options.publish.retry}, clock, **destination, speaker};
+    SecondHand second{options.outbox, clock.utc_ns,
+                      [&] { return make_destination(options.publish); }, speaker};
+    const auto begin_second = [&](const std::vector<std::string>& run_ids) {
+        speaker.be("publishing", ""); // before the fork: the report has one writer
+        return second.begin(run_ids);
+    };
+    Publisher publisher{
+        {options.outbox, options.publish.retry, begin_second}, clock, **destination, speaker};
     spdlog::info("publishing {} to {}", options.outbox, (*destination)->place());
     ::sd_notify(0, "READY=1");
     const std::size_t waiting = watch_outbox(publisher, speaker, options.once);

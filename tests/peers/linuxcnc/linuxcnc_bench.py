@@ -38,7 +38,7 @@ class Bench:
     def __init__(self, source, build, shape):
         self.source, self.shape = source, shape
         self.scenario = source / "tests/peers/linuxcnc/quiet-axis.toml"
-        self.more_of_station = ""  # tables below those of the demo's station file
+        self.station = source / "tools/demo.d/station.toml.in"
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="axiscal-peer-"))
         self.scratch.chmod(0o711)  # LinuxCNC's real-time part is another user
         self.port = free_port()
@@ -84,12 +84,12 @@ class Bench:
         return file.exists() and words in file.read_text(errors="replace")
 
     def write_station(self):
-        text = (self.source / "tools/demo.d/station.toml.in").read_text()
+        text = self.station.read_text()
         for key, value in {"SCRATCH": self.scratch, "SHARE": self.scratch / "share",
                            "SHAPE": self.shape, "PORT": self.port}.items():
             text = text.replace(f"@{key}@", str(value))
         station = self.scratch / "station.toml"
-        station.write_text(text + self.more_of_station)
+        station.write_text(text)
         return station
 
     def start_station(self, station):

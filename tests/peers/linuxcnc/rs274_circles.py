@@ -26,6 +26,7 @@ CASES = {
         "centre": [10, 20, 30], "shape": "coil-and-index", "feed": 1234.5},
     "one sense of an arc": {"start": -20, "arc": 220, "overshoot": 10, "repeats": 2,
                             "senses": ["ccw"], "feed_in": 0.8},
+    "words at both ends of the arc": {"start_from": "trigger", "repeats": 2},
     "one sense of a circle": {"senses": ["cw"], "repeats": 2, "overshoot": 45, "centre": [5, 0, 0]},
 }
 

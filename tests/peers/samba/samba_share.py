@@ -275,6 +275,22 @@ def no_encryption():
         expect("SMB3_11" in session and "AES-" in session.split("SMB3_11")[1], f"the session is not signed: {session}")
 
 
+@sentence("ASecondHandThatIsKilledLeavesItsResultsToTheFirst")
+def second_hand_killed():
+    with Site(PROGRAM) as site:
+        site.samba.start()
+        for number in range(400):
+            site.stage(f"run-{number:03}")
+        site.publish()
+        publisher = site.publisher.process.pid
+        children = Path(f"/proc/{publisher}/task/{publisher}/children")
+        hand = int(wait_until("a second hand helps", lambda: children.read_text().split())[0])
+        os.kill(hand, signal.SIGKILL)
+        expect(site.waiting(), "all was published before the second hand was killed")
+        site.expect_all_published()
+        expect(not site.publisher.reasons(), f"{site.publisher.reasons()}")
+
+
 @sentence("ManyResultsInOneGo")
 def many():
     count = int(os.environ.get("AXISCAL_SAMBA_RESULTS", "1000"))
@@ -286,7 +302,7 @@ def many():
         site.expect_all_published()
         expect(len(site.publisher.published(count)) == count, "each was told once")
         expect(not site.publisher.reasons(), f"{site.publisher.reasons()}")
-        expect(site.samba.sessions_begun() == 1, f"{site.samba.sessions_begun()} sessions for one queue")
+        expect(site.samba.sessions_begun() == 2, f"{site.samba.sessions_begun()} sessions for two hands")
         print(f"{count} results of 20 KB published, each read back and equal")
 
 

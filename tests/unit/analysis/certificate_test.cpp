@@ -205,6 +205,36 @@ TEST(Certificate, PrintsEachOverrideAndEachWarningOfThePreFlightChecks) {
     EXPECT_FALSE(holds(remarks, "Calm"));
 }
 
+/// The air of the simulated run has 22 degC throughout.
+TEST(MakeCertificate, NamesReadingsBeyondTheTableOfAChannelAndADateThatIsPast) {
+    RunRecord run = simulated_run({});
+    run.opened.utc_ns = 1'767'225'600'000'000'000; // 2026-01-01
+    ChannelCalibration own;
+    own.channel = 1, own.corrections = {{15, 0.1}, {25, 0.1}}, own.due_on = "2026-01-01";
+    run.calibrations = {own};
+    const auto unnamed = make_certificate(run, "");
+    EXPECT_FALSE(holds(unnamed->remarks, "table of its certificate"));
+    EXPECT_FALSE(holds(unnamed->remarks, "was due on"));
+    EXPECT_TRUE(unnamed->environment.at(0).by_table);
+    EXPECT_FALSE(unnamed->environment.at(1).by_table);
+    run.calibrations[0].corrections = {{15, 0.1}, {21.5, 0.1}}; // as recorded, 21.6 is its end
+    run.calibrations[0].due_on = "2025-12-31";
+    const auto remarks = make_certificate(run, "")->remarks;
+    EXPECT_TRUE(holds(remarks, "readings lie beyond the table of its certificate"));
+    EXPECT_TRUE(holds(remarks, "its certificate was due on 2025-12-31"));
+}
+
+/// Recorded values bear their correction: a table in the run file changes no figure.
+TEST(MakeCertificate, AppliesNoTableASecondTime) {
+    RunRecord run = simulated_run({});
+    const auto before = canonical_bytes(make_certificate(run, "")->result);
+    for (int channel = 1; channel <= 5; ++channel) {
+        run.calibrations.emplace_back().channel = channel;
+        run.calibrations.back().corrections = {{0, 0.5}, {200'000, 0.7}};
+    }
+    EXPECT_EQ(canonical_bytes(make_certificate(run, "")->result), before);
+}
+
 // ---- canonical bytes ------------------------------------------------------------------------
 
 TEST(CanonicalBytes, StandInTheDocumentedOrder) {

@@ -99,13 +99,86 @@ TEST(CircleCut, BrakingAtBothEndsDoesNotTurnTheCircleAndIsTold) {
     expect_truth(bar, *circles);
 }
 
+/// Requests as the station keeps them, three a circle; the words reach it `late` after the machine
+/// did what they say.
+std::vector<EventRecord> requests_of(const DrivenBar& bar, Duration late) {
+    std::vector<EventRecord> events;
+    const auto note = [&](MonotonicTime at) {
+        const auto sequence = static_cast<std::uint16_t>(events.size() + 1);
+        events.push_back({EventKind::note, at, 0, "", Fault::none, sequence});
+    };
+    for (std::size_t i = 0; i < bar.arcs.size(); ++i) {
+        note(bar.begun[i].second);
+        note(bar.arcs[i][0] + late);
+        note(bar.arcs[i][1] + late);
+    }
+    note(bar.begun.back().second);
+    return events;
+}
+
+TEST(CircleCut, ByTheControllersWordsTheInjectedErrorsComeBack) {
+    DrivenBar bar = usual_bar();
+    bar.setup.plan.start = StartMethod::trigger;
+    bar.setup.plan.trigger_delay_s = 0.008;
+    bar.range_mm = 0.2; // neither rest nor feed-in is seen
+    bar.acceleration = 1000;
+    const StreamSamples stream = bar.drive();
+    const auto events = requests_of(bar, std::chrono::milliseconds{8});
+    const auto marks = circle_marks(bar.setup.plan, events);
+    ASSERT_EQ(marks.size(), 3U);
+    EXPECT_EQ(marks.back().number, 3);
+    const auto circles = cut_circles(bar.setup, stream, marks);
+    ASSERT_TRUE(circles) << circles.error().detail;
+    const double v = bar.setup.plan.feed_mm_per_s;
+    for (const auto& circle : *circles) {
+        EXPECT_EQ(circle.start, StartMethod::trigger);
+        EXPECT_NEAR(circle.residual_mm, v * v / 1000, 1e-3); // started and braked once
+    }
+    expect_truth(bar, *circles);
+}
+
+TEST(CircleCut, AWordThatNeverCameIsNamed) {
+    DrivenBar bar = usual_bar();
+    bar.setup.plan.start = StartMethod::trigger;
+    const StreamSamples stream = bar.drive();
+    auto events = requests_of(bar, Duration{});
+    events.erase(events.begin() + 2); // the end of the first arc
+    const auto circles = cut_circles(bar.setup, stream, circle_marks(bar.setup.plan, events));
+    ASSERT_FALSE(circles);
+    EXPECT_NE(circles.error().detail.find("no word at the end of the arc of circle 1 (ccw)"),
+              std::string::npos);
+}
+
+/// r(t) of a circle about (a, 0) is a cos(v t / R): it moves with a v / R at most.
+TEST(CircleCut, TheSynchronisationErrorIsTheSpeedOfTheRadiusTimesTheUncertainTime) {
+    DrivenBar bar = usual_bar();
+    bar.truth = {{"off_x_ccw", 0.010}, {"off_x_cw", 0.020}};
+    StreamSamples stream = bar.drive();
+    EXPECT_FALSE((*cut_circles(bar.setup, stream, marks_of(bar)))[0].synchronisation);
+    stream.times = {{0, std::chrono::microseconds{15}}};
+    const auto circles = cut_circles(bar.setup, stream, marks_of(bar));
+    ASSERT_TRUE(circles) << circles.error().detail;
+    const double turns_rad_per_s = bar.setup.plan.feed_mm_per_s / 100;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto& stated = (*circles)[i].synchronisation;
+        ASSERT_TRUE(stated);
+        const double most_um = (i == 0 ? 10 : 20) * turns_rad_per_s * 15e-6;
+        EXPECT_NEAR(stated->error_um, most_um, 1e-3 * most_um);
+        EXPECT_EQ(stated->time_uncertainty, std::chrono::microseconds{15});
+    }
+    stream.times.push_back({stream.at.size() - stream.at.size() / 4, Duration{}});
+    const auto partly = cut_circles(bar.setup, stream, marks_of(bar));
+    EXPECT_TRUE((*partly)[0].synchronisation);
+    EXPECT_FALSE((*partly)[1].synchronisation) << "some of its samples state no time";
+}
+
 TEST(CircleCut, ACircleThatWasBegunAgainIsTheLaterOne) {
     const std::vector<EventRecord> events{
         {EventKind::note, monotonic_from_ns(1), 0, "", Fault::none, 1},
         {EventKind::interrupted, monotonic_from_ns(2), 0, "", Fault::none, 0},
         {EventKind::note, monotonic_from_ns(3), 0, "", Fault::none, 1},
         {EventKind::note, monotonic_from_ns(4), 0, "", Fault::none, 2}};
-    const auto marks = circle_marks(events);
+    const auto marks = circle_marks(CircularPlan{}, events);
     ASSERT_EQ(marks.size(), 2U);
     EXPECT_EQ(marks[0].at, monotonic_from_ns(3));
 }

@@ -7,6 +7,7 @@
 #include "synthetic_circle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 namespace axiscal::test {
@@ -34,6 +35,7 @@ public:
     /// Ends of the bar's range about R; outside there are no samples.
     double range_mm = 10;
     std::vector<std::pair<int, MonotonicTime>> begun; ///< number of each circle, 0 at the end
+    std::vector<std::array<MonotonicTime, 2>> arcs;   ///< begin and end of each circle's arc
 
     /// Drives every circle of the plan.
     StreamSamples drive() {
@@ -98,6 +100,7 @@ private:
         during(radial.duration_s(), [&](double t) {
             return outside() * (1 - radial.way(t) / plan.feed_in_mm) + form(from, sense);
         });
+        arcs.push_back({at(now_s_), at(now_s_ + arc.duration_s())});
         during(arc.duration_s(), [&](double t) {
             return form(from + (to - from) * arc.way(t) / arc.length_mm, sense);
         });

@@ -57,6 +57,7 @@ public:
     SampleHistory history;
     double noise_um = 0.05, wobble_um = 0, sign = 1, drift_um_per_s = 0, offset_mm = 0;
     std::uint32_t epoch = 1;
+    Duration time_uncertainty{}; ///< u(t) of each sample; 0: not stated
 
 private:
     void tick() {
@@ -76,9 +77,11 @@ private:
             const double ripple =
                 moving && i < steps ? wobble_um * std::sin(2 * std::numbers::pi * 37 * now_s_) : 0;
             const double um_seen = noise(random_) + ripple + drift_um_per_s * now_s_;
-            history.push(Sample{0, at_s(now_s_),
-                                sign * ((position_mm_ - offset_mm) * 1e-3 + um_seen * 1e-6), count_,
-                                epoch});
+            Sample sample{0, at_s(now_s_),
+                          sign * ((position_mm_ - offset_mm) * 1e-3 + um_seen * 1e-6), count_,
+                          epoch};
+            sample.time_uncertainty = time_uncertainty;
+            history.push(sample);
         }
         return *this;
     }

@@ -40,6 +40,59 @@ TEST(Capture, KeepsWhatTheWindowHeld) {
     EXPECT_NEAR(capture->approach_travel->in(mm), 30.0, 0.01);
 }
 
+// 0.8 um/s, known within 40 us: 0.8 * 40e-6 um.
+TEST(Capture, StatesWhatTheUncertainTimeOfItsSamplesAddsByTheSpeedOfTheAxis) {
+    for (const double drift_um_per_s : {0.8, -0.8}) {
+        AxisSignal signal;
+        signal.noise_um = 1e-9;
+        signal.drift_um_per_s = drift_um_per_s;
+        signal.time_uncertainty = std::chrono::microseconds{40};
+        signal.stand(1).move_to(30);
+        const auto capture = capture_here(signal, Direction::positive, at_s(10.5));
+        ASSERT_TRUE(capture) << capture.error().detail;
+        ASSERT_TRUE(capture->synchronisation);
+        EXPECT_EQ(capture->synchronisation->time_uncertainty, std::chrono::microseconds{40});
+        EXPECT_NEAR(capture->synchronisation->error_um, 32e-6, 1e-9);
+    }
+}
+
+TEST(Capture, TakesTheWorstTimeOfItsWindow) {
+    AxisSignal signal;
+    signal.noise_um = 1e-9;
+    signal.drift_um_per_s = 0.5;
+    signal.time_uncertainty = std::chrono::microseconds{20};
+    signal.stand(1).move_to(30);
+    const auto since = signal.now();
+    signal.stand(0.25);
+    signal.time_uncertainty = std::chrono::microseconds{300}; // the clock was fitted anew
+    signal.stand(0.01);
+    signal.time_uncertainty = std::chrono::microseconds{20};
+    signal.stand(0.5);
+    const auto search = find_still_window(signal.history, since, signal.now(), quiet_config());
+    ASSERT_TRUE(search.window);
+    const auto capture = make_capture(signal.history, *search.window, {}, quiet_config());
+    ASSERT_TRUE(capture && capture->synchronisation);
+    EXPECT_NEAR(capture->synchronisation->error_um, 0.5 * 300e-6, 1e-9);
+}
+
+TEST(Capture, StatesNoSynchronisationWhereOneSampleDoesNotKnowItsTime) {
+    AxisSignal signal;
+    signal.drift_um_per_s = 0.5;
+    signal.time_uncertainty = std::chrono::microseconds{20};
+    signal.stand(1).move_to(30);
+    const auto since = signal.now();
+    signal.stand(0.25);
+    signal.time_uncertainty = Duration{};
+    signal.stand(0.002);
+    signal.time_uncertainty = std::chrono::microseconds{20};
+    signal.stand(0.5);
+    const auto search = find_still_window(signal.history, since, signal.now(), quiet_config());
+    ASSERT_TRUE(search.window);
+    const auto capture = make_capture(signal.history, *search.window, {}, quiet_config());
+    ASSERT_TRUE(capture);
+    EXPECT_FALSE(capture->synchronisation) << "not stated, never 0";
+}
+
 TEST(Approach, SeesBothSidesWithBothSigns) {
     for (const int sign : {1, -1})
         for (const auto direction : {Direction::positive, Direction::negative}) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace axiscal {
@@ -54,6 +55,23 @@ TEST(StreamChunker, ALostNumberEndsAChunkAndIsCounted) {
     EXPECT_EQ(chunks[1].head.first_count, 7U);
     EXPECT_EQ(chunker.gaps(), 1U);
     EXPECT_EQ(chunker.missing(), 4U);
+}
+
+TEST(StreamChunker, AChunkBearsTheLargestUncertaintyOfItsTimes) {
+    const auto uncertain = [](std::uint64_t ms, int microseconds) {
+        Sample one = sample(ms);
+        one.time_uncertainty = std::chrono::microseconds{microseconds};
+        return one;
+    };
+    StreamChunker chunker{0};
+    const auto chunks = chunks_of(chunker, {uncertain(1, 5), uncertain(2, 9), uncertain(3, 7)});
+    ASSERT_EQ(chunks.size(), 1U);
+    EXPECT_EQ(chunks[0].head.time_uncertainty, std::chrono::microseconds{9});
+    StreamChunker partly{0};
+    EXPECT_EQ(
+        chunks_of(partly, {uncertain(1, 5), sample(2), uncertain(3, 7)})[0].head.time_uncertainty,
+        Duration{})
+        << "not stated, never the smaller one";
 }
 
 TEST(StreamChunker, BehindAnInterruptedRecordTheHoleIsNamedAndCounted) {
@@ -138,6 +156,23 @@ TEST(MinMaxPyramid, ShowsEveryPeakHoweverLongTheStream) {
     EXPECT_EQ(pyramid.samples(), all.size());
     EXPECT_EQ(pyramid.view(1).size(), 1U);
     EXPECT_EQ(pyramid.view(1)[0].high, 9);
+}
+
+TEST(MinMaxPyramid, ShowsTheSameHoweverTheStreamWasCut) {
+    std::mt19937_64 random{6};
+    std::normal_distribution<double> value{0, 1};
+    std::vector<double> all(20'011);
+    std::ranges::generate(all, [&] { return value(random); });
+    MinMaxPyramid one_by_one{64}, in_pieces{64};
+    for (const double each : all)
+        one_by_one.push(each);
+    for (std::span<const double> rest = all; !rest.empty();) {
+        const auto piece = rest.first(std::min<std::size_t>(rest.size(), random() % 1000));
+        in_pieces.push(piece);
+        rest = rest.subspan(piece.size());
+    }
+    EXPECT_EQ(in_pieces.view(64), one_by_one.view(64));
+    EXPECT_EQ(in_pieces.samples(), all.size());
 }
 
 TEST(MinMaxPyramid, AShortStreamIsShownSampleBySample) {

@@ -90,6 +90,62 @@ TEST(CircularConfig, EveryKeyArrivesInItsUnit) {
     EXPECT_NEAR(setup.plan.centre_mm[2], -3, 1e-12);
 }
 
+TEST(CircularConfig, TheStartMayComeFromTheTriggerWhereItsNumberIsTheWord) {
+    const Reading reading =
+        read_with(sensor, radius + feed + "start_from = \"trigger\"\ntrigger_delay = \"8 ms\"\n");
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.circular);
+    EXPECT_EQ(reading.config.circular->setup.plan.start, StartMethod::trigger);
+    EXPECT_NEAR(reading.config.circular->setup.plan.trigger_delay_s, 0.008, 1e-12);
+    EXPECT_EQ(read_with(sensor, radius + feed).config.circular->setup.plan.start,
+              StartMethod::feed_step);
+}
+
+/// A station file without [axis], [cycle] and [capture].
+Reading read_alone(const std::string& circle) {
+    const std::string text = "[station]\nname = \"circles\"\n"
+                             "[ballbar]\nsensor = \"bar/axis 1\"\n"
+                             "[circular]\n" +
+                             circle +
+                             "[trigger]\nshape = \"single-register\"\ntransport = \"tcp\"\n"
+                             "host = \"127.0.0.1\"\nport = 1502\n"
+                             "[certificate]\nmachine = \"M\"\n"
+                             "[[instrument]]\nname = \"bar\"\ndriver = \"made\"\n"
+                             "[[instrument]]\nname = \"material\"\ndriver = \"made\"\n";
+    auto document = SettingsDocument::parse(text, "station.toml");
+    EXPECT_TRUE(document) << (document ? "" : document.error().detail);
+    Reading reading;
+    if (!document) return reading;
+    reading.config = read_station(*document);
+    for (Settings& options : reading.config.instrument_options)
+        options.accept_rest();
+    for (const Refusal& refusal : document->finish())
+        reading.told += refusal.describe() + "\n";
+    return reading;
+}
+
+TEST(CircularConfig, AStationMayHaveABallbarAndNoLaser) {
+    const Reading bare = read_alone(radius + feed);
+    EXPECT_EQ(bare.told, "");
+    EXPECT_TRUE(bare.config.circles_alone());
+    EXPECT_EQ(bare.config.axis.name, "XY");
+    EXPECT_FALSE(bare.config.circular->setup.machine_alpha_per_K);
+    const Reading warm = read_alone(radius + feed +
+                                    "plane = \"YZ\"\nmachine_expansion = \"11.5 um/(m*K)\"\n"
+                                    "machine_temperature = [\"material/contact 1\"]\n");
+    EXPECT_EQ(warm.told, "");
+    EXPECT_EQ(warm.config.axis.name, "YZ");
+    EXPECT_NEAR(*warm.config.circular->setup.machine_alpha_per_K, 11.5e-6, 1e-18);
+    ASSERT_EQ(warm.config.axis.material_temperature.size(), 1U);
+    EXPECT_EQ(warm.config.axis.material_temperature[0].channel, "contact 1");
+    EXPECT_FALSE(read_with(sensor, radius + feed).config.circles_alone());
+    const Reading doubled =
+        read_with(sensor, radius + feed + "machine_expansion = \"1 um/(m*K)\"\n");
+    EXPECT_NE(doubled.told.find("machine_expansion: belongs to a station without [axis]"),
+              std::string::npos)
+        << doubled.told;
+}
+
 TEST(CircularConfig, WhatIsMissingOrDoubledIsTold) {
     EXPECT_NE(read_with("", radius + feed).told.find("[ballbar] sensor"), std::string::npos);
     EXPECT_NE(read_with(sensor, radius).told.find("the angle is counted by it"), std::string::npos);

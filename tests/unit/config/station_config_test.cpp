@@ -108,6 +108,64 @@ TEST(StationExample, MeansWhatItsWordsSay) {
     EXPECT_EQ(config.instruments[2].channels[0].medium, Medium::material);
 }
 
+TEST(StationExample, HoldsTheCertificatesOfItsChannels) {
+    const StationConfig config = read_text(example_text()).config;
+    const ChannelCalibration& air = config.instruments[1].channels[0].calibration;
+    EXPECT_EQ(air.expanded_uncertainty, 0.1);
+    EXPECT_EQ(air.coverage, 2);
+    EXPECT_TRUE(air.corrections.empty());
+    const ChannelConfig& screw = config.instruments[2].channels[0];
+    ASSERT_EQ(screw.calibration.corrections.size(), 2U);
+    EXPECT_DOUBLE_EQ(screw.calibration.corrections[1].reading, 25);
+    EXPECT_DOUBLE_EQ(screw.calibration.corrections[1].correction, 0.04);
+    EXPECT_EQ(screw.table_unit, "degC");
+    EXPECT_EQ(screw.uncertainty_unit, "degC");
+}
+
+TEST(StationConfig, RefusesATableOfCorrectionsThatIsNone) {
+    const std::string line = "reading = \"25 degC\"\n";
+    expect_refused_once(read_changed(line, "reading = \"10 degC\"\n"),
+                        "must be above that of the line before");
+    expect_refused_once(read_changed(line, "reading = \"1013 hPa\"\n"),
+                        "has a unit that does not belong to the reading's");
+    expect_refused_once(read_changed("correction = \"0.04 K\"\n", "correction = \"-12 K\"\n"),
+                        "makes a higher reading the lower value");
+    const Reading none = read_changed("uncertainty = \"0.06 K\"\n", "uncertainty = \"0 K\"\n");
+    expect_refused_once(none, "is 0: state the certificate's");
+    EXPECT_TRUE(std::regex_search(none.told, std::regex{"^station\\.toml:[0-9]+: "})) << none.told;
+    expect_refused_once(read_changed("uncertainty = \"0.06 K\"\n", "k = 3\n"),
+                        "belongs to uncertainty");
+    const std::string place = "place = \"nut side, left end\"\n";
+    expect_refused_once(read_changed(place, place + "correction = \"0.05 K\"\n"),
+                        "stands beside a table of corrections");
+    expect_refused_once(read_changed(place, place + "calibrated_on = \"2026-01-02\"\n"
+                                                    "due_on = \"2026-01-01\"\n"),
+                        "is before calibrated_on");
+}
+
+TEST(StationConfig, ReadsATableOfLengths) {
+    std::string text = example_text();
+    for (const auto& [from, to] : {std::pair{"\"15 degC\"", "\"-0.5 mm\""},
+                                   {"\"0.06 K\"\n\n[[", "\"-0.8 um\"\n\n[["},
+                                   {"\"25 degC\"", "\"500 um\""},
+                                   {"\"0.04 K\"", "\"250 nm\""}}) {
+        const auto at = text.find(from, text.find("[[instrument.channel.correction_at]]"));
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, std::string{from}.size(), to);
+    }
+    const Reading reading = read_text(text);
+    EXPECT_EQ(reading.told, "");
+    const ChannelConfig& channel = reading.config.instruments[2].channels[0];
+    EXPECT_EQ(channel.table_unit, "m");
+    ASSERT_EQ(channel.calibration.corrections.size(), 2U);
+    EXPECT_DOUBLE_EQ(channel.calibration.corrections[0].reading, -0.5e-3);
+    EXPECT_DOUBLE_EQ(channel.calibration.corrections[0].correction, -0.8e-6);
+    EXPECT_DOUBLE_EQ(channel.calibration.corrections[1].reading, 0.5e-3);
+    EXPECT_DOUBLE_EQ(channel.calibration.corrections[1].correction, 0.25e-6);
+    expect_refused_once(read_changed("correction = \"0.02 K\"", "correction = \"1.5 mm\""),
+                        "is more than 1 mm");
+}
+
 TEST(CertificateDates, NameWhatHasExpiredWithItsLine) {
     const StationConfig config = read_text(example_text()).config;
     EXPECT_TRUE(expired_certificates(config, "2027-01-20").empty()); // the day itself is good
@@ -116,6 +174,12 @@ TEST(CertificateDates, NameWhatHasExpiredWithItsLine) {
     EXPECT_NE(notes[0].reason.find("\"material\" was due on 2027-01-20"), std::string::npos);
     EXPECT_EQ(notes[0].line, config.instruments[2].line);
     EXPECT_EQ(expired_certificates(config, "2028-01-01").size(), 3U);
+    const std::string place = "place = \"nut side, left end\"\n";
+    const StationConfig own = read_changed(place, place + "due_on = \"2026-12-31\"\n").config;
+    EXPECT_TRUE(expired_certificates(own, "2026-12-31").empty());
+    const auto of_channel = expired_certificates(own, "2027-01-20");
+    ASSERT_EQ(of_channel.size(), 1U);
+    EXPECT_NE(of_channel[0].reason.find("material/contact 1"), std::string::npos);
 }
 
 /// "table.key" for every assignment in the file, also in a comment ("# key = ...").
@@ -373,8 +437,16 @@ std::string rotary_text() {
         {"fastest = \"30 m/min\"", "fastest = \"90 deg/s\""}};
     for (const auto& [from, to] : changes)
         text.replace(text.find(from), from.size(), to);
-    const auto begin = text.find("[uncertainty]"), end = text.find("[certificate]");
-    return text.erase(begin, end - begin); // its terms are those of a length
+    const auto erase = [&text](const std::string& from, const std::string& to) {
+        const auto begin = text.find(from);
+        text.erase(begin, text.find(to, begin) - begin);
+    };
+    erase("dead_path = ", "\n");                      // an angle has none
+    erase("coefficient = \"11.5", "temperature = ["); // nor does it expand
+    erase("[uncertainty]", "[certificate]");          // whose terms are those of a length
+    const std::string cycle = "\n[cycle]\n";
+    return text.insert(text.find(cycle), "\n[axis.angle]\nmethod = \"indexing-table\"\n"
+                                         "step = \"1 deg\"\narm = \"32.61 mm\"\n");
 }
 
 TEST(StationConfig, ReadsARotaryAxisInDegrees) {
@@ -390,7 +462,126 @@ TEST(StationConfig, ReadsARotaryAxisInDegrees) {
 
 TEST(StationConfig, RefusesTheBudgetOfALengthOnARotaryAxis) {
     expect_refused_once(read_text(rotary_text() + "\n[uncertainty]\neve = \"1 um\"\n"),
-                        "uncertainty: holds the budget of a linear axis");
+                        "\"um\" is no unit of an angle");
+    expect_refused_once(read_text(rotary_text() + "\n[uncertainty]\nmisalignment = \"1 mm\"\n"),
+                        "uncertainty.misalignment: is not a key of this table");
+}
+
+TEST(StationConfig, ReadsTheBudgetOfAnnexBInSecondsOfArc) {
+    const Reading reading = read_text(rotary_text() + "\n[uncertainty]\ndevice = \"1.2 arcsec\"\n"
+                                                      "eve = \"0.5 arcsec\"\n"
+                                                      "[uncertainty.target]\nE = \"2 arcsec\"\n");
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.uncertainty);
+    const UncertaintySetup& stated = *reading.config.uncertainty;
+    EXPECT_NEAR(stated.device_U.fixed->in(mm)*3600, 1.2, 1e-12);
+    EXPECT_NEAR(stated.eve->in(mm)*3600, 0.5, 1e-12);
+    ASSERT_EQ(stated.targets.size(), 1U);
+    EXPECT_NEAR(stated.targets[0].limit.in(mm)*3600, 2, 1e-12);
+}
+
+/// The rotary example with other lines in [axis.angle].
+Reading read_angle_table(const std::string& lines, bool laser = true) {
+    std::string text = rotary_text();
+    const std::string head = "\n[axis.angle]\n";
+    const auto begin = text.find(head) + head.size();
+    text.replace(begin, text.find("\n[cycle]\n") - begin, lines);
+    const std::string key = "laser = \"laser/axis 1\"\n";
+    if (!laser) {
+        text.erase(text.find(key), key.size());
+        const auto air = text.find("\n[axis.air]\n");
+        text.erase(air, text.find("\n[axis.angle]\n", air) - air);
+    }
+    return read_text(text);
+}
+
+TEST(StationAngle, TheExampleIsReadAndExplainsEveryKeyOfTheAngle) {
+    std::ifstream file{test::source_dir() + "/config/rotary.example.toml"};
+    std::ostringstream text;
+    text << file.rdbuf();
+    const Reading reading = read_text(text.str());
+    EXPECT_EQ(reading.told, "");
+    EXPECT_TRUE(reading.config.warnings.empty());
+    EXPECT_EQ(reading.config.axis.angle->setup.run_out, "8 um at a radius of 100 mm");
+    const auto explained = explained_keys(text.str());
+    int keys = 0;
+    for (const std::string& key : reading.asked)
+        if (key.starts_with("axis.angle.")) {
+            ++keys;
+            EXPECT_TRUE(explained.contains(key)) << key;
+        }
+    EXPECT_GE(keys, 13);
+    for (const std::string& key : explained)
+        if (key.starts_with("axis.angle.")) {
+            EXPECT_NE(std::ranges::find(reading.asked, key), reading.asked.end()) << key;
+        }
+}
+
+TEST(StationAngle, ReadsAnIndexingTableWithItsPapers) {
+    std::string list;
+    for (int i = 0; i < 36; ++i)
+        list += (i ? ", " : "") + std::string{"\"0."} + std::to_string(i % 10) + " arcsec\"";
+    const Reading reading = read_angle_table(
+        "method = \"indexing-table\"\nstep = \"10 deg\"\narm = \"32.61 mm\"\nrange = \"15 deg\"\n"
+        "turn_time = \"6 s\"\nby_hand = true\nserial = \"T-7\"\n"
+        "certificate_number = \"W-12\"\ndue_on = \"2027-01-31\"\n"
+        "certificate_sense = \"against_axis\"\ndeviations = [" +
+        list + "]\n");
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.axis.angle);
+    const auto& [setup, artefact] = *reading.config.axis.angle;
+    EXPECT_EQ(setup.method, AngleMethod::indexing_table);
+    EXPECT_DOUBLE_EQ(setup.step_deg, 10);
+    EXPECT_DOUBLE_EQ(setup.arm.in(mm), 32.61);
+    EXPECT_DOUBLE_EQ(setup.range_deg, 15);
+    EXPECT_TRUE(setup.by_hand);
+    EXPECT_FALSE(setup.certificate_with_axis);
+    ASSERT_EQ(setup.deviations_arcsec.size(), 36U);
+    EXPECT_NEAR(setup.deviations_arcsec[7], 0.7, 1e-12);
+    EXPECT_EQ(artefact.name, "indexing table");
+    EXPECT_EQ(artefact.certificate_number, "W-12");
+    EXPECT_EQ(setup.run_out, "");
+}
+
+TEST(StationAngle, ReadsAPolygonWithoutALaser) {
+    const Reading reading =
+        read_angle_table("method = \"polygon\"\nfaces = 12\nrange = \"400 arcsec\"\n", false);
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.axis.angle);
+    EXPECT_EQ(reading.config.axis.angle->setup.method, AngleMethod::polygon);
+    EXPECT_DOUBLE_EQ(reading.config.axis.angle->setup.step_deg, 30);
+}
+
+TEST(StationAngle, TakesTheRunOutFromWhatPeopleState) {
+    const Reading reading = read_text(std::regex_replace(
+        rotary_text(), std::regex{"\\[certificate\\]\n"}, "[certificate]\nrun_out = \"8 um\"\n"));
+    EXPECT_EQ(reading.told, "");
+    EXPECT_EQ(reading.config.axis.angle->setup.run_out, "8 um");
+    expect_refused_once(read_changed("\n[certificate]\n", "\n[certificate]\nrun_out = \"8 um\"\n"),
+                        "certificate.run_out: is not a key"); // of a linear axis
+}
+
+TEST(StationAngle, RefusesWhatCannotBe) {
+    const std::string table = "method = \"indexing-table\"\narm = \"32.61 mm\"\n";
+    expect_refused_once(read_angle_table(table + "step = \"7 deg\"\n"), "does not divide a turn");
+    expect_refused_once(read_angle_table(table + "step = \"8 deg\"\n"),
+                        "is less than one and a half steps");
+    expect_refused_once(read_angle_table(table + "step = \"5 deg\"\ndeviations = [\"0 arcsec\"]\n"
+                                                 "certificate_sense = \"with_axis\"\n"),
+                        "has 1 values, and the turn has 72 positions");
+    expect_refused_once(read_angle_table("method = \"polygon\"\nfaces = 8\n"),
+                        "is read by an autocollimator: remove axis.laser");
+    expect_refused_once(read_angle_table(table + "step = \"1 deg\"\n", false),
+                        "needs the angular interferometer");
+}
+
+TEST(StationAngle, ARotaryAxisNeedsAControlThatAsks) {
+    std::string text = rotary_text();
+    const auto begin = text.find("\n[trigger]\n"), end = text.find("\n[console]\n");
+    text.replace(begin, end - begin,
+                 "\n[trigger]\nshape = \"dwell\"\nwindow = \"0.2 deg\"\n"
+                 "stability_range = \"2 arcsec\"\nhysteresis = \"0.1 deg\"\n");
+    expect_refused_once(read_text(text), "a rotary axis needs a control that asks");
 }
 
 /// The example with its uncertainty table replaced.
@@ -398,6 +589,50 @@ Reading read_uncertainty_table(const std::string& table) {
     std::string text = example_text();
     const auto begin = text.find("[uncertainty]"), end = text.find("[certificate]");
     return read_text(text.replace(begin, end - begin, table + "\n"));
+}
+
+/// The example with these lines in [environment].
+Reading read_environment_table(const std::string& lines) {
+    return read_changed("\n[environment]\n", "\n[environment]\n" + lines + "\n");
+}
+
+TEST(StationEnvironment, AsksForNothingThatIsNotStated) {
+    const Reading without = read_changed("\n[environment]\n", "\n");
+    EXPECT_EQ(without.told, "");
+    EXPECT_FALSE(without.config.environment.stated());
+    EXPECT_FALSE(read_text(example_text()).config.environment.stated());
+}
+
+TEST(StationEnvironment, ReadsLimitsAndChangesInTheUnitsOfTheReadings) {
+    const Reading reading = read_environment_table(
+        "air_low = \"18 degC\"\nair_high = \"298.15 K\"\nair_change_per_hour = \"1.5 K\"\n"
+        "pressure_high = \"1030 hPa\"\npressure_change_per_hour = \"5 hPa\"\n"
+        "humidity_low = \"20 %\"\nmaterial_change_per_hour = \"0.5 K\"\nchange_window = \"20 "
+        "min\"");
+    EXPECT_EQ(reading.told, "");
+    const EnvironmentLimits& limits = reading.config.environment;
+    EXPECT_DOUBLE_EQ(limits.air_temperature.low.value(), 18);
+    EXPECT_NEAR(limits.air_temperature.high.value(), 25, 1e-9);
+    EXPECT_DOUBLE_EQ(limits.air_temperature.change_per_hour.value(), 1.5);
+    EXPECT_DOUBLE_EQ(limits.air_pressure.high.value(), 103'000);
+    EXPECT_DOUBLE_EQ(limits.air_pressure.change_per_hour.value(), 500);
+    EXPECT_FALSE(limits.air_pressure.low);
+    EXPECT_DOUBLE_EQ(limits.air_humidity.low.value(), 20);
+    EXPECT_FALSE(limits.material_temperature.low || limits.material_temperature.high);
+    EXPECT_DOUBLE_EQ(limits.material_temperature.change_per_hour.value(), 0.5);
+    EXPECT_EQ(limits.change_window, std::chrono::minutes{20});
+    EXPECT_TRUE(limits.stated() && limits.asks_for_change());
+}
+
+TEST(StationEnvironment, RefusesLimitsThatNothingLiesBetween) {
+    const std::pair<const char*, const char*> cases[]{
+        {"air_low = \"25 degC\"\nair_high = \"18 degC\"",
+         "environment.air_high: does not lie above air_low"},
+        {"material_high = 25", "environment.material_high: is a bare number"},
+        {"humidity_high = \"120 %\"", "is out of range"},
+        {"pressure_hihg = \"1030 hPa\"", "did you mean \"pressure_high\"?"}};
+    for (const auto& [lines, refusal] : cases)
+        expect_refused_once(read_environment_table(lines), refusal);
 }
 
 TEST(StationUncertainty, OfTheExampleMeansWhatItsWordsSay) {

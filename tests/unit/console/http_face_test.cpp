@@ -1,3 +1,4 @@
+#include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_face.hpp"
 
 #include "drivers/asio_scheduler.hpp"
@@ -46,6 +47,11 @@ public:
         co_return "bench-1";
     }
     Result<void> trigger() override { return fail(Fault::no_run_armed, ""); }
+    Result<void> type_reading(double seconds_of_arc) override {
+        typed_arcsec = seconds_of_arc;
+        if (seconds_of_arc > 100) return fail(Fault::outside_window, "beyond the range");
+        return {};
+    }
     Result<void> abort(std::string reason) override {
         return reason_given = std::move(reason), Result<void>{};
     }
@@ -93,6 +99,7 @@ public:
     std::optional<DriftRequest> drifted;
     std::optional<AlignmentOrder> ordered;
     std::string reason_given;
+    double typed_arcsec = 0;
 };
 
 class HttpDoor : public ::testing::Test {
@@ -297,6 +304,18 @@ TEST_F(HttpDoor, ARefusedTriggerTellsTheSentence) {
     const std::string reply = over_socket("POST", "/v1/run/trigger");
     EXPECT_TRUE(reply.starts_with("HTTP/1.1 409")) << reply;
     EXPECT_NE(reply.find("axiscal arm"), std::string::npos);
+}
+
+TEST_F(HttpDoor, ATypedReadingIsHandedOverInSecondsOfArc) {
+    EXPECT_TRUE(
+        over_socket("POST", "/v1/run/reading", R"({"arcsec":-1.25})").starts_with("HTTP/1.1 202"));
+    EXPECT_EQ(station.typed_arcsec, -1.25);
+    for (const char* wrong : {R"({"arcsec":"1"})", R"({"arcmin":1})", "{}"})
+        EXPECT_TRUE(over_socket("POST", "/v1/run/reading", wrong).starts_with("HTTP/1.1 400"))
+            << wrong;
+    const std::string beyond = over_socket("POST", "/v1/run/reading", R"({"arcsec":101})");
+    EXPECT_TRUE(beyond.starts_with("HTTP/1.1 409")) << beyond;
+    EXPECT_NE(beyond.find("outside_window"), std::string::npos) << beyond;
 }
 
 TEST_F(HttpDoor, AbortHandsTheReasonOver) {

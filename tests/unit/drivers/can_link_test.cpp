@@ -95,6 +95,16 @@ TEST_F(CanLinkTest, KeepsExtendedAndRemoteFramesApart) {
     EXPECT_TRUE((*arrived)[1].frame.remote);
 }
 
+TEST_F(CanLinkTest, SendsARemoteFrameAsOne) {
+    CanFrame question = plain_frame(0x77D, {0});
+    question.remote = true;
+    EXPECT_TRUE(wait(link->send(question, soon())));
+    ::can_frame raw{};
+    ASSERT_EQ(::read(bus, &raw, sizeof raw), static_cast<ssize_t>(sizeof raw));
+    EXPECT_EQ(raw.can_id, 0x77DU | CAN_RTR_FLAG);
+    EXPECT_EQ(raw.can_dlc, 1) << "one byte is asked for";
+}
+
 TEST_F(CanLinkTest, EndsAtTheDeadlineWithATimeOut) {
     const auto arrived = wait(link->read_some(scheduler.now()));
     ASSERT_FALSE(arrived);

@@ -66,6 +66,105 @@ TEST_F(CanOpen, ProbeStatedInTheStationFileNeedsNoObjectsOfItsOwn) {
     EXPECT_DOUBLE_EQ(other.sink.samples.back().value().value(), 20.1);
 }
 
+/// A node without heartbeat whose value comes twice a minute: only guarding tells sooner than 90 s
+/// that it is dead.
+class GuardedProbe : public CanOpen {
+protected:
+    GuardedProbe() {
+        node.put_number(0x1000, 0, 0x00020194, 4);
+        node.put_measured(0x7130, 1, [](double) { return std::vector<std::uint8_t>{0xC9, 0x00}; });
+        node.put_tpdo(3, 0x3A5, 0xFE, 0, {0x71300110});
+        bus.nodes.push_back(&node);
+    }
+    [[nodiscard]] std::size_t questions() const {
+        const auto asks = [](const CanFrame& frame) { return frame.remote && frame.id == 0x705; };
+        return static_cast<std::size_t>(std::ranges::count_if(bus.sent, asks));
+    }
+    simulate::CanNode node{5};
+    testing::InstrumentOnCan slow{
+        scheduler, bus, "canopen-404",
+        on_can0 + "node = 5\nunit = \"degC\"\ndigits = 1\nsample_period = \"30 s\"\n"};
+};
+
+TEST_F(GuardedProbe, IsAskedForItsStateOnceASecond) {
+    node.put_guarding();
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(100s);
+    EXPECT_TRUE(slow.ends.empty()) << slow.last_end();
+    EXPECT_EQ(slow.counters().bad_frames, 0U);
+    EXPECT_NEAR(static_cast<double>(questions()), 100, 2);
+    ASSERT_FALSE(slow.sink.samples.empty());
+    EXPECT_DOUBLE_EQ(slow.sink.samples.back().value().value(), 20.1);
+}
+
+TEST_F(GuardedProbe, ThatDiesIsGivenUpWithinFourSecondsAndComesBack) {
+    node.put_guarding();
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(40s);
+    node.power_off();
+    scheduler.run_for(4s);
+    ASSERT_FALSE(slow.ends.empty());
+    EXPECT_EQ(slow.ends.front().fault, Fault::link_timeout);
+    EXPECT_NE(slow.last_end().find("node 5 on CAN can0 does not answer"), std::string::npos);
+    const auto samples = slow.sink.samples.size();
+    node.power_on(now_s());
+    scheduler.run_for(40s);
+    EXPECT_GT(slow.sink.samples.size(), samples);
+}
+
+TEST_F(GuardedProbe, ThatSomebodyStopsIsNoticedByItsAnswer) {
+    node.put_guarding();
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(40s);
+    node.take({0, {0x80, 5}, false}, now_s());
+    scheduler.run_for(2s);
+    ASSERT_EQ(slow.ends.size(), 1U);
+    EXPECT_NE(slow.last_end().find("taken out of operation"), std::string::npos);
+}
+
+TEST_F(GuardedProbe, OneLostAnswerIsNoSilence) {
+    node.put_guarding();
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(40s);
+    node.take({0x705, {}, true}, now_s()); // its answer comes to nobody
+    scheduler.run_for(10s);
+    EXPECT_TRUE(slow.ends.empty()) << slow.last_end();
+    EXPECT_EQ(slow.counters().bad_frames, 1U) << "the toggle bit that came twice";
+}
+
+TEST_F(GuardedProbe, ThatDoesNotKnowGuardingIsAskedThreeTimesAndWatchedByItsValues) {
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(100s);
+    EXPECT_TRUE(slow.ends.empty()) << slow.last_end();
+    EXPECT_EQ(questions(), 3U);
+    EXPECT_GE(slow.sink.samples.size(), 2U);
+}
+
+TEST_F(GuardedProbe, WithAHeartbeatThatCannotBeChangedIsHeardAndNotAsked) {
+    node.put_number(0x1017, 0, 3000, 2);
+    node.power_on(now_s());
+    slow.start();
+    scheduler.run_for(100s);
+    EXPECT_TRUE(slow.ends.empty()) << slow.last_end();
+    EXPECT_EQ(questions(), 0U);
+    node.power_off();
+    scheduler.run_for(11s); // 2.5 of its own
+    EXPECT_FALSE(slow.ends.empty());
+}
+
+TEST_F(CanOpen, ANodeWithAHeartbeatIsNotAskedByRemoteFrames) {
+    material.start();
+    ballbar.start();
+    scheduler.run_for(10s);
+    for (const CanFrame& frame : bus.sent)
+        EXPECT_FALSE(frame.remote) << frame.id;
+}
+
 TEST_F(CanOpen, ProbeWithoutUnitOrInputIsRefusedWithTheWayOut) {
     testing::InstrumentOnCan two{scheduler, bus, "canopen-404", on_can0 + "inputs = 2\n"};
     two.start();

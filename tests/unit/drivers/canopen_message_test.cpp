@@ -1,10 +1,13 @@
 // Literal PDOs, mappings, heartbeats and emergencies: CiA 301, 404, 406 and the makers' manuals.
 #include "drivers/ballbar/cia406_position.hpp"
+#include "drivers/canopen/node_guard.hpp"
 #include "drivers/canopen/node_messages.hpp"
 #include "drivers/canopen/pdo_layout.hpp"
 #include "drivers/environment/cia404_input.hpp"
 
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 namespace axiscal {
 namespace {
@@ -179,6 +182,56 @@ TEST(NodeMessages, TellBootUpAndHeartbeat) {
     EXPECT_EQ(decode_heartbeat(plain_frame(0x77F, {0x05}), 125), std::nullopt);
     EXPECT_EQ(decode_heartbeat(plain_frame(0x77D, {0x09}), 125), std::nullopt);
     EXPECT_EQ(decode_heartbeat(plain_frame(0x77D, {0x05, 0x00}), 125), std::nullopt);
+}
+
+TEST(NodeMessages, GuardANodeByARemoteFrameForOneByte) {
+    CanFrame question = plain_frame(0x77D, {0x00});
+    question.remote = true;
+    EXPECT_EQ(guard_request(125), question);
+    EXPECT_EQ(decode_heartbeat(question, 125), std::nullopt) << "a question is no answer";
+    // 0x05 and 0x85 in turn while operational, 0x7F and 0xFF before it is started
+    for (const auto& [byte, state, toggle] : {std::tuple{0x05U, NodeState::operational, false},
+                                              std::tuple{0x85U, NodeState::operational, true},
+                                              std::tuple{0x7FU, NodeState::pre_operational, false},
+                                              std::tuple{0xFFU, NodeState::pre_operational, true},
+                                              std::tuple{0x84U, NodeState::stopped, true}}) {
+        const CanFrame answer = plain_frame(0x77D, {byte});
+        EXPECT_EQ(decode_heartbeat(answer, 125), state);
+        EXPECT_EQ(toggle_of(answer), toggle);
+    }
+    EXPECT_EQ(decode_heartbeat(plain_frame(0x77D, {0x80}), 125), std::nullopt)
+        << "a boot-up has no toggle bit";
+}
+
+TEST(NodeGuard, AsksOnceASecondAndKnowsTheSilenceAfterTwoAndAHalf) {
+    using namespace std::chrono_literals;
+    const auto at = [](Duration since) { return monotonic_from_ns(0) + since; };
+    NodeGuard guard;
+    EXPECT_FALSE(guard.asks(at(0s)));
+    guard.begin(at(1s));
+    EXPECT_TRUE(guard.asks(at(1s)));
+    EXPECT_FALSE(guard.asks(at(1900ms)));
+    EXPECT_EQ(guard.silent_from(), std::nullopt) << "it never answered: perhaps it cannot";
+    EXPECT_TRUE(guard.take(false, at(1010ms)));
+    EXPECT_EQ(guard.silent_from(), at(3510ms));
+    EXPECT_TRUE(guard.asks(at(2s)));
+    EXPECT_FALSE(guard.take(false, at(2010ms))) << "the toggle bit did not change";
+    EXPECT_EQ(guard.silent_from(), at(3510ms));
+    EXPECT_TRUE(guard.asks(at(3s)));
+    EXPECT_TRUE(guard.take(true, at(3010ms)));
+    EXPECT_EQ(guard.silent_from(), at(5510ms));
+}
+
+TEST(NodeGuard, LeavesANodeThatDoesNotKnowItAfterThreeQuestions) {
+    using namespace std::chrono_literals;
+    NodeGuard guard;
+    guard.begin(monotonic_from_ns(0));
+    int asked = 0;
+    for (MonotonicTime now = monotonic_from_ns(0); now < monotonic_from_ns(0) + 10s; now += 100ms)
+        asked += guard.asks(now) ? 1 : 0;
+    EXPECT_EQ(asked, NodeGuard::questions_to_a_stranger);
+    EXPECT_EQ(guard.next_question(), std::nullopt);
+    EXPECT_EQ(guard.silent_from(), std::nullopt);
 }
 
 TEST(NodeMessages, TellAnEmergencyAndItsEnd) {

@@ -32,7 +32,7 @@ TEST(StationExample, IsAcceptedByTheDriversItNames) {
         const std::string& text = document->source_text();
         const bool explained = text.find("\n" + name + " = ") != std::string::npos ||
                                text.find("\n# " + name + " = ") != std::string::npos ||
-                               text.find("[[instrument." + name + "]]") != std::string::npos;
+                               text.find("[[" + key + "]]") != std::string::npos;
         EXPECT_TRUE(explained) << key;
     }
 }

@@ -104,7 +104,7 @@ const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string usb_keys = "link = \"usb:any\"\n";
 const std::string ballbar_keys = "link = \"usb:470012345\"\nscale_length = \"1 mm\"\n";
 const std::string can_keys = "link = \"can:can0\"\n";
-const std::string dracal_keys = "link = \"serial:/dev/null\"\n";
+const std::string line_keys = "link = \"serial:/dev/null\"\n";
 const std::string ids_keys = "link = \"tcp:192.168.1.1:9090\"\nair = \"corrected here\"\n"
                              "wavelength = \"1530 nm\"\nfastest = \"0.5 m/s\"\n"
                              "poll_period = \"100 ms\"\n";
@@ -118,8 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"umd1-heterodyne", "umd", corner_cube},
                       TapeCase{"umd0-homodyne", "umd", plane_mirror},
                       TapeCase{"umd2-sixteen-bit", "umd", corner_cube},
-                      TapeCase{"dracal-vcp-pth450", "dracal-vcp", dracal_keys},
-                      TapeCase{"dracal-vcp-faults", "dracal-vcp", dracal_keys},
+                      TapeCase{"dracal-vcp-pth450", "dracal-vcp", line_keys},
+                      TapeCase{"dracal-vcp-faults", "dracal-vcp", line_keys},
                       TapeCase{"gauge-nd-28x", "ascii-gauge", model_keys + "\"nd-28x\"\n"},
                       TapeCase{"gauge-mitutoyo", "ascii-gauge",
                                model_keys + "\"mitutoyo\"\nunit = \"mm\"\n"},
@@ -132,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
                                             "checksum = \"CS4\"\n"},
                       TapeCase{"dracal-usbtenki-pth", "dracal-usbtenki", usb_keys},
                       TapeCase{"temper-x", "temper", usb_keys},
+                      TapeCase{"temper-serial", "temper-serial", line_keys},
                       TapeCase{"canopen-404-cantrans", "canopen-404", can_keys},
                       TapeCase{"canopen-406-temposonics", "canopen-406", can_keys},
                       TapeCase{"labjack-u6-stream", "labjack-u6", ballbar_keys}),

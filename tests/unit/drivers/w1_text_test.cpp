@@ -97,6 +97,13 @@ protected:
         ended = result ? Fault::none : result.error().fault;
     }
 
+    std::vector<std::string> notes_told() {
+        std::vector<std::string> notes;
+        for (const std::string& line : sink.lines)
+            if (line.starts_with("note ")) notes.push_back(line);
+        return notes;
+    }
+
     boost::asio::io_context loop;
     testing::SampleRecorder sink{{}, false};
     std::optional<Fault> ended;
@@ -115,7 +122,38 @@ TEST_F(Thermometers, HandUpEachSensorByItsPlaceInTheList) {
     ASSERT_TRUE(testing::loop_until(loop, [&] { return sink.samples.size() >= 2; }));
     EXPECT_EQ(sink.lines[0], "identity Maxim | DS18B20 | 28-0000075b3c2a 28-0000075b3c2b | ");
     EXPECT_EQ(sink.lines[1], "contact 1 23.125");
-    EXPECT_EQ(sink.lines[3], "contact 2 absent");
+    EXPECT_EQ(sink.lines[2], "contact 2 absent");
+}
+
+TEST_F(Thermometers, TellWhatIsWrongWithAllOfThemInOneNoteARound) {
+    const std::string power_on = "50 05 4b 46 7f ff 0c 10 1c : crc=1c YES\n"
+                                 "50 05 4b 46 7f ff 0c 10 1c t=85000\n";
+    show("28-0000075b3c2a", power_on);
+    show("28-0000075b3c2b", power_on);
+    start("[\"28-0000075b3c2a\", \"28-0000075b3c2b\", \"28-0000075b3c2c\"]");
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return sink.samples.size() >= 9; }));
+    const auto notes = notes_told();
+    ASSERT_GE(notes.size(), 2U);
+    EXPECT_EQ(notes[0], notes[1]); // whoever listens tells it once
+    for (const char* part :
+         {"contact 1: 85 degC", "contact 2: 85 degC", "no sensor 28-0000075b3c2c"})
+        EXPECT_NE(notes[0].find(part), std::string::npos) << notes[0];
+}
+
+/// As the kernel shows a scratchpad whose checksum it found wrong five times: an empty file.
+TEST_F(Thermometers, TellWhatCannotBeReadOnlyWhenItLasts) {
+    show("28-0000075b3c2a", warm);
+    show("28-0000075b3c2b", "");
+    start("[\"28-0000075b3c2a\", \"28-0000075b3c2b\"]");
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return sink.samples.size() >= 2; }));
+    EXPECT_TRUE(notes_told().empty());
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return !notes_told().empty(); }));
+    EXPECT_GE(sink.samples.size(), 3U);
+    EXPECT_NE(notes_told()[0].find("contact 2 was read wrongly 3 times in a row"),
+              std::string::npos)
+        << notes_told()[0];
+    for (const Sample& sample : sink.samples)
+        EXPECT_EQ(sample.channel, 0);
 }
 
 TEST_F(Thermometers, EndWhenNoneIsThereAndGoOnWhenOneIs) {

@@ -44,6 +44,9 @@ public:
             run.channels.push_back({pick(1000), text(), text(), text(),
                                     static_cast<ChannelKind>(pick(6)), static_cast<Medium>(pick(3)),
                                     number()});
+        for (int i = 0; i < pick(4); ++i)
+            fill_calibration(run.calibrations.emplace_back(), i);
+        if (pick(2) == 0) fill_rotary(run.rotary.emplace());
         return run;
     }
 
@@ -52,12 +55,22 @@ public:
         if (pick(2) == 0) fill_alignment(beside.alignment.emplace());
         if (pick(2) == 0)
             beside.drift = DriftSetup{Duration{integer()}, Duration{integer()}, length()};
+        if (pick(2) == 0) {
+            ProbingRecord& probing = beside.probing.emplace();
+            probing.feed_mm_per_min = number(), probing.probe = text();
+            probing.signal_path = text();
+            for (int i = pick(9); i > 0; --i)
+                probing.touches.push_back({{number(), number(), number()},
+                                           pick(2) == 0,
+                                           length(),
+                                           {length(), length(), length()}});
+        }
         if (pick(2) == 0) beside.eve_source = text();
         return beside;
     }
 
     DatumRecord datum() {
-        return {text(),
+        return {text() + std::to_string(++datums_), // each once
                 time(),
                 length(),
                 length(),
@@ -135,6 +148,15 @@ private:
     Length length() { return Length::from_si(number()); }
     Direction direction() { return pick(2) == 0 ? Direction::negative : Direction::positive; }
 
+    void fill_calibration(ChannelCalibration& calibration, int channel) {
+        calibration.channel = channel;
+        calibration.certificate_number = text(), calibration.calibrated_on = text();
+        calibration.due_on = text(), calibration.coverage = number();
+        if (pick(2) == 0) calibration.expanded_uncertainty = number();
+        if (pick(2) == 0) calibration.expanded_uncertainty_per_m = number();
+        for (int i = pick(4); i > 0; --i)
+            calibration.corrections.push_back({number(), number()});
+    }
     void fill_plan(RunPlan& plan) {
         plan.axis_kind = pick(2) == 0 ? AxisKind::rotary : AxisKind::linear;
         plan.cycle = pick(2) == 0 ? CycleKind::step : CycleKind::standard;
@@ -148,6 +170,16 @@ private:
         plan.overrun = length(), plan.near_tolerance = length(), plan.datum = length();
         for (int i = pick(30); i > 0; --i)
             plan.points.push_back({pick(99), pick(99), direction(), pick(9)});
+    }
+
+    void fill_rotary(RotarySetup& rotary) {
+        rotary.method = pick(2) == 0 ? AngleMethod::polygon : AngleMethod::indexing_table;
+        rotary.step_deg = number(), rotary.arm = length(), rotary.range_deg = number();
+        rotary.turn_time = Duration{integer()};
+        rotary.by_hand = pick(2) == 0, rotary.certificate_with_axis = pick(2) == 0;
+        rotary.run_out = text();
+        for (int i = pick(9); i > 0; --i)
+            rotary.deviations_arcsec.push_back(number());
     }
 
     void fill_alignment(AlignmentRecord& alignment) {
@@ -184,6 +216,7 @@ private:
 
     std::mt19937_64 random_;
     std::int64_t later_ = 0;
+    int datums_ = 0;
 };
 
 template <class T> struct IsVector : std::false_type {};

@@ -2,6 +2,7 @@
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/unit/journal/older_format.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 namespace axiscal {
 namespace {
 
+using testing::drop_format_4;
 using testing::RandomRun;
 using testing::read_bytes;
 using testing::same_bits;
@@ -126,7 +128,7 @@ TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
     const auto bytes = read_bytes(path);
     EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
     EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
-    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\3", 4})); // user_version
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\4", 4})); // user_version
 }
 
 TEST(RunFile, CanBeReadWhileItIsOpen) {
@@ -262,12 +264,14 @@ TEST(RunFile, OfFormat1IsReadWithoutUncertaintyStatement) {
 
 /// An open file as a version before this one left it.
 void make_format_1(const std::string& path) {
-    run_sql(path, "DROP TABLE uncertainty; DROP TABLE uncertainty_target; DROP TABLE circular; "
-                  "DROP TABLE circular_bar; DROP TABLE circular_uncertainty; DROP TABLE stream; "
-                  "DROP TABLE stream_block; DROP TABLE preflight; DROP TABLE retake; "
-                  "DROP TABLE retake_point; DROP TABLE exclusion; DROP TABLE alignment; "
-                  "DROP TABLE alignment_place; DROP TABLE drift; DROP TABLE eve_source; "
-                  "PRAGMA user_version=1");
+    run_sql(path,
+            drop_format_4 +
+                "DROP TABLE uncertainty; DROP TABLE uncertainty_target; DROP TABLE circular; "
+                "DROP TABLE circular_bar; DROP TABLE circular_uncertainty; DROP TABLE stream; "
+                "DROP TABLE stream_block; DROP TABLE preflight; DROP TABLE retake; "
+                "DROP TABLE retake_point; DROP TABLE exclusion; DROP TABLE alignment; "
+                "DROP TABLE alignment_place; DROP TABLE drift; DROP TABLE eve_source; "
+                "PRAGMA user_version=1");
 }
 
 TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
@@ -276,6 +280,8 @@ TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
     const auto path = scratch.file("r.axiscal");
     RunRecord run = random.header();
     run.uncertainty.reset();
+    run.calibrations.clear();
+    run.rotary.reset();
     ASSERT_TRUE(RunFileWriter::create(path, run));
     make_format_1(path);
     auto writer = RunFileWriter::reopen(path);
@@ -286,6 +292,46 @@ TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
     ASSERT_TRUE(writer->close(true, "done", run.closed));
     EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\1", 4}));
     EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+}
+
+TEST(RunFile, OfFormat3IsReadAndGoesOnAsFormat3) {
+    const ScratchFolder scratch;
+    RandomRun random{25};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord run = random.header();
+    run.calibrations.clear();
+    run.rotary.reset();
+    ASSERT_TRUE(RunFileWriter::create(path, run));
+    run_sql(path, drop_format_4 + "PRAGMA user_version=3");
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    run.complete = true, run.closing_reason = "done", run.closed = random.tie();
+    ASSERT_TRUE(writer->close(true, "done", run.closed));
+    EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\3", 4}));
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+    EXPECT_TRUE(summarize_run_file(path));
+}
+
+TEST(RunFile, ChainsTheCertificatesOfChannels) {
+    const ScratchFolder scratch;
+    for (const std::string change :
+         {"UPDATE channel_calibration SET due_on = '2030-01-01'",
+          "UPDATE channel_calibration SET expanded_uncertainty = 0.01",
+          "UPDATE channel_calibration SET expanded_uncertainty = NULL",
+          "UPDATE channel_correction SET correction = 0.0 WHERE reading = 20.0",
+          "DELETE FROM channel_correction WHERE reading = 15.0",
+          "DELETE FROM channel_calibration"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        RunRecord run = RandomRun{26}.header();
+        ChannelCalibration own;
+        own.channel = 3, own.due_on = "2026-12-01", own.expanded_uncertainty = 0.05;
+        own.corrections = {{15, 0.02}, {20, -0.01}};
+        run.calibrations = {own};
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        ASSERT_TRUE(read_run_file(path));
+        run_sql(path, change);
+        EXPECT_NE(refusal_of(path), "accepted") << change;
+    }
 }
 
 TEST(RunFile, IsRefusedUnderTheNumberOfAnotherFormat) {
@@ -313,6 +359,7 @@ TEST(RunFile, BringsBackWhatStandsBesideTheRun) {
         EXPECT_TRUE(same_bits(run, read->run));
         EXPECT_TRUE(same_bits(beside, read->attachments));
         EXPECT_EQ(summarize_run_file(path)->drift, beside.drift.has_value());
+        EXPECT_EQ(summarize_run_file(path)->probing, beside.probing.has_value());
     }
 }
 
@@ -321,6 +368,7 @@ RunAttachments some_attachments() {
     beside.alignment.emplace().far = FarRest{metre(1), um(8), um(2), um(1), 9, true};
     beside.alignment->places = {{mm(0), mm(40), 100, 71, 80, 90}};
     beside.drift = DriftSetup{std::chrono::minutes{30}, std::chrono::seconds{1}, mm(900)};
+    beside.probing.emplace().touches = {{{-1, 0, 0}, false, mm(2), {um(3), mm(-10), mm(-10)}}};
     beside.eve_source = "bench-20261121T100000Z-X";
     return beside;
 }
@@ -331,10 +379,31 @@ TEST(RunFile, ChainsWhatStandsBesideTheRun) {
          {"UPDATE alignment SET far_last_m = 1e-9", "UPDATE alignment SET lost = lost + 1",
           "DELETE FROM alignment", "DELETE FROM alignment_place",
           "UPDATE alignment_place SET weakest_percent = 99.0", "UPDATE drift SET place_m = 0.0",
-          "DELETE FROM drift", "UPDATE eve_source SET run_id = 'another'"}) {
+          "DELETE FROM drift", "UPDATE probing_touch SET x_m = 1.0", "DELETE FROM probing",
+          "UPDATE eve_source SET run_id = 'another'"}) {
         const auto path = scratch.file(sha256_hex(change) + ".axiscal");
         ASSERT_TRUE(RunFileWriter::create(path, RandomRun{23}.header(), some_attachments()));
         EXPECT_TRUE(read_run_file(path)) << change;
+        run_sql(path, change);
+        EXPECT_FALSE(read_run_file(path)) << change;
+    }
+}
+
+TEST(RunFile, ChainsHowAnAngleWasMeasured) {
+    const ScratchFolder scratch;
+    RunRecord run = RandomRun{25}.header();
+    RotarySetup& rotary = run.rotary.emplace();
+    rotary.deviations_arcsec = {0, 0.3, -0.2};
+    rotary.run_out = "6 um";
+    for (const std::string change :
+         {"UPDATE rotary SET step_deg = 2.0", "UPDATE rotary SET run_out = ''",
+          "UPDATE rotary_deviation SET deviation_arcsec = -0.3 WHERE deviation_arcsec = 0.3",
+          "DELETE FROM rotary_deviation WHERE deviation_arcsec = -0.2", "DELETE FROM rotary"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        const auto read = read_run_file(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(run.rotary, read->rotary));
         run_sql(path, change);
         EXPECT_FALSE(read_run_file(path)) << change;
     }

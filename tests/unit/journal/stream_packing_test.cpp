@@ -166,6 +166,8 @@ CircularSetup full_setup() {
     setup.plan.centre_mm = {1, -2, 3};
     setup.plan.tool_offset = "Z 120 mm";
     setup.plan.work_offset = "Z 150 mm";
+    setup.plan.start = StartMethod::trigger;
+    setup.plan.trigger_delay_s = 0.008;
     setup.capture = {1000, 40, 4};
     setup.bar_instrument = "ballbar";
     setup.bar_sign = -1;
@@ -186,6 +188,7 @@ std::string write_file(const ScratchFolder& scratch) {
     batch.circular = full_setup();
     batch.streams.push_back({0, 4, "ballbar", "m", 1000});
     batch.chunks.push_back(chunk_of(ballbar_values(1000), 0));
+    batch.chunks.back().head.time_uncertainty = std::chrono::microseconds{40};
     EXPECT_TRUE(writer.write(batch));
     RunBatch second;
     second.chunks.push_back(chunk_of(ballbar_values(900), 1));
@@ -212,6 +215,8 @@ TEST(CircularRunFile, GivesBackPlanBarStatementAndStream) {
     EXPECT_FALSE(found.plan.feed_in_outside);
     EXPECT_EQ(found.plan.centre_mm, wanted.plan.centre_mm);
     EXPECT_EQ(found.plan.work_offset, "Z 150 mm");
+    EXPECT_EQ(found.plan.start, StartMethod::trigger);
+    EXPECT_EQ(found.plan.trigger_delay_s, 0.008);
     EXPECT_EQ(found.capture.sample_rate_hz, 1000);
     EXPECT_EQ(found.capture.low_pass_hz, 40);
     EXPECT_EQ(found.capture.averaged, 4);
@@ -231,6 +236,10 @@ TEST(CircularRunFile, GivesBackPlanBarStatementAndStream) {
     const auto first = ballbar_values(1000);
     ASSERT_EQ(samples->value.size(), 1900U);
     EXPECT_TRUE(std::equal(first.begin(), first.end(), samples->value.begin()));
+    ASSERT_EQ(samples->times.size(), 2U);
+    EXPECT_EQ(samples->times[0].time_uncertainty, std::chrono::microseconds{40});
+    EXPECT_EQ(samples->times[1].from, 1000U);
+    EXPECT_EQ(samples->times[1].time_uncertainty, Duration{});
 }
 
 void run_sql(const std::string& path, const std::string& sql) {

@@ -128,6 +128,16 @@ TEST(CircularProgram, AnArcOfOneSenseIsDrivenBackAtTheRadiusOfRest) {
     EXPECT_EQ(back, 1);
 }
 
+TEST(CircularProgram, ByTriggerTheNumberChangesWithBothEndsOfTheArc) {
+    CircularOrder order = order_of();
+    order.plan.start = StartMethod::trigger;
+    const std::string text = write_circular_linuxcnc(order);
+    for (const char* words : {"M67 E0 Q2\nG3", "M67 E0 Q3\nG1", "M68 E0 Q4\n", "M67 E0 Q5\nG2",
+                              "M67 E0 Q6\nG1", "M68 E0 Q7\n"})
+        EXPECT_NE(text.find(words), std::string::npos) << words;
+    EXPECT_EQ(write_circular_linuxcnc(order_of()).find("M67"), std::string::npos);
+}
+
 TEST(CircularProgram, ACoilIsRaisedAndTakenBack) {
     const std::string text = write_circular_linuxcnc(order_of(TriggerShape::coil_and_index));
     EXPECT_NE(text.find("M64 P0\nM66 P0 L3"), std::string::npos);

@@ -44,6 +44,66 @@ TEST(CertificateJson, ShowsHowTheBeamWasAligned) {
     EXPECT_TRUE(shown.at("cosine_error_by_spot").is_null());
 }
 
+/// Each point known by its step: 0.01 um for every step, and no time of the last one.
+Certificate synchronised_certificate() {
+    Certificate certificate = test::certificate_of(test::synthetic_run());
+    auto& records = certificate.attachments.synchronisation;
+    records.push_back(
+        {-1, "serial/0/1", Synchronisation{std::chrono::microseconds{5}, 0.25}}); // the datum
+    for (const PointRecord& point : certificate.run.points)
+        records.push_back({point.step, point.datum_id,
+                           Synchronisation{std::chrono::microseconds{7}, 0.01 * (point.step + 1)}});
+    records.back().stated.reset();
+    return certificate;
+}
+
+TEST(CertificateJson, StatesWhatTheUncertainTimeAddsToEachCapture) {
+    EXPECT_TRUE(certificate_to_json(test::certificate_of(test::synthetic_run()))
+                    .at("run")
+                    .at("synchronisation")
+                    .is_null());
+    const Json shown =
+        certificate_to_json(synchronised_certificate()).at("run").at("synchronisation");
+    EXPECT_EQ(shown.at("captures"), 111);
+    EXPECT_EQ(shown.at("stated"), 110);
+    EXPECT_EQ(shown.at("largest_step"), 108);
+    EXPECT_DOUBLE_EQ(shown.at("largest_um"), 1.09);
+    ASSERT_EQ(shown.at("readings").size(), 111U);
+    EXPECT_EQ(shown.at("readings").at(0).at("step"), -1);
+    EXPECT_DOUBLE_EQ(shown.at("readings").at(0).at("u_t_us"), 5);
+    EXPECT_DOUBLE_EQ(shown.at("readings").at(3).at("error_um"), 0.03);
+    EXPECT_TRUE(shown.at("readings").at(110).at("u_t_us").is_null());
+    EXPECT_TRUE(shown.at("readings").at(110).at("error_um").is_null()) << "not stated, never 0";
+}
+
+/// A reading that was taken again counts no more.
+TEST(Synchronisation, OfAReadingThatWasReplacedIsNotTheLargest) {
+    Certificate certificate = synchronised_certificate();
+    certificate.attachments.synchronisation.push_back(
+        {777, "serial/0/1", Synchronisation{std::chrono::microseconds{7}, 9}});
+    const auto over =
+        summarize_synchronisation(certificate.run, certificate.attachments.synchronisation);
+    EXPECT_EQ(over.stated, 110);
+    EXPECT_EQ(over.largest->step, 108);
+}
+
+TEST(CertificateJson, HoldsTheCertificatesOfChannels) {
+    RunRecord run = test::synthetic_run();
+    ChannelCalibration air;
+    air.channel = 1, air.due_on = "2020-03-02", air.expanded_uncertainty = 0.1;
+    air.corrections = {{15, 0.06}, {25, 0.04}};
+    run.calibrations = {air};
+    const Json document = certificate_to_json(test::certificate_of(std::move(run)));
+    const Json shown = document.at("run").at("calibrations").at(0);
+    EXPECT_EQ(shown.at("channel"), "air temperature");
+    EXPECT_EQ(shown.at("expired"), true);
+    EXPECT_EQ(shown.at("expanded_uncertainty"), 0.1);
+    EXPECT_TRUE(shown.at("certificate_number").is_null());
+    EXPECT_EQ(shown.at("corrections").at(1).at("correction"), 0.04);
+    EXPECT_TRUE(document.at("environment").at("channels").at(0).at("correction").is_null());
+    EXPECT_EQ(document.at("environment").at("channels").at(1).at("correction"), 0);
+}
+
 TEST(CertificateJson, SaysPreliminaryForEachParameter) {
     const Json document = certificate_to_json(test::certificate_of(test::synthetic_run()));
     EXPECT_EQ(document.at("preliminary"), true);
@@ -192,6 +252,7 @@ std::vector<std::string> fields_of(std::string line) {
     std::istringstream in{line};
     for (std::string field; std::getline(in, field, ',');)
         fields.push_back(field);
+    if (line.ends_with(',')) fields.emplace_back(); // getline leaves out an empty last one
     return fields;
 }
 
@@ -206,11 +267,12 @@ TEST(CertificateCsv, HasTheDocumentedHeadAndARowForEachPoint) {
         parameters += line.starts_with("# parameter,");
     EXPECT_EQ(parameters, 12);
     EXPECT_EQ(line, "run,direction,target_mm,measured_mm,deviation_um,t_air_degC,p_Pa,rh_percent,"
-                    "t_mat_degC,time\r");
+                    "t_mat_degC,time,synchronisation_um\r");
     std::size_t rows = 0;
     for (; std::getline(csv, line); ++rows) {
         const auto fields = fields_of(line);
-        ASSERT_EQ(fields.size(), 10u);
+        ASSERT_EQ(fields.size(), 11u);
+        EXPECT_EQ(fields[10], "") << "not stated";
         const PlannedPoint& planned = certificate.run.points[rows].planned;
         const bool forward = planned.direction == Direction::positive;
         const auto& table =
@@ -224,6 +286,20 @@ TEST(CertificateCsv, HasTheDocumentedHeadAndARowForEachPoint) {
         EXPECT_NEAR(std::stod(fields[8]), 22.7 + 0.3 * (100 + 20.0 * planned.step) / 2320, 0.01);
     }
     EXPECT_EQ(rows, 110u);
+}
+
+TEST(CertificateCsv, TellsTheSynchronisationErrorOfTheRunAndOfEachPoint) {
+    EXPECT_NE(certificate_csv(test::certificate_of(test::synthetic_run()))
+                  .find("# synchronisation,not stated\r\n"),
+              std::string::npos);
+    const std::string csv = certificate_csv(synchronised_certificate());
+    EXPECT_NE(csv.find("# synchronisation,1.09,um,largest of 110 captures; 1 not stated\r\n"),
+              std::string::npos);
+    const auto table = csv.find("synchronisation_um\r\n");
+    ASSERT_NE(table, std::string::npos);
+    const std::string first = csv.substr(table + 20, csv.find('\n', table + 20) - table - 20);
+    EXPECT_TRUE(first.ends_with(",0.01\r")) << first;
+    EXPECT_TRUE(csv.ends_with(",\r\n")) << "the last point: not stated";
 }
 
 TEST(CertificateCsv, TellsUItsTargetTheBudgetAndWhatIsMissing) {

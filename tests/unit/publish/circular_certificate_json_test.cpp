@@ -43,6 +43,21 @@ TEST(CircularCertificateJson, HoldsTheAnalysisUnchangedAndWhereItCameFrom) {
     EXPECT_EQ(document.at("repeats").at("G_b").size(), 2u);
 }
 
+TEST(CircularCertificateJson, HoldsTheCertificatesOfChannels) {
+    CircularRun run = test::circular_run();
+    run.channels.push_back({5, "table", "t", "", ChannelKind::temperature, Medium::material});
+    ChannelCalibration table;
+    table.channel = 5, table.certificate_number = "T-551", table.due_on = "2025-12-31";
+    table.corrections = {{15, 0.06}, {25, 0.04}};
+    run.calibrations = {table};
+    const json document = document_of(test::circular_certificate(std::move(run)));
+    const json shown = document.at("run").at("calibrations").at(0);
+    EXPECT_EQ(shown.at("channel"), "table");
+    EXPECT_EQ(shown.at("certificate_number"), "T-551");
+    EXPECT_EQ(shown.at("expired"), true) << "the run was on 2026-01-01";
+    EXPECT_EQ(shown.at("corrections").at(1).at("correction"), 0.04);
+}
+
 TEST(CircularCertificateJson, NamesTheRingAndWhatHoldsIt) {
     const CircularCertificate certificate = test::circular_certificate();
     const json zone = document_of(certificate).at("zones").at("G_b");

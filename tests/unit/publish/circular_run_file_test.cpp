@@ -24,6 +24,8 @@ TEST(CircularRunFile, TheInjectedErrorsComeBackOfTheFile) {
     EXPECT_TRUE(run->complete);
     EXPECT_EQ(run->bar.instrument.serial, "QB-7");
     EXPECT_EQ(run->statements.customer, "Milling shop");
+    ASSERT_EQ(run->calibrations.size(), 1U);
+    EXPECT_EQ(run->calibrations[0].certificate_number, "T-551");
     EXPECT_EQ(run->gaps, 0U);
     EXPECT_NEAR(*run->machine_temperature.mean_degC, 21.0, 1e-12); // without the bar's own sensor
     EXPECT_NEAR(*run->bar_temperature.mean_degC, 20.5, 1e-12);

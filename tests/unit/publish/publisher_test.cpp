@@ -67,7 +67,17 @@ struct Post {
     Heard heard;
     int second = 0;
     ShakyDestination share{destination};
-    Publisher publisher{{outbox, std::chrono::seconds{1}},
+    std::vector<std::string> handed;                     ///< to the second hand
+    std::function<void(const std::string&)> second_does; ///< with each of them
+    std::function<void()> begin_second(const std::vector<std::string>& run_ids) {
+        handed = run_ids;
+        return [this] {
+            for (const std::string& run_id : handed)
+                if (second_does) second_does(run_id);
+        };
+    }
+    Publisher publisher{{outbox, std::chrono::seconds{1},
+                         [this](const auto& run_ids) { return begin_second(run_ids); }},
                         {[this] { return MonotonicTime{std::chrono::seconds{second}}; },
                          [] { return std::int64_t{0}; }},
                         share,
@@ -149,6 +159,56 @@ TEST(Publisher, OnlyMovesAnEntryThatHasItsReceiptAlready) {
     EXPECT_EQ(post.pass_at(0), 0U);
     EXPECT_FALSE(std::filesystem::exists(post.destination + "/run-1"));
     EXPECT_TRUE(std::filesystem::exists(post.scratch.file("published/run-1/a")));
+}
+
+Lines many(Post& post, int count) {
+    std::filesystem::create_directory(post.destination);
+    Lines run_ids;
+    for (int run = 100; run < 100 + count; ++run) {
+        run_ids.push_back("run-" + std::to_string(run));
+        EXPECT_TRUE(stage_entry(post.outbox, run_ids.back(), {{"a", "x"}}));
+    }
+    return run_ids;
+}
+
+TEST(Publisher, HandsEveryOtherOfManyEntriesToASecondHand) {
+    Post post;
+    const Lines all = many(post, 17);
+    Lines own;
+    post.second_does = [&](const std::string& run_id) {
+        std::filesystem::remove_all(post.outbox + "/" + run_id);
+    };
+    EXPECT_EQ(post.pass_at(0), 0U);
+    ASSERT_EQ(post.handed.size(), 8U);
+    for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_EQ(post.handed[i], all[2 * i + 1]);
+    for (std::size_t i = 0; i < 17; i += 2)
+        own.push_back("published " + all[i]);
+    EXPECT_EQ(post.heard.lines, own);
+}
+
+TEST(Publisher, DoesItselfWhatTheSecondHandLeaves) {
+    Post post;
+    many(post, 16);
+    EXPECT_EQ(post.pass_at(0), 0U);
+    EXPECT_EQ(post.handed.size(), 8U);
+    EXPECT_EQ(post.heard.lines.size(), 16U);
+    EXPECT_EQ(post.heard.lines.back(), "published run-115");
+}
+
+TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
+    Post few;
+    many(few, 15);
+    EXPECT_EQ(few.pass_at(0), 0U);
+    EXPECT_TRUE(few.handed.empty());
+    Post troubled;
+    std::filesystem::create_directories(troubled.outbox + "/empty");
+    many(troubled, 4);
+    EXPECT_EQ(troubled.pass_at(0), 1U);
+    for (int run = 200; run < 230; ++run)
+        ASSERT_TRUE(stage_entry(troubled.outbox, "run-" + std::to_string(run), {{"a", "x"}}));
+    EXPECT_EQ(troubled.pass_at(1), 1U);
+    EXPECT_TRUE(troubled.handed.empty());
 }
 
 } // namespace

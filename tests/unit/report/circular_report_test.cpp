@@ -272,6 +272,19 @@ TEST_F(CircularReport, ShowsTheRepeatsAndEveryCircleDriven) {
     EXPECT_THAT(page, HasSubstr("feed-in step"));
 }
 
+TEST_F(CircularReport, PrintsTheCertificatesOfChannels) {
+    CircularRun run = test::circular_run();
+    run.channels.push_back({5, "table", "t", "", ChannelKind::temperature, Medium::material});
+    ChannelCalibration table;
+    table.channel = 5, table.certificate_number = "T-551", table.due_on = "2025-12-31";
+    table.expanded_uncertainty = 0.08;
+    EXPECT_EQ(occurrences(text(circular_certificate(run)), "Certificates of channels"), 0);
+    run.calibrations = {table};
+    const std::string page = text(circular_certificate(std::move(run)));
+    for (const char* words : {"Certificates of channels", "T-551", "2025-12-31 (expired)", "0.08"})
+        EXPECT_THAT(page, HasSubstr(words));
+}
+
 TEST(CircularWording, WritesSentencesInTheSignsOfPaper) {
     EXPECT_EQ(sentence_on_paper("enclose 22 urad (4.5 arcsec) more than 90 deg: at 135/315 deg,"),
               "enclose 22 µrad (4.5″) more than 90°: at 135/315°,");

@@ -2,10 +2,13 @@
 #include "acquisition/publish/report/wording.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "tests/unit/analysis/rotary_truth.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <regex>
 
 namespace axiscal {
 namespace {
@@ -176,6 +179,22 @@ TEST_F(Report, PrintsTheSimulatedUBesideTheFormula) {
     EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("simulated")));
 }
 
+TEST_F(Report, StatesTheLargestSynchronisationErrorInWords) {
+    Certificate certificate = test::certificate_of(test::synthetic_run());
+    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("not stated"));
+    auto& records = certificate.attachments.synchronisation;
+    records = {{3, "serial/0/1", Synchronisation{std::chrono::microseconds{7}, 0.01234}},
+               {4, "serial/0/1", Synchronisation{std::chrono::microseconds{90}, 0.002}},
+               {5, "serial/0/1", std::nullopt}};
+    const std::string text =
+        test::text_of(test::write_pdf(folder_, *render_certificate_pdf(certificate)));
+    EXPECT_THAT(text, HasSubstr("at most 0.0124 µm (at point 4)")); // rounded up
+    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("Not stated for 109 of 111"));
+    records = {{-1, "serial/0/1", Synchronisation{std::chrono::microseconds{7}, 1e-6}}};
+    EXPECT_THAT(synchronisation_words(certificate),
+                HasSubstr("less than 0.0001 µm (at the datum)"));
+}
+
 TEST_F(Report, SaysHowTheBeamWasAligned) {
     Certificate certificate = test::certificate_of(test::synthetic_run());
     const auto text = [&] {
@@ -196,6 +215,19 @@ TEST_F(Report, SaysHowTheBeamWasAligned) {
     alignment.places.clear();
     EXPECT_THAT(text(), HasSubstr("or more: the maximum was not passed"));
     EXPECT_THAT(text(), HasSubstr("not told by the instrument"));
+}
+
+TEST_F(Report, PrintsTheCertificatesOfChannels) {
+    RunRecord run = test::synthetic_run();
+    EXPECT_EQ(count(test::text_of(render(run)), "Certificates of channels"), 0);
+    ChannelCalibration air;
+    air.channel = 2, air.certificate_number = "K-88123-P", air.due_on = "2020-03-02";
+    air.expanded_uncertainty = 15, air.corrections = {{90'000, -20}, {101'300, 12.5}};
+    run.calibrations = {air};
+    const std::string text = test::text_of(render(run));
+    for (const char* words : {"Certificates of channels", "K-88123-P", "(expired)", "0.15 hPa",
+                              "900 hPa", "\u22120.2", "1013 hPa", "+0.125", "by table"})
+        EXPECT_THAT(text, HasSubstr(words));
 }
 
 TEST_F(Report, HoldsUAgainstItsStatedTarget) {
@@ -238,6 +270,61 @@ TEST_F(Report, SaysOnEachPageWhatIsMissing) {
     run.material.standard_uncertainty.reset();
     EXPECT_THAT(test::text_of(render(run)),
                 HasSubstr("device, alignment, temperature, expansion, drift"));
+}
+
+/// Fields are set wide apart; a blank between their words is one here.
+std::string close_set(const std::string& text) {
+    return std::regex_replace(text, std::regex{" +"}, " ");
+}
+
+RunRecord rotary_run() {
+    RunRecord run = test::truth_with_a_bad_table().run();
+    run.statements = test::synthetic_statements();
+    run.statements.axis = "C";
+    run.instruments = test::synthetic_instruments();
+    run.instruments.push_back({"indexing table", "none", "", "1440", "T-7", "", "W-12", "", ""});
+    return run;
+}
+
+TEST_F(Report, OfARotaryAxisIsInDegreesAndSecondsOfArc) {
+    RunRecord run = rotary_run();
+    run.rotary->run_out = "8 µm at a radius of 100 mm";
+    run.uncertainty = UncertaintySetup{};
+    const Certificate certificate = test::certificate_of(run);
+    const std::string text = close_set(test::text_of(render(run)));
+    EXPECT_THAT(text, HasSubstr("Rotary positioning"));
+    for (const ParameterLine& line : parameters_of_both_directions(certificate.result.parameters))
+        EXPECT_THAT(text, HasSubstr(fixed(*line.value * 3600, 1))) << line.symbol;
+    for (const char* words : {"Value, ″", "0.000 to 318.800 °", "Measurement of the angle",
+                              "72 positions of 5.0000°", "Distance of the reflectors S 32.6100 mm",
+                              "8 µm at a radius of 100 mm", "T-7", "W-12", "counted with the axis"})
+        EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_EQ(count(text, "Run-out of the set-up 8 µm"), 2); // on page 1 and beside the artefact
+    for (const char* words : {"Compensation to 20 °C", "Expansion coefficient", "Dead path"})
+        EXPECT_THAT(text, Not(HasSubstr(words)));
+    EXPECT_EQ(count(text, "PRELIMINARY, not stated: device, drift"), test::pages_of(render(run)));
+}
+
+TEST_F(Report, OfARotaryAxisSaysWhatIsNotStatedOfItsSetUp) {
+    RunRecord run = rotary_run();
+    run.rotary->deviations_arcsec.clear();
+    const std::string text = close_set(test::text_of(render(run)));
+    EXPECT_EQ(count(text, "Run-out of the set-up not stated"), 2);
+    EXPECT_THAT(text, HasSubstr("not stated, taken as 0"));
+    EXPECT_THAT(text, HasSubstr("deviations of the indexing table are not stated"));
+}
+
+TEST_F(Report, OfARotaryAxisPrintsTheBudgetOfAnnexB) {
+    RunRecord run = rotary_run();
+    UncertaintySetup& stated = run.uncertainty.emplace();
+    stated.device_U.fixed = mm(1.2 / 3600);
+    stated.eve = mm(0.6 / 3600);
+    stated.targets = {{"E", mm(0.5 / 3600)}};
+    const std::string text = test::text_of(render(run));
+    EXPECT_EQ(count(text, "PRELIMINARY"), 0);
+    for (const char* words : {"annex B", "U_cal = 1.2″, k = 2", "E_VE = 0.6″",
+                              "U is above its stated target U_T for E"})
+        EXPECT_THAT(text, HasSubstr(words));
 }
 
 TEST_F(Report, PrintsNotStatedForEveryEmptyField) {

@@ -77,6 +77,31 @@ TEST(CircleOrder, AfterARestartTheNextCircleFollowsAWholeOne) {
     EXPECT_EQ(fresh.judge(request(1)).answer, CircleAnswer::begin);
 }
 
+TEST(CircleOrder, ByTriggerBothEndsOfEachArcAreWords) {
+    CircularPlan plan;
+    plan.start = StartMethod::trigger;
+    CircleOrder order{plan};
+    const char* told[] = {"Circle 1 of 2 begins: ccw",   "The arc of circle 1 begins.",
+                          "The arc of circle 1 ends.",   "Circle 2 of 2 begins: cw",
+                          "The arc of circle 2 begins.", "The arc of circle 2 ends."};
+    for (std::uint16_t sequence = 1; sequence <= 6; ++sequence) {
+        const auto verdict = order.judge(request(sequence));
+        EXPECT_EQ(verdict.answer, CircleAnswer::begin);
+        EXPECT_NE(verdict.sentence.find(told[sequence - 1]), std::string::npos);
+        order.durable();
+        EXPECT_EQ(order.begun(), sequence <= 3 ? 1 : 2);
+    }
+    EXPECT_EQ(order.judge(request(7)).answer, CircleAnswer::end);
+    order.durable();
+    EXPECT_EQ(order.begun(), 2);
+    CircleOrder cut{plan, {5, false}};                            // died within the arc of circle 2
+    EXPECT_EQ(cut.judge(request(5)).answer, CircleAnswer::again); // it stands there still
+    EXPECT_EQ(cut.judge(request(7)).answer, CircleAnswer::broken);
+    EXPECT_EQ(cut.judge(request(4)).answer, CircleAnswer::begin); // a person began it again
+    cut.durable();
+    EXPECT_EQ(cut.judge(request(5)).answer, CircleAnswer::begin);
+}
+
 TEST(CircleOrder, APersonStepsThroughWithoutNumbersAndDwellsMeanNothing) {
     CircleOrder order = order_of_two();
     TriggerEvent dwell = request(1);

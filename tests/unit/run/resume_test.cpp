@@ -91,6 +91,20 @@ TEST(Resume, NeedsTheSameStationFileInstrumentAndBoot) {
     EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_datum_lost);
 }
 
+TEST(Resume, OutsideTheLimitsOfTheEnvironmentTheRunIsClosedWithThatReason) {
+    auto now = same_station(200);
+    now.outside_limits = "air/air temperature shows 27.3 degC, 25 degC at most are allowed";
+    const auto verdict = decide_resume(run_with_points(3), 4, now);
+    EXPECT_EQ(verdict.decision, ResumeDecision::close_environment);
+    EXPECT_EQ(verdict.fault, Fault::environment_outside);
+    EXPECT_NE(verdict.sentence.find("The environment is out of limits: air/air temperature"),
+              std::string::npos)
+        << verdict.sentence;
+    now.laser.reset();
+    EXPECT_EQ(decide_resume(run_with_points(3), 4, now).decision, ResumeDecision::close_datum_lost)
+        << "what nothing can bring back is told first";
+}
+
 TEST(Resume, TellsHowTheDatumWasProven) {
     const auto verdict = decide_resume(run_with_points(3), 4, same_station(200.5));
     EXPECT_NE(verdict.sentence.find("its number advanced by 40000 in 40 s, 40000 were due"),

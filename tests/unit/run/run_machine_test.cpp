@@ -435,6 +435,23 @@ TEST(Disk, ARecordThatItRefusedIsWrittenWhenItIsBack) {
     EXPECT_TRUE(bench.point(3).saw<Acknowledge>());
 }
 
+TEST(Disk, WhatIsKnownOfTheTimeOfACaptureGoesWithItAlsoTheSecondTime) {
+    constexpr Synchronisation known{std::chrono::microseconds{48}, 12e-6};
+    Bench bench;
+    bench.arm().point(1).trigger(2);
+    EXPECT_FALSE(bench.machine.view().last_synchronisation) << "of point 1: not stated";
+    auto capture = bench.capture_at(bench.open_window.expected);
+    capture.synchronisation = known;
+    bench.window(std::move(capture));
+    ASSERT_TRUE(bench.the<CommitPoint>().synchronisation);
+    EXPECT_EQ(bench.the<CommitPoint>().synchronisation->error_um, known.error_um);
+    EXPECT_EQ(bench.machine.view().last_synchronisation->error_um, known.error_um);
+    bench.give(CommitFailed{"No space left.", bench.tick()});
+    bench.give(DiskBack{disk_with_points(1), bench.tick()});
+    ASSERT_TRUE(bench.the<CommitPoint>().synchronisation);
+    EXPECT_EQ(bench.the<CommitPoint>().synchronisation->error_um, known.error_um);
+}
+
 TEST(Disk, ARecordThatIsThereAfterAllIsAcknowledgedAndNotWrittenTwice) {
     Bench bench;
     bench.arm().point(1).trigger(2).window_here();

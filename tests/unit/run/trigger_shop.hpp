@@ -98,6 +98,8 @@ inline PortOnPaper port_of(TriggerShape shape, Duration index_grace) {
 /// The daemon as the run machine sees it. Dying loses all but the disk.
 class Station {
 public:
+    static constexpr Duration woken_late = milliseconds{10}; ///< for what is due
+
     /// `index_grace`: longer than one pass of the client, as docs/trigger.md asks.
     Station(VirtualClock& on, Dice& with, Axis& watched, TriggerShape of_shape, Duration grace)
         : clock{on}
@@ -176,7 +178,7 @@ private:
     }
     /// Only an edge of the coil waits for time to pass.
     void tick_map_later() {
-        clock.after(index_grace + port.map->ticks(), [this, of = life] {
+        clock.after(index_grace + woken_late, [this, of = life] {
             if (of == life) deliver(port.map->tick(clock.now()));
         });
     }

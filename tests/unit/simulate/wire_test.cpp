@@ -35,6 +35,17 @@ TEST(Pty, NobodyReadingNeverBlocksAndIsCounted) {
     EXPECT_GT(pty->dropped(), 0U);
 }
 
+TEST(Pty, KeepsAsMuchForALateReaderAsItWasTold) {
+    const ScratchFolder scratch;
+    auto pty = Pty::open((scratch.path / "tty").string());
+    ASSERT_TRUE(pty);
+    pty->keep(1'000'000);
+    const std::string record(100, 'x');
+    for (int i = 0; i < 5000; ++i) // 500 kB: too many without
+        pty->write(record);
+    EXPECT_EQ(pty->dropped(), 0U);
+}
+
 TEST(Pty, KeepsEverythingForAReaderThatIsLate) {
     const ScratchFolder scratch;
     const std::string link = (scratch.path / "tty").string();

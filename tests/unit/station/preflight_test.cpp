@@ -83,6 +83,34 @@ protected:
     std::vector<Sample> samples;
 };
 
+TEST_F(Preflight, TheEnvironmentIsHeldToTheLimitsThatAreStated) {
+    config.environment.air_temperature = {18, 25, {}};
+    config.environment.material_temperature = {{}, 20.55, {}};
+    expect_failure(facts(), "environment",
+                   "material/right shows 20.6 degC, 20.55 degC at most are allowed");
+    config.environment.material_temperature.high = 21;
+    EXPECT_TRUE(named(judge_preflight(facts()), "environment").passed);
+    config.environment.air_temperature.high = 20.9;
+    expect_failure(facts(), "environment",
+                   "air/temperature shows 21 degC, 18 degC to 20.9 degC are allowed");
+    config.environment.air_temperature = {21.1, {}, {}};
+    expect_failure(facts(), "environment", "21.1 degC and more are allowed");
+}
+
+// 0.02 K a minute are 1.2 K an hour.
+TEST_F(Preflight, TheEnvironmentMayChangeSoMuchInAnHour) {
+    read([](double minutes) { return 20.0 + 0.02 * minutes; }, [](double) { return 20.5; },
+         [](double) { return 20.6; });
+    config.preflight.soak_change = kelvin(1);
+    config.environment.air_temperature.change_per_hour = 1.3;
+    EXPECT_TRUE(named(judge_preflight(facts()), "environment").passed);
+    config.environment.air_temperature.change_per_hour = 1.1;
+    expect_failure(facts(), "environment",
+                   "air/temperature changes by 1.2 K an hour, 1.1 K are allowed");
+    config.environment.change_window = 30min; // the sensor has been read for 20 minutes
+    EXPECT_TRUE(named(judge_preflight(facts()), "environment").passed) << "not judged yet";
+}
+
 TEST_F(Preflight, AllHoldInAShopAtRest) {
     for (const PreflightRecord& check : judge_preflight(facts()))
         EXPECT_TRUE(check.passed) << check.name << ": " << check.verdict;
@@ -213,6 +241,11 @@ TEST_F(Preflight, TheStateOfTheMachineIsAskedFor) {
 TEST_F(Preflight, AnInstrumentOutOfDateIsNamed) {
     config.instruments[1].due_on = "2026-11-20";
     expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");
+    config.instruments[2].channels.emplace_back().channel = "contact 1";
+    config.instruments[2].channels.back().calibration.due_on = "2026-11-19";
+    expect_failure(facts(), "certificates",
+                   "material/contact 1 was due for calibration on 2026-11-19");
+    config.instruments[2].channels.clear();
     auto others = facts();
     others.in_use = {"laser", "material"};
     EXPECT_TRUE(named(judge_preflight(others), "certificates").passed) << "nobody needs it";

@@ -56,6 +56,14 @@ TEST_F(Roles, TheBallbarIsAnyChannelOfALength) {
     EXPECT_FALSE(resolve_ballbar({"air", "pressure"}, channels));
 }
 
+TEST_F(Roles, ALaserWithCorrectionsIsRefused) {
+    channels[0].calibration.corrections = {{0, 0}, {1, 1e-6}};
+    expect_refused(Fault::bad_configuration, "\"laser/axis 1\" has corrections");
+    channels[0].calibration.corrections.clear();
+    channels[0].correction = 1e-6;
+    expect_refused(Fault::bad_configuration, "\"laser/axis 1\" has corrections");
+}
+
 TEST_F(Roles, AnAirChannelIsRefusedAsMaterial) {
     axis.material_temperature = {{"air", "temperature"}};
     expect_refused(Fault::wrong_medium, "medium 'air' but must have 'material'");

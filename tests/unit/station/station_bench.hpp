@@ -6,6 +6,8 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/station/station.hpp"
+#include "drivers/link/arrival.hpp"
+#include "drivers/link/doorbell.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 
@@ -70,7 +72,16 @@ public:
     Task<Result<void>> run(InstrumentContext context) override {
         ++opened;
         opened_at.push_back(context.scheduler->now());
-        if (unplugged) co_return fail(Fault::link_closed, "no such device");
+        if (unplugged && !link) co_return fail(Fault::link_closed, "no such device");
+        if (link) {
+            const auto link_open = co_await context.links->open(*link, context.scheduler->now());
+            if (!link_open) co_return tl::unexpected<Error>(link_open.error());
+        }
+        if (asks_the_next_too) {
+            const auto next =
+                co_await context.links->open(*asks_the_next_too, context.scheduler->now());
+            if (!next) co_return fail(Fault::link_timeout, "no answer");
+        }
         context.sink->identify({"Maker", "Model", serial, "1.0"});
         for (;;) {
             co_await context.scheduler->sleep_for(send_every);
@@ -82,13 +93,17 @@ public:
         }
     }
 
-    Duration send_every; ///< the device may leave out some of its numbers
+    Duration send_every;              ///< the device may leave out some of its numbers
+    std::optional<LinkSettings> link; ///< opened first, where there is one
+    /// Mute: the next device is asked whether it is the wanted one.
+    std::optional<LinkSettings> asks_the_next_too;
     bool unplugged = false, silent = false;
     Quality quality = Quality::good;
     std::uint32_t epoch = 0;
     std::uint64_t modulus = 0;
     bool number_wraps = false;
     MonotonicTime switched_on{}; ///< its number counts from here
+    Duration time_uncertainty{}; ///< u(t) of each sample; 0: it states none
     std::string serial = "S-1";
     int opened = 0, notes_each_period = 0, noted = 0;
     std::vector<MonotonicTime> opened_at;
@@ -103,10 +118,13 @@ private:
         // The device numbers by its own clock: a daemon that restarts finds it further on.
         auto count = static_cast<std::uint64_t>((now - switched_on) / period_);
         if (number_wraps) count = first_count(count) + count - first_number_;
-        for (int channel = 0; channel < static_cast<int>(channels_.size()); ++channel)
-            sink.take(quality == Quality::good
-                          ? Sample{channel, now, reading_(channel, now), count, epoch}
-                          : Sample::bad(channel, now, quality, count, epoch));
+        for (int channel = 0; channel < static_cast<int>(channels_.size()); ++channel) {
+            Sample sample = quality == Quality::good
+                                ? Sample{channel, now, reading_(channel, now), count, epoch}
+                                : Sample::bad(channel, now, quality, count, epoch);
+            sample.time_uncertainty = time_uncertainty;
+            sink.take(sample);
+        }
     }
     std::vector<Channel> channels_;
     Duration period_;
@@ -123,7 +141,7 @@ public:
         ++runs;
         try {
             while (!broken)
-                co_await context.scheduler->sleep_for(100ms);
+                co_await context.scheduler->sleep_for(looks_every);
         } catch (const std::exception&) { // cancelled: the way a port ends
         }
         if (broken) co_return fail(Fault::io, "the address is taken");
@@ -142,12 +160,16 @@ public:
     void refuse(std::uint16_t sequence, Fault fault) override {
         refusals.emplace_back(sequence, fault);
     }
-    void publish(const PortStatus& of) override { status = of; }
+    void publish(const PortStatus& of) override {
+        status = of;
+        ++published;
+    }
     [[nodiscard]] std::string describe() const override { return "scripted"; }
 
     TriggerSink* sink = nullptr;
+    Duration looks_every = 100ms; ///< whether it is broken
     bool broken = false, ended = false;
-    int runs = 0, armed = 0;
+    int runs = 0, armed = 0, published = 0;
     std::uint16_t done = 65535;
     std::optional<std::uint16_t> done_before_open;
     std::vector<std::uint16_t> acknowledged;
@@ -155,11 +177,41 @@ public:
     PortStatus status;
 };
 
-class NoLinks final : public LinkOpener {
+/// Opens what is plugged in, and tells who waits for it when it comes. The links are empty: made
+/// instruments read nothing from them.
+class PlugBoard final : public LinkOpener, public PlugListener {
 public:
-    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings&, MonotonicTime) override {
-        co_return fail(Fault::io, "no links here");
+    Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
+                                                 MonotonicTime) override {
+        ++openings;
+        if (!is_there(settings)) co_return fail(Fault::link_closed, "no such device");
+        co_return std::unique_ptr<ByteLink>{};
     }
+    Task<bool>
+    worth_another_try(Scheduler& scheduler, LinkSettings settings, RetryTimes times) override {
+        if (deaf || is_there(settings)) {
+            co_await scheduler.sleep_until(times.usual);
+            co_return false;
+        }
+        const auto bell = std::make_shared<Doorbell>(scheduler.executor());
+        waiting_.push_back(bell);
+        co_await bell->wait(scheduler, times.latest);
+        co_return plugged;
+    }
+    void plug_in() {
+        plugged = true;
+        for (const auto& bell : std::exchange(waiting_, {}))
+            bell->ring();
+    }
+    static constexpr const char* nowhere = "/dev/nowhere";
+    bool plugged = true, deaf = false;
+    int openings = 0;
+
+private:
+    [[nodiscard]] bool is_there(const LinkSettings& settings) const {
+        return plugged && settings.path != nowhere;
+    }
+    std::vector<std::shared_ptr<Doorbell>> waiting_;
 };
 
 /// What outlives a daemon: the folder, the machine, the time.
@@ -173,13 +225,19 @@ struct Shop {
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
     bool port_broken = false;
+    Duration port_looks_every = 100ms;
+    bool linked = false; ///< each instrument opens a link of Life::links
     /// Reading of a ballbar in metres, 1 kHz; none: the station has no ballbar.
     std::function<double(MonotonicTime)> ballbar;
     MonotonicTime ballbar_switched_on{};
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
 
+    /// What the laser reads, in place of the moving axis in air.
+    std::function<double(MonotonicTime)> reading_m;
+
     [[nodiscard]] double laser_m(MonotonicTime at) const {
+        if (reading_m) return reading_m(at);
         return axis.at(at) * 1e-3 * (1 + 2.7e-4) + (drift_um ? drift_um(at) * 1e-6 : 0.0);
     }
 
@@ -242,7 +300,9 @@ struct Shop {
 /// One life of the daemon.
 class Life {
 public:
-    explicit Life(Shop& of, const std::string& report = "/nonexistent/axiscal-report")
+    explicit Life(Shop& of,
+                  const std::string& report = "/nonexistent/axiscal-report",
+                  Duration at_first = 2s)
         : shop{of} {
         scheduler.run_until(shop.now);
         station.emplace(scheduler, links, parts(report));
@@ -251,7 +311,7 @@ public:
                                   EXPECT_TRUE(result);
                                   started = true;
                               });
-        run(2s);
+        run(at_first);
     }
     ~Life() { shop.now = scheduler.now(); }
     Life(const Life&) = delete;
@@ -338,7 +398,7 @@ public:
 
     Shop& shop;
     VirtualScheduler scheduler; // before the station: its tasks end with the loop
-    NoLinks links;
+    PlugBoard links;
     BenchInstrument *laser = nullptr, *air = nullptr, *material = nullptr, *bar = nullptr;
     ScriptedPort* port = nullptr;
     std::optional<Station> station;
@@ -383,9 +443,13 @@ private:
             bar->switched_on = shop.ballbar_switched_on;
             made.instruments.push_back(std::move(length));
         }
+        if (shop.linked)
+            for (BenchInstrument* one : {laser, air, material})
+                one->link.emplace();
         auto scripted = std::make_unique<ScriptedPort>();
         port = scripted.get();
         port->broken = shop.port_broken;
+        port->looks_every = shop.port_looks_every;
         made.port = std::move(scripted);
         std::vector<StationChannel> channels;
         for (std::size_t i = 0; i < made.instruments.size(); ++i)

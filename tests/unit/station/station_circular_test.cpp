@@ -155,6 +155,32 @@ TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
     }
 }
 
+std::vector<double> readings_of_a_circle(Bay& bay) {
+    Life life{bay.shop};
+    EXPECT_TRUE(arm(life));
+    ask(life, 1);
+    drive(life, bay, Sense::ccw);
+    life.run(3s);
+    const auto stream = samples_of(contents_of(bay.shop).blocks, 0);
+    EXPECT_TRUE(stream);
+    return stream ? stream->value : std::vector<double>{};
+}
+
+TEST(StationCircular, TheTableOfTheTransducerIsInEachRecordedReading) {
+    Bay exact, stretched; // the second transducer shows 2 % too little; its certificate says so
+    CircleMachine& machine = stretched.machine;
+    stretched.shop.ballbar = [&machine](MonotonicTime at) { return machine.reading(at) / 1.02; };
+    ChannelConfig stated;
+    stated.channel = "ballbar";
+    stated.calibration.corrections = {{-0.1, -0.002}, {0, 0}, {0.1, 0.002}};
+    stretched.shop.config.instruments.back().channels.push_back(stated);
+    const std::vector<double> wanted = readings_of_a_circle(exact), found = readings_of_a_circle(stretched);
+    ASSERT_GE(wanted.size(), 3000U);
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        ASSERT_NEAR(found[i], wanted[i], 1e-15) << i;
+}
+
 TEST(StationCircular, TheStreamIsSeenWhileItIsRecorded) {
     Bay bay;
     Life life{bay.shop};
@@ -191,6 +217,35 @@ TEST(StationCircular, AFailedCheckHoldsTheTestUnlessAReasonIsGiven) {
                                          &PreflightRecord::name);
     ASSERT_NE(check, read.revisions.preflight.end());
     EXPECT_EQ(check->override_reason, "nobody knows");
+}
+
+TEST(StationCircular, AStationWithABallbarAndNoLaserMeasuresCirclesAlone) {
+    Bay bay;
+    AxisConfig& axis = bay.shop.config.axis;
+    axis.laser = axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
+    Life life{bay.shop};
+    const auto answer = life.begin_arm();
+    life.run(1s);
+    ASSERT_TRUE(*answer);
+    ASSERT_FALSE(**answer);
+    EXPECT_NE(describe((**answer).error()).find("--pass circular"), std::string::npos);
+    EXPECT_FALSE(life.station->align({}));
+    ASSERT_TRUE(arm(life));
+    std::uint16_t sequence = 0;
+    for (const Sense sense : {Sense::ccw, Sense::cw}) {
+        ask(life, ++sequence);
+        drive(life, bay, sense);
+    }
+    ask(life, 3);
+    life.run(1s);
+    EXPECT_EQ(life.status().run->state, "complete");
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.run.complete);
+    EXPECT_TRUE(read.run.laser.instrument.empty());
+    int lengths = 0;
+    for (const ChannelRecord& channel : read.run.channels)
+        lengths += channel.kind == ChannelKind::displacement ? 1 : 0;
+    EXPECT_EQ(lengths, 1); // the bar's
 }
 
 TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
@@ -286,7 +341,8 @@ void expect_both_circles(const Bay& bay, const std::string& told) {
     EXPECT_TRUE(read.run.complete) << read.run.closing_reason;
     const auto stream = samples_of(read.blocks, 0);
     ASSERT_TRUE(stream) << stream.error().detail;
-    const auto cut = cut_circles(*read.circular, *stream, circle_marks(read.run.events));
+    const auto cut =
+        cut_circles(*read.circular, *stream, circle_marks(read.circular->plan, read.run.events));
     ASSERT_TRUE(cut) << cut.error().detail;
     ASSERT_EQ(cut->size(), 2U);
     for (const CircleCapture& circle : *cut)

@@ -1,4 +1,5 @@
 // A second daemon on the state folder of the first.
+#include "tests/support/full_disk.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 namespace axiscal::testing {
@@ -43,6 +44,56 @@ TEST_F(StationResumes, DoneIsPublishedAgainBeforeThePortOpensAndTheRunGoesOn) {
     EXPECT_TRUE(run.complete);
     EXPECT_TRUE(check_complete(run));
     EXPECT_EQ(std::ranges::count(run.events, EventKind::resumed, &EventRecord::kind), 1);
+}
+
+TEST_F(StationResumes, OnAFullDiskTheRunWaitsForRoomAndGoesOnByItself) {
+    die_after(6);
+    std::optional<Life> life;
+    {
+        const FullDisk full;
+        life.emplace(shop);
+        EXPECT_TRUE(life->started) << "the station answers people meanwhile";
+        life->run(30s);
+        EXPECT_EQ(life->port->runs, 0) << "the CNC must not read a number that is not the run's";
+        EXPECT_FALSE(life->status().run);
+        EXPECT_EQ(life->notes_with("cannot be taken over yet"), 1) << "told once";
+        EXPECT_EQ(life->arm().error().fault, Fault::not_durable);
+    }
+    life->run_until([&] { return life->port->runs == 1; });
+    EXPECT_EQ(life->port->done_before_open, 6);
+    EXPECT_EQ(life->notes_with("The disk takes records again"), 1);
+    for (int step = 6; step < 10; ++step)
+        ASSERT_TRUE(life->take(step)) << step;
+    EXPECT_TRUE(check_complete(only_run()));
+    EXPECT_EQ(life->notes_with("cannot be taken over yet"), 1);
+}
+
+TEST_F(StationResumes, OnAFullDiskARunThatCannotGoOnIsClosedWhenThereIsRoom) {
+    die_after(6);
+    shop.config.text += "# one word more\n";
+    std::optional<Life> life;
+    {
+        const FullDisk full;
+        life.emplace(shop);
+        life->run(30s);
+        EXPECT_EQ(life->notes_with("station file was changed"), 0);
+    }
+    life->run_until([&] { return life->port->runs == 1; });
+    EXPECT_EQ(life->notes_with("station file was changed"), 1);
+    EXPECT_TRUE(summarize_run_file(shop.run_files().at(0))->closed);
+    life->ask(standing(6));
+    EXPECT_EQ(life->port->refusals.at(0),
+              (std::pair<std::uint16_t, Fault>{7, Fault::bad_configuration}));
+    EXPECT_TRUE(life->arm());
+}
+
+/// A file that nobody can read keeps nobody from working while the disk is well.
+TEST_F(StationResumes, AFileThatIsNoRunDoesNotKeepThePortShut) {
+    die_after(6);
+    write_bytes(shop.scratch.file("runs/strange.axiscal"), "somebody else's");
+    Life life{shop};
+    EXPECT_EQ(life.port->done_before_open, 6);
+    EXPECT_EQ(life.port->runs, 1);
 }
 
 TEST_F(StationResumes, AStandingRequestForTheNextPointIsCaptured) {
@@ -134,6 +185,23 @@ TEST_F(StationResumes, AChangedStationFileClosesTheRunAndTheWaitingCncIsTold) {
     EXPECT_EQ(life.port->refusals.at(0),
               (std::pair<std::uint16_t, Fault>{7, Fault::bad_configuration}));
     EXPECT_TRUE(life.arm());
+}
+
+TEST_F(StationResumes, AnEnvironmentOutOfLimitsClosesTheRunAndTheWaitingCncIsTold) {
+    shop.config.environment.air_temperature.high = 25;
+    die_after(6);
+    shop.warmth_K = [](MonotonicTime) { return 4.0; }; // the air shows 23 degC without
+    Life life{shop};
+    EXPECT_FALSE(life.status().run_open);
+    const RunRecord run = only_run();
+    EXPECT_FALSE(run.complete);
+    EXPECT_NE(run.closing_reason.find("The environment is out of limits: air/air temperature shows "
+                                      "27 degC, 25 degC at most are allowed"),
+              std::string::npos)
+        << run.closing_reason;
+    life.ask(standing(6));
+    EXPECT_EQ(life.port->refusals.at(0),
+              (std::pair<std::uint16_t, Fault>{7, Fault::environment_outside}));
 }
 
 TEST_F(StationResumes, AnotherLaserClosesTheRun) {

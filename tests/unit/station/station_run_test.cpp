@@ -1,9 +1,7 @@
 // The station from arming to the certificate, and what goes wrong on the way.
+#include "tests/support/full_disk.hpp"
 #include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
-
-#include <csignal>
-#include <sys/resource.h>
 
 namespace axiscal::testing {
 namespace {
@@ -50,6 +48,30 @@ TEST_F(StationRuns, EveryPointIsOnDiskWhenDoneSaysSo) {
         ASSERT_TRUE(run);
         EXPECT_EQ(run->points.size(), static_cast<std::size_t>(step + 1));
     }
+}
+
+// The reading moves by 0.5 um/s, the laser's time is known within 40 us.
+TEST_F(StationRuns, EachCaptureStatesItsSynchronisationErrorInTheRunFileAndTheStatus) {
+    shop.drift_um = [](MonotonicTime at) { return 0.5 * seconds_of(at.time_since_epoch()); };
+    Life life{shop};
+    life.laser->time_uncertainty = 40us;
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    ASSERT_TRUE(life.status().run->last_synchronisation_um);
+    EXPECT_NEAR(*life.status().run->last_synchronisation_um, 0.5 * 40e-6, 1e-9);
+    life.laser->time_uncertainty = 0us;
+    ASSERT_TRUE(life.take(1));
+    EXPECT_FALSE(life.status().run->last_synchronisation_um) << "not stated";
+    const auto file = read_run_file_contents(shop.run_files().at(0));
+    ASSERT_TRUE(file);
+    const auto& kept = file->attachments.synchronisation;
+    ASSERT_EQ(kept.size(), 3U);
+    EXPECT_EQ(kept[0].step, -1);
+    EXPECT_EQ(kept[1].step, 0);
+    EXPECT_EQ(kept[1].datum_id, file->run.points[0].datum_id);
+    ASSERT_TRUE(kept[0].stated && kept[1].stated);
+    EXPECT_NEAR(kept[1].stated->error_um, 0.5 * 40e-6, 1e-9);
+    EXPECT_FALSE(kept[2].stated);
 }
 
 // 2026-11-21: readings taken between two runs were kept and written into the next one.
@@ -110,6 +132,57 @@ TEST_F(StationRuns, AStaleSensorWithholdsThePointUntilItIsBack) {
     life.port->refusals.clear();
     EXPECT_TRUE(life.take(0));
     EXPECT_TRUE(life.status().run->last_fault.empty());
+}
+
+// The air shows 23 degC and what it warms up by.
+TEST_F(StationRuns, OutsideTheLimitsOfTheEnvironmentNothingIsCapturedUntilItIsBack) {
+    double warmth_K = 0;
+    shop.warmth_K = [&warmth_K](MonotonicTime) { return warmth_K; };
+    shop.config.environment.air_temperature.high = 25;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    warmth_K = 2.5;
+    life.run(60s);
+    EXPECT_FALSE(life.take(1));
+    EXPECT_EQ(life.port->refusals.at(0),
+              (std::pair<std::uint16_t, Fault>{2, Fault::environment_outside}));
+    EXPECT_EQ(life.status().run->last_fault, "environment_outside");
+    EXPECT_NE(life.status().run->last_sentence.find("air/air temperature shows 25.5 degC"),
+              std::string::npos);
+    EXPECT_TRUE(life.status().run_open);
+    EXPECT_EQ(life.notes_with("The environment is out of limits"), 1) << "told once";
+    warmth_K = 1;
+    life.run(15s);
+    EXPECT_EQ(life.notes_with("The environment is within its limits again"), 1);
+    life.port->refusals.clear();
+    for (int step = 1; step < 10; ++step)
+        ASSERT_TRUE(life.take(step)) << step;
+    EXPECT_EQ(life.status().run->state, "complete");
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_EQ(std::ranges::count(run->events, Fault::environment_outside, &EventRecord::fault), 2)
+        << "when it left its limits, and the request that was refused";
+}
+
+TEST_F(StationRuns, ARunThatWasArmedInSpiteOfTheEnvironmentIsNotHeldToItsLimits) {
+    shop.config.environment.air_temperature.high = 22;
+    {
+        Life life{shop};
+        const auto refused = life.arm();
+        ASSERT_FALSE(refused);
+        EXPECT_NE(refused.error().detail.find("environment: air/air temperature shows 23 degC"),
+                  std::string::npos)
+            << refused.error().detail;
+        ArmRequest request;
+        request.overrides["environment"] = "the hall stays warm until Monday";
+        ASSERT_TRUE(life.arm(request));
+        life.run(10s);
+        ASSERT_TRUE(life.take(0));
+    }
+    Life life{shop}; // and not after a restart
+    EXPECT_TRUE(life.status().run_open);
+    EXPECT_TRUE(life.take(1));
 }
 
 TEST_F(StationRuns, AMovingAxisTiesNoDatumAndTheNextArmDoes) {
@@ -188,23 +261,6 @@ TEST_F(StationRuns, ArmingNeedsLaserBeamAndEnvironment) {
     EXPECT_EQ(life.arm().error().fault, Fault::environment_stale);
     EXPECT_TRUE(shop.run_files().empty());
 }
-
-/// The disk is full for this process: no file may grow.
-class FullDisk {
-public:
-    FullDisk() {
-        ::signal(SIGXFSZ, SIG_IGN);
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit none{0, before_.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &none);
-    }
-    ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-
-private:
-    rlimit before_{};
-};
 
 TEST_F(StationRuns, AFullDiskAcknowledgesNothingUntilItHasRoomAgain) {
     Life life{shop};

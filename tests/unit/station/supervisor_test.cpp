@@ -138,6 +138,52 @@ TEST_F(Supervision, TheCorrectionOfTheCertificateIsAdded) {
     EXPECT_EQ(air->place, "beside the beam");
 }
 
+TEST_F(Supervision, TheTableOfTheCertificateIsAppliedAndStandsInTheRunFile) {
+    Shop other;
+    ChannelConfig stated; // the bench's air has 23 degC
+    stated.channel = "air temperature";
+    stated.calibration.corrections = {{20, 0.1}, {24, 0.3}};
+    stated.calibration.expanded_uncertainty = 0.05;
+    stated.calibration.due_on = "2027-03-02";
+    other.config.instruments[1].channels.push_back(stated);
+    Life corrected{other};
+    const auto channels = corrected.status().channels;
+    const auto air = std::ranges::find(channels, "air temperature", &ChannelView::channel);
+    EXPECT_DOUBLE_EQ(air->value.value(), 23.25);
+    ASSERT_TRUE(corrected.arm());
+    corrected.run(5s);
+    const auto run = read_run_file(other.run_files().at(0));
+    ASSERT_TRUE(run);
+    ASSERT_EQ(run->calibrations.size(), 1U);
+    const ChannelCalibration& recorded = run->calibrations[0];
+    const auto channel = std::ranges::find(run->channels, recorded.channel, &ChannelRecord::id);
+    ASSERT_NE(channel, run->channels.end());
+    EXPECT_EQ(channel->name, "air temperature");
+    EXPECT_EQ(recorded.corrections.size(), 2U);
+    EXPECT_EQ(recorded.expanded_uncertainty, 0.05);
+    EXPECT_EQ(recorded.due_on, "2027-03-02");
+    EXPECT_EQ(channel->correction, 0);
+    ASSERT_FALSE(run->environment.empty());
+    for (const EnvironmentReading& reading : run->environment)
+        if (reading.channel == recorded.channel) {
+            EXPECT_DOUBLE_EQ(reading.value, 23.25);
+        }
+}
+
+TEST_F(Supervision, AReadingBeyondTheTableIsToldOnce) {
+    Shop other;
+    ChannelConfig stated;
+    stated.channel = "air temperature";
+    stated.calibration.corrections = {{10, 0.1}, {20, 0.3}};
+    other.config.instruments[1].channels.push_back(stated);
+    Life beyond{other};
+    beyond.run(20s);
+    const auto channels = beyond.status().channels;
+    const auto air = std::ranges::find(channels, "air temperature", &ChannelView::channel);
+    EXPECT_DOUBLE_EQ(air->value.value(), 23.3);
+    EXPECT_EQ(beyond.notes_with("beyond the table"), 1);
+}
+
 TEST_F(Supervision, TheConfiguredNameStandsOnScreensAndInTheRunFile) {
     Shop other;
     ChannelConfig named, placed;

@@ -12,6 +12,7 @@ namespace axiscal::simulate {
 namespace {
 /// The servo period of a CNC: how often a waiting program looks at its inputs.
 constexpr double look_s = 0.001;
+constexpr int table_output = 6;
 } // namespace
 
 Result<std::string> read_program(const std::string& path) {
@@ -42,12 +43,14 @@ CncRunner::CncRunner(const Scenario& scenario,
                      CommandedAxis& axis,
                      CommandedPlane& plane,
                      CncLines& lines,
-                     SimClock clock)
+                     SimClock clock,
+                     CommandedAxis* table)
     : scenario_{scenario}
     , axis_{axis}
     , plane_{plane}
     , lines_{lines}
     , clock_{clock}
+    , table_{table}
     , motion_fault_{scenario.cnc ? scenario.cnc->motion_fault : ""} {}
 
 CncRunner::~CncRunner() {
@@ -163,6 +166,11 @@ void CncRunner::dwell(double seconds) {
 }
 
 void CncRunner::set_analog(int output, double value) {
+    if (output == table_output && table_ != nullptr && scenario_.indexing_table) {
+        const TableScenario& table = *scenario_.indexing_table;
+        table_->move(clock_.now_s(), value * table.step_deg, table.turn_deg_per_s);
+        return;
+    }
     lines_.set_analog(output, value, clock_.now_s());
 }
 

@@ -32,7 +32,8 @@ public:
               CommandedAxis& axis,
               CommandedPlane& plane,
               CncLines& lines,
-              SimClock clock);
+              SimClock clock,
+              CommandedAxis* table = nullptr);
     ~CncRunner() override;
     CncRunner(const CncRunner&) = delete;
     CncRunner& operator=(const CncRunner&) = delete;
@@ -69,6 +70,7 @@ private:
     CommandedPlane& plane_;
     CncLines& lines_;
     SimClock clock_;
+    CommandedAxis* table_;     ///< the indexing table, which hears analog output 6
     mutable std::mutex mutex_; ///< guards all below
     std::condition_variable wake_;
     std::string state_ = "idle", message_, motion_fault_;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace axiscal::simulate {
 
@@ -25,7 +26,7 @@ const Codes settled_g{170, 210, 400, 490, 540, 610, 611, 640, 900, 940};
 const Codes known_g{0, 10, 40, 800};
 /// Of a program for two axes: which plane, and centre words relative to the begin of an arc.
 const Codes settled_plane_g{180, 190, 911}, known_plane_g{20, 30};
-const Codes known_m{20, 300, 640, 650, 660, 680};
+const Codes known_m{20, 300, 640, 650, 660, 670, 680};
 
 struct Words {
     Codes g, m;
@@ -109,7 +110,7 @@ Result<void> check_words(const Words& w, int line, char axis, const std::string&
     if (w.g.contains(40) || w.g.contains(640)) used.insert('p');
     if (w.m.contains(640) || w.m.contains(650)) used.insert('p');
     if (w.m.contains(660)) used.insert({'p', 'l', 'q'});
-    if (w.m.contains(680)) used.insert({'e', 'q'});
+    if (w.m.contains(670) || w.m.contains(680)) used.insert({'e', 'q'});
     for (const auto& [letter, value] : w.values)
         if (!used.contains(letter))
             return at_line(line, std::string{"the word "} +
@@ -119,8 +120,8 @@ Result<void> check_words(const Words& w, int line, char axis, const std::string&
         return w.m.contains(m) && !w.values.contains(letter);
     };
     const bool missing = (w.g.contains(40) && !w.values.contains('p')) || needs(640, 'p') ||
-                         needs(650, 'p') || needs(660, 'p') || needs(660, 'l') || needs(680, 'e') ||
-                         needs(680, 'q');
+                         needs(650, 'p') || needs(660, 'p') || needs(660, 'l') || needs(670, 'e') ||
+                         needs(670, 'q') || needs(680, 'e') || needs(680, 'q');
     if (missing) return at_line(line, "a word that the code needs (P, L, E or Q) is missing");
     return {};
 }
@@ -128,6 +129,7 @@ Result<void> check_words(const Words& w, int line, char axis, const std::string&
 } // namespace
 
 struct LinuxcncProgram::State {
+    std::optional<std::pair<int, double>> with_next_way; ///< of M67: output and value
     Parameters parameters;
     std::optional<int> motion; ///< 0 or 10: the modal G0 or G1
     double feed_mm_per_min = 0;
@@ -282,7 +284,12 @@ LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions&
         if (w.g.contains(g)) state.motion = g;
     if (w.m.contains(640)) machine.set_digital(whole('p'), true);
     if (w.m.contains(650)) machine.set_digital(whole('p'), false);
+    if (w.m.contains(670)) state.with_next_way = std::pair{whole('e'), value('q')};
     if (w.m.contains(680)) machine.set_analog(whole('e'), value('q'));
+    const auto set_with_way = [&] {
+        if (const auto word = std::exchange(state.with_next_way, std::nullopt))
+            machine.set_analog(word->first, word->second);
+    };
     if (w.m.contains(660)) {
         const int mode = whole('l');
         if (mode != 0 && mode != 3 && mode != 4)
@@ -296,6 +303,7 @@ LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions&
         if (!state.motion || *state.motion == 0 || !(state.feed_mm_per_min > 0))
             return at_line(block.line, "a way in the plane needs G1, G2 or G3 and a feed");
         const bool arc = *state.motion > 10;
+        set_with_way();
         machine.trace({{value(plane_[0]), value(plane_[1])},
                        arc,
                        *state.motion == 30,
@@ -306,6 +314,7 @@ LinuxcncProgram::execute_words(const Block& block, State& state, MachineActions&
         if (!state.motion) return at_line(block.line, "an axis word without G0 or G1");
         if (*state.motion == 10 && !(state.feed_mm_per_min > 0))
             return at_line(block.line, "G1 with zero feed rate");
+        set_with_way();
         machine.move(value(axis_letter_), *state.motion == 0 ? 0 : state.feed_mm_per_min);
     }
     state.ended = w.m.contains(20) || w.m.contains(300);

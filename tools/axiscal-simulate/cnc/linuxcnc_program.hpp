@@ -1,7 +1,8 @@
 #pragma once
 // A part program in LinuxCNC's dialect, as far as the generated calibration programs use it:
-// G0 G1 G4 G17 G21 G40 G49 G54 G61 G64 G80 G90 G94, F, one axis letter, M2 M30, M64 M65 M66 M68,
-// parameters, expressions, o-words if/elseif/else/endif, while/endwhile, (ABORT,text), comments.
+// G0 G1 G4 G17 G21 G40 G49 G54 G61 G64 G80 G90 G94, F, one axis letter, M2 M30, M64 M65 M66 M67
+// M68, parameters, expressions, o-words if/elseif/else/endif, while/endwhile, (ABORT,text),
+// comments.
 // Any other word is refused with its line number before anything moves.
 
 #include "analysis/quantity/result.hpp"

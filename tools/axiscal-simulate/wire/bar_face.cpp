@@ -23,6 +23,12 @@ LaserScenario counter_of(const BallbarScenario& bar) {
     laser.rate_hz = bar.rate_hz;
     return laser;
 }
+
+/// A counter that is faster than this hands over what it has once a frame, as one behind USB does.
+constexpr double frame_s = 1e-3;
+/// A late reader finds everything of so long, in records of at most so many characters.
+constexpr double kept_s = 1.5;
+constexpr double longest_record = 64;
 } // namespace
 
 TrueCircle::TrueCircle(const BallbarScenario& bar, std::uint64_t seed)
@@ -54,21 +60,51 @@ BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const Comman
     , plane_{plane}
     , circle_{*scenario.ballbar, scenario.seed}
     , laser_{counter_of(*scenario.ballbar)}
-    , counter_{laser_} {}
+    , counter_{laser_} {
+    pty_.keep(static_cast<std::size_t>(counter_.rate_hz() * kept_s * longest_record));
+}
 
-void BarFace::feed(PlanePoint drive) {
+/// The next record; empty where the counter leaves one out.
+std::string BarFace::record(PlanePoint drive) {
     const double reading_mm = circle_.reading_mm(drive, sample_++);
     const double cycles = laser_.fold * reading_mm / (laser_.wavelength_nm * 1e-6);
-    const UmdRecord record = counter_.next(cycles);
-    if (behaviour() == Behaviour::on) pty_.write(encode(record));
+    const UmdRecord next = counter_.next(cycles);
+    if (left_out_ == 0) return encode(next);
+    --left_out_;
+    return {};
+}
+
+void BarFace::feed(PlanePoint drive) {
+    const std::lock_guard lock{mutex_};
+    const std::string one = record(drive);
+    if (behaviour() == Behaviour::on) pty_.write(one);
 }
 
 void BarFace::run(std::stop_token stop) {
+    const double rate_hz = counter_.rate_hz();
+    const auto together = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(rate_hz * frame_s));
+    const auto due_s = [&](std::uint64_t sample) { return static_cast<double>(sample) / rate_hz; };
     while (!stop.stop_requested()) {
-        const double due_s = static_cast<double>(sample_) / counter_.rate_hz();
-        std::this_thread::sleep_until(clock_.at(due_s));
-        feed(plane_.position(due_s));
+        std::this_thread::sleep_until(clock_.at(due_s(sample_ + together - 1)));
+        const std::lock_guard lock{mutex_};
+        std::string frame;
+        for (std::uint64_t i = 0; i < together; ++i)
+            frame += record(plane_.position(due_s(sample_)));
+        if (behaviour() == Behaviour::on) pty_.write(frame);
     }
+}
+
+void BarFace::leave_out(std::uint64_t records) {
+    const std::lock_guard lock{mutex_};
+    left_out_ += records;
+}
+
+nlohmann::json BarFace::status() const {
+    const std::lock_guard lock{mutex_};
+    return {{"path", path_},
+            {"samples", sample_},
+            {"sequence", counter_.sequence()},
+            {"dropped", pty_.dropped()}};
 }
 
 } // namespace axiscal::simulate

@@ -10,6 +10,8 @@
 #include "wire/pty.hpp"
 #include "wire/umd_counter.hpp"
 
+#include <mutex>
+
 namespace axiscal::simulate {
 
 /// What the bar sees of two axes with errors. One thread.
@@ -28,21 +30,29 @@ private:
 class BarFace final : public Face {
 public:
     BarFace(const Scenario& scenario, Pty pty, SimClock clock, const CommandedPlane& plane);
-    /// Free running: record k belongs to the instant k / rate, however late the thread wakes.
+    /// Free running: record k belongs to the instant k / rate, however late the thread wakes. What
+    /// comes within a millisecond is written together.
     void run(std::stop_token stop) override;
     /// One record of a machine that somebody else drives, in place of run().
     void feed(PlanePoint drive);
+    /// So many records are counted and never sent: their buffer was full.
+    void leave_out(std::uint64_t records);
     [[nodiscard]] nlohmann::json place() const override { return {{"path", path_}}; }
+    [[nodiscard]] nlohmann::json status() const override;
 
 private:
+    std::string record(PlanePoint drive);
+
     std::string path_;
+    mutable std::mutex mutex_; ///< guards all below while it runs
     Pty pty_;
     SimClock clock_;
     const CommandedPlane& plane_;
     TrueCircle circle_;
     LaserScenario laser_;
     UmdCounter counter_;
-    std::uint64_t sample_ = 0;
+    std::uint64_t sample_ = 0; ///< written by its own thread alone
+    std::uint64_t left_out_ = 0;
 };
 
 } // namespace axiscal::simulate

@@ -1,5 +1,6 @@
 #include "wire/laser_face.hpp"
 
+#include <cmath>
 #include <thread>
 
 namespace axiscal::simulate {
@@ -12,12 +13,14 @@ constexpr int flood_factor = 10;
 LaserFace::LaserFace(const Scenario& scenario,
                      Pty pty,
                      SimClock clock,
-                     std::function<double(double)> drive)
+                     std::function<double(double)> drive,
+                     std::function<double(double)> table)
     : Face{"laser"}
     , scenario_{scenario}
     , pty_{std::move(pty)}
     , clock_{clock}
     , drive_{std::move(drive)}
+    , table_{std::move(table)}
     , machine_{scenario}
     , counter_{scenario.laser} {
     if (scenario.laser.kind == "umd0") pty_.write("\r\nMinimalist Homodyne Test:\r\n");
@@ -39,9 +42,20 @@ void LaserFace::step(double drive_mm) {
     const std::lock_guard lock{mutex_};
     const double seconds = static_cast<double>(sample_) / counter_.rate_hz();
     slide_mm_ = machine_.slide_mm(drive_mm, seconds, sample_);
-    const UmdRecord record = counter_.next(machine_.cycles(slide_mm_, seconds));
+    const bool angular = scenario_.indexing_table.has_value();
+    const UmdRecord record =
+        counter_.next(angular ? cycles_over_table(seconds) : machine_.cycles(slide_mm_, seconds));
     ++sample_;
     write(encode(record));
+}
+
+/// The optics are square at the begin of the run, where the table stands at its position 0.
+double LaserFace::cycles_over_table(double seconds) {
+    const TableScenario& table = *scenario_.indexing_table;
+    const double table_deg = table_ ? table_(seconds) : 0;
+    const double rest = rest_deg(table, slide_mm_ - scenario_.axis.start_mm, table_deg);
+    counter_.set_beam(beam_ && std::abs(rest) <= table.range_deg);
+    return machine_.cycles_of_rest(rest, seconds);
 }
 
 void LaserFace::run(std::stop_token stop) {
@@ -70,6 +84,7 @@ nlohmann::json LaserFace::status() const {
 
 void LaserFace::set_beam(bool on) {
     const std::lock_guard lock{mutex_};
+    beam_ = on;
     counter_.set_beam(on);
 }
 

@@ -14,11 +14,13 @@ namespace axiscal::simulate {
 
 class LaserFace final : public Face {
 public:
-    /// drive(seconds): where the drive is commanded; must be thread-safe.
+    /// drive(seconds): where the drive is commanded; must be thread-safe. table(seconds): the same
+    /// of the indexing table, where there is one.
     LaserFace(const Scenario& scenario,
               Pty pty,
               SimClock clock,
-              std::function<double(double)> drive);
+              std::function<double(double)> drive,
+              std::function<double(double)> table = {});
 
     /// Free running: record k belongs to the instant k / rate, however late the thread wakes.
     void run(std::stop_token stop) override;
@@ -36,17 +38,19 @@ public:
 
 private:
     void step(double drive_mm);
+    double cycles_over_table(double seconds);
     void write(const std::string& record);
 
     Scenario scenario_;
     mutable std::mutex mutex_; ///< guards all below
     Pty pty_;
     SimClock clock_;
-    std::function<double(double)> drive_;
+    std::function<double(double)> drive_, table_;
     SimulatedMachine machine_;
     UmdCounter counter_;
     std::uint64_t sample_ = 0;
     double slide_mm_ = 0;
+    bool beam_ = true; ///< as commanded; it is lost beyond the range of an angular interferometer
 };
 
 } // namespace axiscal::simulate

@@ -13,8 +13,7 @@ namespace axiscal::simulate {
 
 namespace {
 
-/// As much as the tty layer of Linux keeps for a reader that is late: about 1.5 s of a laser.
-constexpr std::size_t largest_rest = 65536;
+/// 64 KiB are about as much of a laser at 1 kHz.
 constexpr auto patience = std::chrono::milliseconds{1500};
 
 std::error_code last_error() {
@@ -58,6 +57,7 @@ Pty::Pty(Pty&& other) noexcept
     , slave_{std::exchange(other.slave_, -1)}
     , link_{std::exchange(other.link_, "")}
     , rest_{std::move(other.rest_)}
+    , largest_rest_{other.largest_rest_}
     , dropped_{other.dropped_}
     , stuck_since_{other.stuck_since_} {}
 
@@ -86,7 +86,7 @@ void Pty::write(std::string_view record) {
     if (flush_rest()) return stuck_since_.reset();
     const auto now = std::chrono::steady_clock::now();
     if (!stuck_since_) stuck_since_ = now;
-    if (rest_.size() > largest_rest || now - *stuck_since_ >= patience) drop();
+    if (rest_.size() > largest_rest_ || now - *stuck_since_ >= patience) drop();
 }
 
 std::string Pty::read(std::chrono::milliseconds wait) {

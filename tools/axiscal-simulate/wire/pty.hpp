@@ -4,7 +4,9 @@
 
 #include "analysis/quantity/result.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,10 +25,12 @@ public:
     Pty(const Pty&) = delete;
     Pty& operator=(const Pty&) = delete;
 
-    /// A late reader finds everything of the last 1.5 s (64 KiB), as behind the kernel's tty layer.
-    /// What nobody reads for longer is thrown away as a whole, and counted once, so that the next
-    /// reader finds whole records and not an old hour.
+    /// A late reader finds everything of the last 1.5 s (64 KiB, or what `keep` says), as behind
+    /// the kernel's tty layer. What nobody reads for longer is thrown away as a whole, and counted
+    /// once, so that the next reader finds whole records and not an old hour.
     void write(std::string_view record);
+    /// A fast instrument: so many bytes for a late reader, if that is more.
+    void keep(std::size_t bytes) { largest_rest_ = std::max(largest_rest_, bytes); }
     /// What has come in, up to 4096 bytes; waits at most this long.
     std::string read(std::chrono::milliseconds wait);
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
@@ -41,6 +45,7 @@ private:
 
     int master_ = -1, slave_ = -1; ///< our own slave handle keeps the line raw between readers
     std::string link_, rest_;
+    std::size_t largest_rest_ = 65'536; ///< as much as the tty layer of Linux keeps
     std::uint64_t dropped_ = 0;
     std::optional<std::chrono::steady_clock::time_point> stuck_since_;
 };

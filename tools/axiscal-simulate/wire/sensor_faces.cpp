@@ -257,7 +257,7 @@ RegisterBank sensor_bank(const Scenario& scenario, const SensorScenario& sensor,
 
 double temperature_step_k(const SensorScenario& sensor) {
     if (sensor.kind == "vaisala-hmp" || sensor.kind == "labjack-t7") return 1e-5; // a float
-    if (sensor.kind == "vaisala") return 0.01;
+    if (sensor.kind == "vaisala" || sensor.kind == "temper-serial") return 0.01;
     if (sensor.kind == "ds18b20") return 0.0625;
     return sensor.kind == "dracal-vcp" ? std::pow(10.0, -sensor.fraction_digits) : 0.1;
 }

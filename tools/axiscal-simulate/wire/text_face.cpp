@@ -3,6 +3,7 @@
 #include "simulated_machine.hpp"
 #include "wire/gauge_line.hpp"
 #include "wire/pty.hpp"
+#include "wire/temper_line.hpp"
 #include "wire/vaisala_line.hpp"
 
 #include <functional>
@@ -63,7 +64,7 @@ void TextFace::run(std::stop_token stop) {
 } // namespace
 
 bool is_text_kind(const std::string& kind) {
-    return kind == "vaisala" || gauge_kinds.contains(kind);
+    return kind == "vaisala" || kind == "temper-serial" || gauge_kinds.contains(kind);
 }
 
 double gauge_reading_mm(const Scenario& scenario, double seconds) {
@@ -74,7 +75,21 @@ double gauge_reading_mm(const Scenario& scenario, double seconds) {
 
 namespace {
 
+/// Its probe lies on the machine, beside the first contact sensor.
+std::string answer_of_temper(const Scenario& scenario, std::string& typed, double seconds) {
+    const TrueAir air = air_at(scenario.air, seconds);
+    const auto& differences_k = scenario.thermal.sensor_difference_k;
+    const double off_k = differences_k.empty() ? 0 : differences_k.front();
+    const TemperTruth truth{air.temperature.in_celsius(), air.humidity.in(percent),
+                            scenario.thermal.material.at(seconds) + off_k};
+    return temper_answer(typed, truth);
+}
+
 TextFace::Answer answer_of(const Scenario& scenario, const std::string& kind) {
+    if (kind == "temper-serial")
+        return [scenario](std::string& typed, double seconds) {
+            return answer_of_temper(scenario, typed, seconds);
+        };
     if (kind != "vaisala")
         return [scenario, kind](std::string& typed, double seconds) {
             return gauge_answer(kind, typed, gauge_reading_mm(scenario, seconds));

@@ -37,6 +37,7 @@ public:
     void set_fields(int fields) { fields_ = fields; }
     void set_error_mask(int mask) { mask_ = mask; } ///< µMD1 only; 0: none
     [[nodiscard]] double rate_hz() const { return rate_hz_; }
+    [[nodiscard]] std::int64_t sequence() const { return sequence_; } ///< of the last record
     [[nodiscard]] bool heterodyne() const { return heterodyne_; }
 
 private:

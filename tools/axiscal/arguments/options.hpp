@@ -8,6 +8,7 @@
 #include "tools/axiscal/doctor_command.hpp"
 #include "tools/axiscal/drift_command.hpp"
 #include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/probing_command.hpp"
 #include "tools/axiscal/tape_commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -23,10 +24,12 @@ struct Options {
     std::string token_file;
     std::string config = "/etc/axiscal/station.toml";
     std::string file, out = ".", reason, certificate;
+    double reading_arcsec = 0;
     bool until_published = false, drivers = false;
     ArmOrder arm;
     AlignOrder align;
     DriftOrder drift;
+    ProbingOrder probing;
     std::vector<std::string> statements, overrides;
     RevisionOrder revision;
     bool exclude_instead = false;
@@ -45,6 +48,7 @@ using Command = std::function<int()>;
 /// Each adds the commands of one subject to `app`; the one that was called is put into `chosen`.
 void add_run_commands(CLI::App& app, Options& options, Command& chosen);
 void add_rest_commands(CLI::App& app, Options& options, Command& chosen);
+void add_probing_commands(CLI::App& app, Options& options, Command& chosen);
 void add_instrument_commands(CLI::App& app, Options& options, Command& chosen);
 void add_tape_commands(CLI::App& app, Options& options, Command& chosen);
 void add_paper_commands(CLI::App& app, Options& options, Command& chosen);

@@ -107,6 +107,15 @@ void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
                        "Capture the next point now; it is marked manual on the certificate")
         ->callback(
             [&] { chosen = [&] { return command_trigger(client_of(options), options.json); }; });
+    auto* reading = app.add_subcommand(
+        "reading", "Type what the autocollimator shows at the next face of the polygon");
+    reading->add_option("--arcsec", options.reading_arcsec, "the reading in seconds of arc")
+        ->required();
+    reading->callback([&] {
+        chosen = [&] {
+            return command_reading(client_of(options), options.reading_arcsec, options.json);
+        };
+    });
     auto* abort = app.add_subcommand("abort", "Close the run as incomplete; its file is kept");
     abort->add_option("--reason", options.reason, "stands in the run file");
     abort->callback([&] {
@@ -120,8 +129,8 @@ void add_run_commands(CLI::App& app, Options& options, Command& chosen) {
     add_arm_commands(app, options, chosen);
     add_revision_commands(app, options, chosen);
     add_watch_commands(app, options, chosen);
-    for (const char* name :
-         {"arm", "preflight", "retake", "exclude", "status", "watch", "trigger", "abort"})
+    for (const char* name : {"arm", "preflight", "retake", "exclude", "status", "watch", "trigger",
+                             "reading", "abort"})
         daemon_options(*app.get_subcommand(name), options);
 }
 

@@ -36,6 +36,7 @@ constexpr std::array modules{
     Module{"ftdi_sio", "FTDI serial adapters", ""},
     Module{"cdc_acm", "USB instruments with a serial port of their own", ""},
     Module{"usbhid", "TEMPer sticks", "temper"},
+    Module{"ch341", "TEMPerX232 sticks", "temper-serial"},
     Module{"gs_usb", "CAN adapters of the candleLight kind", ""},
     Module{"can_raw", "instruments on a CAN bus", "canopen"},
     Module{"ds2490", "1-Wire adapter DS9490R", "ds18b20"},

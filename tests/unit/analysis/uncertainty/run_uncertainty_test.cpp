@@ -95,6 +95,44 @@ TEST(RunUncertainty, TakesTheWidthOfTheCoefficientFromItsStandardUncertaintyAndS
     EXPECT_NE(known.remarks[0].find("2.08"), std::string::npos) << known.remarks[0];
 }
 
+/// Laser 0.4 um/m and material 0.06 K, both k = 2; air 0.1 K, 20 Pa and 4 %.
+void add_certificates(RunRecord& run) {
+    run.channels.push_back(
+        {0, "axis 1", run.laser.instrument, "", ChannelKind::displacement, Medium::none, 0});
+    const auto add = [&](int channel, double U) {
+        run.calibrations.emplace_back().channel = channel;
+        run.calibrations.back().expanded_uncertainty = U;
+    };
+    run.calibrations.emplace_back().expanded_uncertainty_per_m = 0.4e-6;
+    add(1, 0.1), add(2, 20), add(3, 4), add(4, 0.06), add(5, 0.06);
+}
+
+TEST(RunUncertainty, TakesDeviceAndTemperatureFromTheCertificatesWhereNothingIsStated) {
+    RunRecord run = stated_run();
+    run.uncertainty->device_U = {};
+    run.uncertainty->temperature_width.reset();
+    add_certificates(run);
+    const RunUncertainty known = uncertainty_of(run, 2);
+    EXPECT_TRUE(known.missing.empty());
+    // u of one metre: laser 0.2 um; by NIST's sensitivities of air 0.05 K x 0.945, 10 Pa x 0.0027,
+    // 2 % x 0.0085 um: sqrt(0.04 + 0.002233 + 0.000729 + 0.000289) = 0.20797 um; times 0.953 m.
+    EXPECT_NEAR(u_of(known, UncertaintyTerm::device), 0.20797 * 0.953, 0.001);
+    // u = 0.03 K of the material's worst sensor: 11.7 um/(m K) x 0.953 m x 0.03 K
+    EXPECT_NEAR(u_of(known, UncertaintyTerm::machine_temperature), 11.7 * 0.953 * 0.03, 1e-12);
+    EXPECT_EQ(known.remarks.size(), 2U);
+}
+
+TEST(RunUncertainty, TakesWhatIsStatedBeforeTheCertificates) {
+    RunRecord run = stated_run();
+    const RunUncertainty before = uncertainty_of(run, 2);
+    add_certificates(run);
+    const RunUncertainty known = uncertainty_of(run, 2);
+    for (const UncertaintyTerm term :
+         {UncertaintyTerm::device, UncertaintyTerm::machine_temperature})
+        EXPECT_EQ(u_of(known, term), u_of(before, term));
+    EXPECT_TRUE(known.remarks.empty());
+}
+
 TEST(RunUncertainty, LeavesOutEveryParameterOfWhichATermIsMissing) {
     RunRecord run = stated_run();
     run.uncertainty->misalignment.reset();

@@ -48,8 +48,8 @@ Result<int> open_socket(const std::string& interface) {
     return fail(Fault::io, "no CAN interface " + interface, cause);
 }
 
-/// A device does not wait for this computer: where it is allowed, its thread comes before all others
-/// and its pages stay.
+/// A device does not wait for this computer: where it is allowed, its thread comes before all
+/// others and its pages stay.
 void be_prompt() {
     sched_param urgent{};
     urgent.sched_priority = ::sched_get_priority_min(SCHED_FIFO);
@@ -134,8 +134,10 @@ void CanBus::look(double until_s) {
     const std::lock_guard lock{mutex_};
     can_frame raw{};
     for (int i = 0; i < 256 && ::read(socket_, &raw, sizeof raw) == sizeof raw; ++i) {
-        if ((raw.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) != 0) continue;
-        const CanMessage frame{raw.can_id, {raw.data, raw.data + std::min<int>(8, raw.can_dlc)}};
+        if ((raw.can_id & (CAN_EFF_FLAG | CAN_ERR_FLAG)) != 0) continue;
+        const bool remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+        const int bytes = remote ? 0 : std::min<int>(8, raw.can_dlc);
+        const CanMessage frame{raw.can_id & CAN_SFF_MASK, {raw.data, raw.data + bytes}, remote};
         for (Device& device : devices_)
             send(device.node->take(frame, clock_.now_s()));
     }

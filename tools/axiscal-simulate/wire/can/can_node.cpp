@@ -54,6 +54,7 @@ void CanNode::power_on(double now_s) {
     if (delivered_.empty()) delivered_ = objects_;
     objects_ = delivered_;
     waiting_.clear();
+    guard_toggle_ = 0;
     enter(pre_operational, now_s);
     waiting_.push_back({0x700 + node_, {0}});
 }
@@ -62,6 +63,7 @@ void CanNode::power_on(double now_s) {
 void CanNode::reset_communication(double now_s) {
     for (const auto& [key, object] : delivered_)
         if (key.first < 0x2000) objects_[key] = object;
+    guard_toggle_ = 0;
     enter(pre_operational, now_s);
     waiting_.push_back({0x700 + node_, {0}});
 }
@@ -122,6 +124,12 @@ void CanNode::obey(const CanMessage& frame, double now_s) {
 
 std::vector<CanMessage> CanNode::take(const CanMessage& frame, double now_s) {
     if (state_ == off) return {};
+    if (frame.remote) {
+        if (!guarded_ || frame.id != 0x700 + node_) return {};
+        const auto state = static_cast<std::uint8_t>(guard_toggle_ | state_);
+        guard_toggle_ ^= 0x80;
+        return {{0x700 + node_, {state}}};
+    }
     if (frame.id == 0) obey(frame, now_s);
     const bool asks = frame.id == 0x600 + node_ && frame.data.size() == 8 && state_ != stopped;
     if (!asks) return {};

@@ -1,7 +1,7 @@
 #pragma once
 // A CANopen device as the wire sees it: object dictionary, SDO server, network management,
-// heartbeat, emergency, TPDOs by time. A model: who carries its frames is not its business. All of
-// one node on one thread.
+// heartbeat or node guarding, emergency, TPDOs by time. A model: who carries its frames is not its
+// business. All of one node on one thread.
 //
 // Written from CiA 301 V4.2.
 
@@ -13,10 +13,11 @@
 
 namespace axiscal::simulate {
 
-/// A data frame with an 11-bit identifier.
+/// A frame with an 11-bit identifier.
 struct CanMessage {
     std::uint32_t id = 0;
-    std::vector<std::uint8_t> data; ///< at most 8
+    std::vector<std::uint8_t> data; ///< at most 8; none of a remote frame
+    bool remote = false;            ///< asks for the frame of this identifier
 };
 
 class CanNode {
@@ -37,12 +38,15 @@ public:
                   int event_ms,
                   const std::vector<std::uint32_t>& mapping);
 
+    /// Answers remote frames for its state, as a node does that has no heartbeat (7.2.8.3.2.1).
+    void put_guarding() { guarded_ = true; }
+
     void power_on(double now_s);
     void power_off() { state_ = off; }
     /// Answers to one frame of the bus.
     std::vector<CanMessage> take(const CanMessage& frame, double now_s);
-    /// What it sends by itself until now. A real device sends in time or not at all: what was due more
-    /// than 20 ms ago, because this computer stood still, is skipped and counted.
+    /// What it sends by itself until now. A real device sends in time or not at all: what was due
+    /// more than 20 ms ago, because this computer stood still, is skipped and counted.
     std::vector<CanMessage> advance(double now_s);
     [[nodiscard]] double next_due_s() const; ///< infinity: nothing by itself
     /// An emergency message, sent with the next advance().
@@ -82,6 +86,8 @@ private:
 
     std::uint32_t node_;
     State state_ = off;
+    bool guarded_ = false;
+    std::uint8_t guard_toggle_ = 0; ///< of the next answer
     std::map<Key, Object> objects_, delivered_;
     Upload upload_;
     std::vector<CanMessage> waiting_; ///< boot-up, emergencies

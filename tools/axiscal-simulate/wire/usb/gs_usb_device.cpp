@@ -8,7 +8,8 @@ namespace {
 
 enum Request : std::uint8_t { host_format = 0, bit_timing, mode, berr, limits, configuration };
 constexpr std::uint32_t from_bus = 0xFFFFFFFF; ///< echo id of a frame that the host did not send
-constexpr std::uint32_t error_flag = 0x20000000, bus_off_class = 0x40, long_id_flag = 0x80000000;
+constexpr std::uint32_t error_flag = 0x20000000, bus_off_class = 0x40, long_id_flag = 0x80000000,
+                        remote_flag = 0x40000000;
 constexpr std::size_t frame_size = 20, most_waiting = 4096;
 
 void put_little(Bytes& bytes, std::uint32_t value) {
@@ -97,7 +98,9 @@ UsbAnswer GsUsbDevice::out(std::uint8_t, std::span<const std::uint8_t> data) {
     const auto content = data.subspan(12, size);
     put(little(data, 0), little(data, 4), content);
     if ((little(data, 4) & long_id_flag) != 0) return UsbAnswer::done();
-    const CanMessage frame{little(data, 4), {content.begin(), content.end()}};
+    const bool remote = (little(data, 4) & remote_flag) != 0;
+    CanMessage frame{little(data, 4) & ~remote_flag, {}, remote};
+    if (!remote) frame.data.assign(content.begin(), content.end());
     for (const auto& node : nodes_)
         put_all(node->take(frame, now_s_()));
     return UsbAnswer::done();

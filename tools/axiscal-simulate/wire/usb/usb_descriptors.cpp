@@ -14,8 +14,15 @@ void append16(Bytes& bytes, std::uint16_t value) {
 
 void append(Bytes& bytes, const UsbInterface& interface, std::uint8_t number) {
     const auto endpoints = static_cast<std::uint8_t>(interface.endpoints.size());
-    const Bytes head{
-        9, 4, number, 0, endpoints, interface.its_class, interface.subclass, interface.protocol, 0};
+    const Bytes head{9,
+                     4,
+                     number,
+                     interface.alternate,
+                     endpoints,
+                     interface.its_class,
+                     interface.subclass,
+                     interface.protocol,
+                     0};
     bytes.insert(bytes.end(), head.begin(), head.end());
     bytes.insert(bytes.end(), interface.class_descriptors.begin(),
                  interface.class_descriptors.end());
@@ -57,14 +64,16 @@ Bytes device_descriptor(const UsbDescriptors& device) {
 
 Bytes configuration_descriptor(const UsbDescriptors& device) {
     Bytes inside;
-    std::uint8_t number = 0;
-    for (const UsbInterface& interface : device.interfaces)
-        append(inside, interface, number++);
+    std::uint8_t count = 0;
+    for (const UsbInterface& interface : device.interfaces) {
+        if (interface.alternate == 0) ++count;
+        append(inside, interface, static_cast<std::uint8_t>(count - 1));
+    }
     constexpr std::size_t head_size = 9;
     constexpr std::uint8_t bus_powered = 0x80, hundred_ma = 50;
     Bytes bytes{head_size, type_configuration};
     append16(bytes, static_cast<std::uint16_t>(head_size + inside.size()));
-    const Bytes rest{number, 1, 0, bus_powered, hundred_ma};
+    const Bytes rest{count, 1, 0, bus_powered, hundred_ma};
     bytes.insert(bytes.end(), rest.begin(), rest.end());
     bytes.insert(bytes.end(), inside.begin(), inside.end());
     return bytes;

@@ -28,6 +28,7 @@ struct UsbInterface {
     std::uint8_t its_class = 0xFF, subclass = 0, protocol = 0;
     Bytes class_descriptors = {}; ///< stand between the interface and its endpoints: HID, CDC
     std::vector<UsbEndpoint> endpoints = {};
+    std::uint8_t alternate = 0; ///< above 0: another setting of the interface before it
 };
 /// What the device says of itself at enumeration (USB 2.0, clause 9.6).
 struct UsbDescriptors {

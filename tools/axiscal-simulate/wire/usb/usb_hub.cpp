@@ -1,21 +1,40 @@
 #include "wire/usb/usb_hub.hpp"
 
+#include "wire/usb/gadget_carrier.hpp"
+#include "wire/usb/uhid_carrier.hpp"
+#include "wire/usb/vhci_port.hpp"
+
 #include <algorithm>
 #include <sstream>
 
 namespace axiscal::simulate {
 
+namespace {
+
+Result<std::unique_ptr<UsbCarrier>>
+carry(const UsbWish& wish, std::unique_ptr<UsbDevice> device, int& next_port) {
+    const std::string name = wish.text("called", wish.kind);
+    const std::string carrier = wish.text("carrier", "vhci");
+    if (carrier == "vhci") return std::make_unique<VhciPort>(next_port++, name, std::move(device));
+    if (carrier == "uhid") return std::make_unique<UhidCarrier>(name, std::move(device));
+    if (carrier == "dummy-hcd") return std::make_unique<GadgetCarrier>(name, std::move(device));
+    return fail(Fault::bad_request,
+                "\"" + carrier + "\" is none of the carriers vhci, uhid, dummy-hcd");
+}
+
+} // namespace
+
 Result<std::unique_ptr<UsbHub>>
 UsbHub::open(const std::vector<std::string>& wishes, const UsbWorld& world, int first_port) {
     auto hub = std::make_unique<UsbHub>();
+    int next_port = first_port;
     for (const std::string& text : wishes) {
         AXISCAL_TRY(const UsbWish wish, parse_usb_wish(text));
         AXISCAL_TRY(auto device, make_usb_device(wish, world));
-        const int port = first_port + static_cast<int>(hub->ports_.size());
-        hub->ports_.push_back(
-            std::make_unique<VhciPort>(port, wish.text("called", wish.kind), std::move(device)));
+        AXISCAL_TRY(auto carrier, carry(wish, std::move(device), next_port));
+        hub->carriers_.push_back(std::move(carrier));
         if (wish.text("plugged", "yes") == "no") continue;
-        auto plugged = hub->ports_.back()->plug();
+        auto plugged = hub->carriers_.back()->plug();
         if (!plugged) return tl::unexpected<Error>(plugged.error());
     }
     return hub;
@@ -23,8 +42,8 @@ UsbHub::open(const std::vector<std::string>& wishes, const UsbWorld& world, int 
 
 nlohmann::json UsbHub::status() const {
     nlohmann::json devices = nlohmann::json::object();
-    for (const auto& port : ports_)
-        devices[port->name()] = {{"plugged", port->plugged()}, {"state", port->state()}};
+    for (const auto& carrier : carriers_)
+        devices[carrier->name()] = {{"plugged", carrier->plugged()}, {"state", carrier->state()}};
     return {{"ready", true}, {"devices", devices}};
 }
 
@@ -32,9 +51,9 @@ Result<void> UsbHub::obey(const std::string& word, std::istream& arguments) {
     std::string name, fault;
     int number = 0;
     arguments >> name;
-    const auto found = std::find_if(ports_.begin(), ports_.end(),
-                                    [&](const auto& port) { return port->name() == name; });
-    if (found == ports_.end())
+    const auto found = std::find_if(carriers_.begin(), carriers_.end(),
+                                    [&](const auto& carrier) { return carrier->name() == name; });
+    if (found == carriers_.end())
         return fail(Fault::not_found, "no device is called \"" + name + "\"");
     if (word == "plug") return (*found)->plug();
     if (word == "unplug") return (*found)->unplug(), Result<void>{};

@@ -2,6 +2,7 @@
 
 #include "simulated_machine.hpp"
 #include "wire/can/can_instruments.hpp"
+#include "wire/usb/ds9490r_device.hpp"
 #include "wire/usb/gs_usb_device.hpp"
 #include "wire/usb/temper_device.hpp"
 #include "wire/usb/u6_device.hpp"
@@ -78,6 +79,22 @@ Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWor
     return std::make_unique<GsUsbDevice>(
         wish.text("serial", "003A00295553501420393933"),
         [clock = world.clock] { return clock.now_s(); }, std::move(nodes));
+}
+
+Result<std::unique_ptr<UsbDevice>> make_ds9490r(const UsbWish& wish, const UsbWorld& world) {
+    AXISCAL_TRY(const double sensors, number(wish, "sensors", "2"));
+    AXISCAL_TRY(const double bits, number(wish, "bits", "12"));
+    if (!(sensors >= 1 && sensors <= 8) || !(bits >= 9 && bits <= 12))
+        return fail(Fault::bad_request, "sensors are 1 to 8, bits 9 to 12");
+    auto bus = std::make_unique<OneWireBus>();
+    for (int sensor = 1; sensor <= static_cast<int>(sensors); ++sensor) {
+        auto celsius = [thermal = world.scenario.thermal, clock = world.clock] {
+            return material_at(thermal, clock.now_s()).in_celsius();
+        };
+        bus->add(std::make_unique<Ds18b20Chip>(static_cast<std::uint64_t>(sensor),
+                                               static_cast<int>(bits), std::move(celsius)));
+    }
+    return std::make_unique<Ds9490rDevice>(std::move(bus));
 }
 
 } // namespace axiscal::simulate

@@ -11,8 +11,11 @@ Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbW
 Result<std::unique_ptr<UsbDevice>> make_labjack_u6(const UsbWish& wish, const UsbWorld& world);
 /// TEMPer whose probe touches the scenario's material, stick in its air. Setting: firmware.
 Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWorld& world);
-/// CAN adapter with a transducer (node 127, at `mm`) and a thermometer (node 125) on its bus. Setting:
-/// serial.
+/// CAN adapter with a transducer (node 127, at `mm`) and a thermometer (node 125) on its bus.
+/// Setting: serial.
 Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWorld& world);
+/// 1-Wire adapter with DS18B20 thermometers on the scenario's material, 28-000000000001 and on.
+/// Settings: sensors (1 to 8), bits (9 to 12).
+Result<std::unique_ptr<UsbDevice>> make_ds9490r(const UsbWish& wish, const UsbWorld& world);
 
 } // namespace axiscal::simulate

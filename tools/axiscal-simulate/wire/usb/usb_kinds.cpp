@@ -17,6 +17,7 @@ constexpr std::array kinds{
     UsbKind{"cdc-acm", make_cdc_acm},   UsbKind{"ftdi", make_ftdi_uart},
     UsbKind{"usbtenki", make_usbtenki}, UsbKind{"labjack-u6", make_labjack_u6},
     UsbKind{"temper", make_temper},     UsbKind{"gs-usb", make_gs_usb},
+    UsbKind{"ds9490r", make_ds9490r},
 };
 
 } // namespace

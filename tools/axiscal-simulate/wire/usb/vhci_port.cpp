@@ -1,5 +1,7 @@
 #include "wire/usb/vhci_port.hpp"
 
+#include "wire/usb/urb_server.hpp"
+
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
@@ -34,9 +36,8 @@ int attach_with_patience(const std::string& line) {
 } // namespace
 
 VhciPort::VhciPort(int port, std::string name, std::unique_ptr<UsbDevice> device)
-    : port_{port}
-    , name_{std::move(name)}
-    , device_{std::move(device)} {}
+    : UsbCarrier{std::move(name), std::move(device)}
+    , port_{port} {}
 
 Result<void> VhciPort::plug() {
     if (plugged()) unplug();
@@ -44,7 +45,7 @@ Result<void> VhciPort::plug() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
         return fail(Fault::io, "no socket pair", {errno, std::generic_category()});
     constexpr int any_bus = 0x10001; // a device number of the far side, never 0
-    const int speed = static_cast<int>(device_->descriptors().speed);
+    const int speed = static_cast<int>(device().descriptors().speed);
     const std::string line = std::to_string(port_) + " " + std::to_string(ends[0]) + " " +
                              std::to_string(any_bus + port_) + " " + std::to_string(speed);
     const int failed = attach_with_patience(line);
@@ -52,23 +53,21 @@ Result<void> VhciPort::plug() {
     if (failed != 0) {
         ::close(ends[1]);
         return fail(Fault::io,
-                    name_ + " can not be plugged into socket " + std::to_string(port_) +
+                    name() + " can not be plugged into socket " + std::to_string(port_) +
                         " of vhci_hcd; is the module loaded, and is this root?",
                     {failed, std::generic_category()});
     }
-    pump_ = std::jthread{[this, socket = ends[1]](const std::stop_token& stop) {
-        UrbServer{*device_, faults_}.serve(socket, stop);
+    start_pump(std::jthread{[this, socket = ends[1]](const std::stop_token& stop) {
+        UrbServer{device(), faults()}.serve(socket, stop);
         ::close(socket);
-    }};
+    }});
     return {};
 }
 
 void VhciPort::unplug() {
     if (!plugged()) return;
     tell_controller("detach", std::to_string(port_));
-    pump_.request_stop();
-    pump_.join();
-    pump_ = {};
+    stop_pump();
 }
 
 } // namespace axiscal::simulate

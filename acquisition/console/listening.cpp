@@ -1,0 +1,76 @@
+#include "acquisition/console/listening.hpp"
+
+#include <cerrno>
+#include <grp.h>
+#include <optional>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+
+/// Empty when there is no such group.
+std::optional<gid_t> group_id(const std::string& name) {
+    std::vector<char> texts(1024);
+    group entry{};
+    group* found = nullptr;
+    while (::getgrnam_r(name.c_str(), &entry, texts.data(), texts.size(), &found) == ERANGE)
+        texts.resize(2 * texts.size());
+    return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
+}
+
+} // namespace
+
+Result<void> listen(asio::local::stream_protocol::acceptor& local, const ConsoleConfig& config) {
+    if (config.socket_path.empty()) return {};
+    boost::system::error_code error;
+    ::unlink(config.socket_path
+                 .c_str()); // left by a killed daemon; a running one is refused by its lock
+    local.open({}, error);
+    const mode_t before = ::umask(0117); // 0660 from the first moment
+    if (!error) local.bind(config.socket_path, error);
+    ::umask(before);
+    if (!error) local.listen(16, error);
+    if (error)
+        return fail(Fault::io,
+                    "cannot listen on " + config.socket_path +
+                        "; does its folder exist and may this user write there?",
+                    error);
+    if (config.group.empty()) return {};
+    const auto wanted = group_id(config.group);
+    if (!wanted)
+        return fail(Fault::io,
+                    "group '" + config.group +
+                        "' does not exist; create it (systemd-sysusers) or set console.group");
+    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), *wanted) != 0)
+        return fail(Fault::io, "cannot give " + config.socket_path + " to group " + config.group,
+                    {errno, std::generic_category()});
+    return {};
+}
+
+Result<void> listen(asio::ip::tcp::acceptor& tcp, ConsoleConfig& config) {
+    if (config.port == 0) return {};
+    boost::system::error_code error;
+    const auto address = asio::ip::make_address(config.host, error);
+    if (error)
+        return fail(Fault::bad_configuration,
+                    "console.host '" + config.host + "' is not an address");
+    const asio::ip::tcp::endpoint end{
+        address, static_cast<std::uint16_t>(config.port < 0 ? 0 : config.port)};
+    tcp.open(end.protocol(), error);
+    if (!error) tcp.set_option(asio::socket_base::reuse_address{true}, error);
+    if (!error) tcp.bind(end, error);
+    if (!error) tcp.listen(16, error);
+    if (error)
+        return fail(Fault::io,
+                    "cannot listen on " + config.host + ":" + std::to_string(config.port) +
+                        "; another program may hold the port (ss -ltnp)",
+                    error);
+    config.port = tcp.local_endpoint().port();
+    return {};
+}
+
+} // namespace axiscal

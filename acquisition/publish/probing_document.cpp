@@ -1,0 +1,134 @@
+#include "acquisition/publish/probing_document.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/row.hpp"
+#include "acquisition/journal/run_file.hpp"
+
+#include <bit>
+#include <cstdio>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T> Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json{};
+}
+
+/// SHA-256 of the figures, bit for bit.
+std::string digest_of(const std::vector<ProbingDelay>& results) {
+    std::string bytes = "axiscal.probing/1";
+    for (const ProbingDelay& result : results)
+        for (const double figure :
+             {result.variation_mm, result.variation_ms, static_cast<double>(result.touches),
+              result.period_ms.value_or(-1), result.reference_repeatability_mm.value_or(-1)})
+            put_u64(bytes, std::bit_cast<std::uint64_t>(figure));
+    return sha256_hex(bytes);
+}
+
+Json series_of(const ProbingDelay& result) {
+    Json object;
+    object["symbol"] = result.symbol;
+    object["direction"] = result.unit_direction;
+    object["touches"] = result.touches;
+    object["reference"] = result.reference;
+    object["variation_mm"] = result.variation_mm;
+    object["variation_ms"] = result.variation_ms;
+    object["standard_deviation_mm"] = or_null(result.standard_deviation_mm);
+    object["period_ms"] = or_null(result.period_ms);
+    object["period_standard_uncertainty_ms"] = or_null(result.period_standard_uncertainty_ms);
+    object["no_period"] = result.period_ms ? Json{} : Json(result.no_period);
+    object["reference_repeatability_mm"] = or_null(result.reference_repeatability_mm);
+    object["net_variation_mm"] = or_null(result.net_variation_mm);
+    return object;
+}
+
+Json series_list(const std::vector<ProbingDelay>& results) {
+    Json list = Json::array();
+    for (const ProbingDelay& result : results)
+        list.push_back(series_of(result));
+    return list;
+}
+
+Json run_of(const ProbingDocument& document) {
+    const RunRecord& run = document.run;
+    Json object;
+    object["id"] = run.run_id;
+    object["station"] = run.station;
+    object["started"] = iso8601_utc(run.opened.utc_ns);
+    object["finished"] = iso8601_utc(run.closed.utc_ns);
+    object["software_version"] = run.software_version;
+    object["run_file_sha256"] = document.run_file_sha256;
+    object["config_sha256"] = run.config_hash;
+    object["result_digest"] = document.result_digest;
+    object["machine"] = run.statements.machine;
+    object["machine_serial"] = run.statements.machine_serial;
+    object["operator"] = run.statements.operator_name;
+    object["probe"] = document.record.probe;
+    object["signal_path"] = document.record.signal_path;
+    return object;
+}
+
+} // namespace
+
+Result<ProbingDocument> probing_of_run_file(const std::string& run_file) {
+    ProbingDocument document;
+    AXISCAL_TRY(document.run_file_sha256, sha256_of_file(run_file));
+    AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
+    if (!contents.closed || !contents.run.complete)
+        return fail(Fault::incomplete_run, run_file + " is not closed as complete");
+    if (!contents.attachments.probing)
+        return fail(Fault::refused, run_file + " is no probing test");
+    document.record = std::move(*contents.attachments.probing);
+    AXISCAL_TRY(document.results, evaluate_probing_delay(case_of(document.record)));
+    document.run = std::move(contents.run);
+    document.result_digest = digest_of(document.results);
+    const auto kept = read_stored_result(run_file);
+    if (!kept && kept.error().fault != Fault::not_found) return tl::unexpected<Error>(kept.error());
+    if (kept && kept->digest != document.result_digest)
+        return fail(Fault::bad_run_file,
+                    run_file + ": the figures recomputed now (" + document.result_digest +
+                        ") are not those of its first evaluation (" + kept->digest + ")");
+    return document;
+}
+
+Result<void> seal_probing(const std::string& run_file) {
+    if (read_stored_result(run_file)) return {};
+    AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(run_file));
+    Json figures;
+    figures["format"] = "axiscal.probing/1";
+    figures["unit"] = "mm";
+    figures["parameters"] = series_list(document.results);
+    return store_result(run_file, {document.result_digest, figures.dump()});
+}
+
+Json probing_to_json(const ProbingDocument& document) {
+    Json object;
+    object["format"] = "axiscal.probing/1";
+    object["standard"] = "ISO 230-10, 6.9 (steps reconstructed)";
+    object["unit"] = "mm";
+    object["feed_mm_per_min"] = document.record.feed_mm_per_min;
+    object["parameters"] = series_list(document.results);
+    object["run"] = run_of(document);
+    return object;
+}
+
+std::string probing_json_text(const ProbingDocument& document) {
+    return probing_to_json(document).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string probing_csv(const ProbingDocument& document) {
+    std::string text = "direction,kind,approach_mm,x_mm,y_mm,z_mm\r\n";
+    for (const ProbingTouch& touch : document.record.touches) {
+        char line[160];
+        std::snprintf(line, sizeof line, "%g %g %g,%s,%.6f,%.6f,%.6f,%.6f\r\n", touch.direction[0],
+                      touch.direction[1], touch.direction[2],
+                      touch.reference ? "reference" : "touch", touch.approach.in(mm),
+                      touch.latched[0].in(mm), touch.latched[1].in(mm), touch.latched[2].in(mm));
+        text += line;
+    }
+    return text;
+}
+
+} // namespace axiscal

@@ -1,0 +1,28 @@
+#pragma once
+// The pages of the report of a drift test, in the order in which they are bound.
+
+#include "acquisition/publish/drift_document.hpp"
+#include "acquisition/publish/report/sheet.hpp"
+
+#include <vector>
+
+namespace axiscal {
+
+/// Page 1: who, what, with what, E_VE and ETVE, the axis against time, the signatures.
+/// @returns stated fields that did not fit and must be printed in full by the last pages.
+std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument& document);
+
+/// Every other channel against time, and its range.
+void draw_drift_channels(Sheet& sheet, const RunDrift& drift);
+
+/// The test, compensation, alignment, remarks and events.
+/// @param shortened  what the front page could not print in full.
+void draw_drift_conditions(Sheet& sheet,
+                           const DriftDocument& document,
+                           const std::vector<StatedField>& shortened);
+
+/// "30 min", "90 s", "12 h": the largest unit in which it is whole, else seconds with a point.
+/// Pure.
+std::string duration_words(Duration duration);
+
+} // namespace axiscal

@@ -1,0 +1,174 @@
+#include "acquisition/publish/report/drift_plot.hpp"
+
+#include "acquisition/publish/report/plot_frame.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace axiscal {
+namespace {
+
+constexpr double seconds_a_minute = 60;
+constexpr double least_span_um = 0.05; ///< the plot never magnifies noise beyond this
+constexpr double room_of_figure = 62;  ///< right of the frame, for E_VE
+constexpr double room_of_times = 24;
+constexpr Stroke mark{grey, 0.7, true};
+
+/// Where the lowest and the highest reading lie.
+struct Extremes {
+    PagePoint low, high;
+};
+
+Extremes extremes_of(const DriftSeries& axis, const PlotFrame& frame, double per_minute) {
+    const auto [low, high] = std::ranges::minmax_element(axis.readings);
+    const auto point = [&](std::vector<double>::const_iterator at) {
+        const auto index = static_cast<std::size_t>(at - axis.readings.begin());
+        return PagePoint{frame.px(axis.times[index] * per_minute), frame.py(*at)};
+    };
+    return {point(low), point(high)};
+}
+
+/// From the two readings to the right, and their distance there.
+void draw_figure(Canvas& canvas, const PlotFrame& frame, const Extremes& at, double range_um) {
+    const double x = frame.box.right() + 9, tip = 3;
+    for (const PagePoint& point : {at.low, at.high}) {
+        canvas.line(point, {x + 4, point.y}, mark);
+        canvas.dot(point, 1.6, backward_vermilion);
+    }
+    canvas.line({x, at.high.y}, {x, at.low.y}, {ink, 0.7});
+    if (at.low.y - at.high.y > 4 * tip) {
+        constexpr double up = 1.5707963267948966;
+        canvas.pointer({x, at.high.y + tip}, up, ink);
+        canvas.pointer({x, at.low.y - tip}, -up, ink);
+    }
+    const double middle = (at.low.y + at.high.y) / 2;
+    canvas.text({x + 8, middle - 1}, "E_VE", {8, true});
+    canvas.text({x + 8, middle + 9}, fixed(range_um, drift_decimals(range_um)) + " µm", {8, true});
+}
+
+/// The hour in which the range is largest.
+void shade_hour(Canvas& canvas, const PlotFrame& frame, const RunDrift& drift, double per_minute) {
+    const auto& times = drift.axis.times;
+    if (times.back() - times.front() <= drift.window_min) return;
+    const double begin = frame.px(times[drift.window.first] * per_minute);
+    const double end = frame.px(times[drift.window.last] * per_minute);
+    canvas.area({{begin, frame.box.y},
+                 {end, frame.box.y},
+                 {end, frame.box.bottom()},
+                 {begin, frame.box.bottom()}},
+                forward_blue, 0.09);
+    canvas.text({(begin + end) / 2, frame.box.y + 9},
+                "ETVE " + fixed(drift.window.range, drift_decimals(drift.window.range)) + " µm",
+                tick_style, Align::centre);
+}
+
+bool goes_there(const EnvironmentTrace& drawn, ChannelKind kind, Medium medium) {
+    return drawn.kind == kind && (kind != ChannelKind::temperature || drawn.medium == medium);
+}
+
+} // namespace
+
+void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
+    const DriftSeries& axis = drift.axis;
+    const double begin_s = axis.times.front() * seconds_a_minute;
+    const double end_s = axis.times.back() * seconds_a_minute;
+    const TimeScale scale = time_scale_for(end_s - begin_s);
+    const double per_minute = seconds_a_minute / scale.seconds_per_unit;
+    PlotFrame frame =
+        frame_along(begin_s / scale.seconds_per_unit, end_s / scale.seconds_per_unit, 0.01);
+    const auto [low, high] = std::ranges::minmax(axis.readings);
+    frame.y = ticks_around(low, high, 6, least_span_um);
+    const double labels = widest(canvas, frame.y) + 6;
+    constexpr double title = 14;
+    canvas.text({box.x, box.y + 8}, "Axis at rest, change of its coordinate at 20 °C, µm",
+                {7.5, true});
+    frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_figure,
+                 box.height - title - room_of_times};
+    shade_hour(canvas, frame, drift, per_minute);
+    draw_columns(canvas, frame, true);
+    draw_rows(canvas, frame);
+    canvas.box(frame.box, {grey, 0.5});
+    const DriftSeries drawn = as_drawn(axis);
+    std::vector<PagePoint> points;
+    points.reserve(drawn.times.size());
+    for (std::size_t i = 0; i < drawn.times.size(); ++i)
+        points.push_back({frame.px(drawn.times[i] * per_minute), frame.py(drawn.readings[i])});
+    canvas.polyline(points, {forward_blue, 0.9});
+    draw_figure(canvas, frame, extremes_of(axis, frame, per_minute), drift.eve.range);
+    canvas.text({frame.box.right(), box.bottom() - 3},
+                "Time since the beginning of the test, " + scale.unit, label_style, Align::right);
+}
+
+std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift) {
+    std::vector<EnvironmentTrace> traces;
+    traces.reserve(drift.channels.size());
+    for (const ChannelDrift& channel : drift.channels) {
+        if (channel.series.readings.empty()) continue;
+        DriftSeries drawn = as_drawn(channel.series);
+        for (double& time : drawn.times)
+            time *= seconds_a_minute;
+        traces.push_back({channel.name, channel.kind, channel.medium, std::move(drawn.times),
+                          std::move(drawn.readings)});
+    }
+    return traces;
+}
+
+std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace>& traces) {
+    constexpr std::array<std::pair<ChannelKind, Medium>, 8> order{
+        {{ChannelKind::displacement, Medium::none},
+         {ChannelKind::temperature, Medium::material},
+         {ChannelKind::temperature, Medium::air},
+         {ChannelKind::temperature, Medium::none},
+         {ChannelKind::pressure, Medium::none},
+         {ChannelKind::humidity, Medium::none},
+         {ChannelKind::carbon_dioxide, Medium::none},
+         {ChannelKind::strength, Medium::none}}};
+    std::vector<EnvironmentPanel> panels;
+    for (const auto& [kind, medium] : order) {
+        EnvironmentPanel panel{drift_paper_of(kind, medium), {}};
+        for (const EnvironmentTrace& drawn : traces)
+            if (goes_there(drawn, kind, medium)) panel.traces.push_back(&drawn);
+        if (!panel.traces.empty()) panels.push_back(std::move(panel));
+    }
+    return panels;
+}
+
+ChannelPaper drift_paper_of(ChannelKind kind, Medium medium) {
+    ChannelPaper paper = paper_of(kind, medium);
+    if (kind == ChannelKind::displacement) return {"Further length, change", "µm", 1, 2, 0.1};
+    if (kind == ChannelKind::temperature && medium == Medium::none)
+        paper.quantity = "Further temperature";
+    return paper;
+}
+
+int drift_decimals(double range_um) {
+    if (range_um < 1) return 3;
+    return range_um < 100 ? 2 : 1;
+}
+
+DriftSeries as_drawn(const DriftSeries& series) {
+    constexpr std::size_t most = 2000, parts = most / 2;
+    const std::size_t count = series.times.size();
+    if (count <= most) return series;
+    DriftSeries drawn;
+    drawn.times.reserve(most);
+    drawn.readings.reserve(most);
+    const auto take = [&](std::size_t i) {
+        drawn.times.push_back(series.times[i]);
+        drawn.readings.push_back(series.readings[i]);
+    };
+    for (std::size_t part = 0; part < parts; ++part) {
+        const auto begin =
+            series.readings.begin() + static_cast<std::ptrdiff_t>(part * count / parts);
+        const auto end =
+            series.readings.begin() + static_cast<std::ptrdiff_t>((part + 1) * count / parts);
+        const auto [low, high] = std::minmax_element(begin, end);
+        const auto first = static_cast<std::size_t>(std::min(low, high) - series.readings.begin());
+        const auto second = static_cast<std::size_t>(std::max(low, high) - series.readings.begin());
+        take(first);
+        if (second != first) take(second);
+    }
+    return drawn;
+}
+
+} // namespace axiscal

@@ -1,0 +1,33 @@
+#pragma once
+// A drift test against time. Both figures stay inside their box, labels included. Pure drawing.
+
+#include "acquisition/publish/report/plots.hpp"
+#include "analysis/drift/run_drift.hpp"
+
+#include <vector>
+
+namespace axiscal {
+
+/// The coordinate of the resting axis: its lowest and highest reading carried to the right, where
+/// their distance is E_VE; the hour of ETVE shaded where the test is longer than that.
+void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift);
+
+/// The other channels as traces, lengths as change in um; those without a reading are left out.
+std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift);
+
+/// Panels in the order lengths, material, air, other temperatures, pressure, humidity, carbon
+/// dioxide, strength. The pointers live as long as the traces.
+std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace>& traces);
+
+/// How a channel of a drift test is written: as of the environment, but lengths in um, and a
+/// temperature without a medium by no medium's name. Pure.
+ChannelPaper drift_paper_of(ChannelKind kind, Medium medium);
+
+/// How many decimals lengths are printed with whose range is this: nanometres below 1 um. Pure.
+int drift_decimals(double range_um);
+
+/// Of more than 2000 readings the lowest and the highest of each thousandth of them, in order: what
+/// a page of paper can show. Pure.
+DriftSeries as_drawn(const DriftSeries& series);
+
+} // namespace axiscal

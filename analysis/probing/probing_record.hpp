@@ -1,0 +1,33 @@
+#pragma once
+// A probing test as it was made on the machine: every touch with what the control latched. Pure.
+
+#include "analysis/probing/probing_delay.hpp"
+#include "analysis/quantity/quantity.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace axiscal {
+
+/// One touch of a face of the block.
+struct ProbingTouch {
+    std::array<double, 3> direction{}; ///< of approach, in X, Y, Z
+    bool reference = false;            ///< one of those from one and the same distance
+    Length approach;                   ///< from the start to the zeroed face
+    std::array<Length, 3> latched{};   ///< X, Y, Z of the control at the touch
+    bool operator==(const ProbingTouch&) const = default;
+};
+
+struct ProbingRecord {
+    double feed_mm_per_min = 0;
+    std::string probe, signal_path;    ///< as stated: type and stylus; skip input, PLC
+    std::vector<ProbingTouch> touches; ///< in the order in which they were made
+};
+
+/// Consecutive touches of one direction and kind make a series; its readings are the latched
+/// points along the direction (their product with the unit vector), so that a late latch reads
+/// larger.
+ProbingDelayCase case_of(const ProbingRecord& record);
+
+} // namespace axiscal

@@ -1,0 +1,137 @@
+"""A rotary axis behind an indexing table with errors, an angular interferometer on the wire.
+
+The machine hides an angle error curve and lost motion, the table has deviations of its own, which
+its certificate states. Of the axis a millimetre stands for a degree, a micrometre of the scenario
+for a thousandth of it.
+"""
+
+import json
+import math
+
+import bench
+from bench import expect, sentence
+from truth import BOUNDED, compare
+
+STEP_DEG = 5
+ARM_MM = 32.61
+
+
+def table_arcsec():
+    """Deviations of the table's 72 positions, to a hundredth: twelve seconds of arc over a turn."""
+    return [
+        round(4 * math.cos(2 * math.pi * k / 36) + 2 * math.sin(2 * math.pi * k / 9), 2)
+        for k in range(360 // STEP_DEG)
+    ]
+
+
+def rotary(b, known_table=True):
+    """Five targets over a quarter turn, twice from each side; the table is turned in between."""
+    b.scenario["axis"] = {
+        "name": "A", "letter": "A", "start_mm": -2.0, "travel_low_mm": -3.0, "travel_high_mm": 96.0,
+        "rapid_mm_per_min": 6000.0, "acceleration_mm_per_s2": 1000.0,
+    }
+    # 18 seconds of arc of error, 7.2 of lost motion, 0.07 of noise in each sample, 0.1 at a stop
+    b.scenario["errors"] = {
+        "table": [[-3, 0.0], [20, 2.5], [45, -1.0], [70, -2.5], [96, 1.5]],
+        "reversal_um": -2.0, "approach_noise_um": 0.03, "noise_um": 0.02,
+        "drift_um_per_hour": 0.05,
+        "periodic": [{"amplitude_um": 0.4, "period_mm": 13.0, "phase_deg": 20.0}],
+    }
+    b.scenario["thermal"] = {"material": {"start": 24.0, "rate_per_hour": 0.2}}
+    b.scenario["indexing_table"] = {
+        "step_deg": STEP_DEG, "arm_mm": ARM_MM, "range_deg": 10, "turn_deg_per_s": 120,
+        "deviation_arcsec": table_arcsec(),
+    }
+    b.scenario["laser"].update(dead_path_mm=0.0, zero_mm=0.0)
+    b.scenario["truth"].update(window_s=0.15, duration_s=120.0)
+    axis = b.station["axis"]
+    del axis["material"], axis["dead_path"], axis["feedback_pitch"]
+    axis.update(name="A", kind="rotary", travel_low="-3 deg", travel_high="96 deg")
+    axis["angle"] = {
+        "method": "indexing-table", "step": f"{STEP_DEG} deg", "arm": f"{ARM_MM} mm",
+        "range": "10 deg", "turn_time": "0.2 s", "serial": "T-1", "certificate_number": "W-1",
+        "due_on": "2099-12-31",
+    }
+    if known_table:
+        axis["angle"].update(
+            deviations=[f"{d} arcsec" for d in table_arcsec()], certificate_sense="with_axis"
+        )
+    b.station["cycle"].update(
+        interval="22 deg", target_count=5, overrun="1 deg", near_tolerance="0.2 deg",
+        datum="-2 deg", feed="6000 deg/min", approaches=2, dwell="0.15 s",
+    )
+    del b.station["cycle"]["first_target"]
+    b.station["capture"].update(
+        window="0.15 s", timeout="3 s", spread_limit="2 arcsec", slope_limit="20 arcsec/s",
+        fastest="300 deg/s",
+    )
+    b.trigger("sequence-block", "tcp")
+    b.scenario["cnc"]["counts_per_unit"] = 100000.0  # 0.00001 degree
+
+
+def begin(b):
+    b.channels_are_good = lambda: sensors_are_good(b)  # without material sensors
+    b.begin_run()
+
+
+def sensors_are_good(b):
+    shown = {f"{c['instrument']}/{c['channel']}": c["value"] for c in b.status()["channels"]}
+    axis = b.station["axis"]
+    wanted = [axis["laser"], *(axis["air"][key] for key in ("temperature", "pressure", "humidity"))]
+    return all(shown.get(name) is not None for name in wanted)
+
+
+@sentence("RotaryAxisIsFoundBehindATableWithErrors")
+def truth_is_found(b):
+    rotary(b)
+    b.station["certificate"]["run_out"] = "8 um"
+    begin(b)
+    certificate = b.finish()
+    expect(b.run()["step"] == 20, f"{b.run()}")
+    expect(certificate["unit"] == "deg", certificate["unit"])
+    targets = [one["target"] for one in certificate["positions"]]
+    expect(0 in targets and 90 in targets, f"principal positions in {targets}")
+    b.sim("truth truth.json")
+    truth = json.loads((b.folder / "truth.json").read_text())
+    missed = compare(truth, certificate)
+    expect(not missed, f"outside of the truth: {', '.join(missed)}")
+    # What is hidden is far above what the bound allows: a wrong sign of the table would show.
+    for name in ("E", "M", "B"):
+        bound = truth["parameters"][name]["bound"]
+        expect(bound < 0.4e-3, f"the bound of {name}: {bound * 3600:.2f} arcsec")
+    rotary_part = certificate["run"]["rotary"]
+    expect(rotary_part["run_out"] == "8 um" and rotary_part["method"] == "indexing_table",
+           f"{rotary_part}")
+    expect(certificate["compensation"]["state"] == "none_needed", f"{certificate['compensation']}")
+    names = [one["name"] for one in certificate["run"]["instruments"]]
+    expect("indexing table" in names, f"{names}")
+
+
+@sentence("RotaryAxisBehindAnUnknownTableShowsTheTablesErrors")
+def table_taken_as_exact(b):
+    rotary(b, known_table=False)
+    begin(b)
+    certificate = b.finish()
+    b.sim("truth truth.json")
+    truth = json.loads((b.folder / "truth.json").read_text())
+    # B cancels the table, for both directions stand at the same position; E and M do not.
+    missed = [name for name in BOUNDED if name in compare(truth, certificate)]
+    expect("E" in missed and "B" not in missed and "B_mean" not in missed, f"{missed}")
+    said = " ".join(certificate["run"]["remarks"])
+    expect("deviations of the indexing table are not stated" in said, said)
+    expect(certificate["run"]["rotary"]["run_out"] is None, "not stated")
+
+
+@sentence("RotaryRunEndsWhereTheTableLosesTheBeam")
+def table_does_not_turn(b):
+    rotary(b)
+    b.scenario["indexing_table"]["turn_deg_per_s"] = 0.5  # far too slow for its halts
+    begin(b)
+    # Lost while the beam is away; of a table that comes back in between the datum is gone.
+    fault = bench.wait_until("a fault is named", lambda: b.run()["fault"], 60)
+    expect(fault in ("beam_lost", "datum_lost"), f"named {fault}")
+    expect(b.run()["step"] < 20, f"{b.run()}")
+
+
+if __name__ == "__main__":
+    bench.main()

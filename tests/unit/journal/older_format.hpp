@@ -1,0 +1,15 @@
+#pragma once
+// What makes a fresh run file one of an older format. Tests only.
+
+#include <string>
+
+namespace axiscal::testing {
+
+/// Without rows in them: their links would be missed.
+inline const std::string drop_format_4 =
+    "DROP TABLE channel_calibration; DROP TABLE channel_correction; DROP TABLE probing; "
+    "DROP TABLE probing_touch; DROP TABLE stream_block_time; DROP TABLE circular_start; "
+    "DROP TABLE synchronisation; "
+    "DROP TABLE rotary; DROP TABLE rotary_deviation; ";
+
+} // namespace axiscal::testing

@@ -1,0 +1,160 @@
+// Format 4: what the uncertain time of the samples adds to each capture, beside its point or datum.
+#include "older_format.hpp"
+#include "random_run.hpp"
+
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_file_verify.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+namespace axiscal {
+namespace {
+
+using testing::drop_format_4;
+using testing::RandomRun;
+using testing::ScratchFolder;
+
+// 0.25 um/s seen by samples that are known within 48 us: 0.25 * 48e-6 um.
+constexpr Synchronisation known{std::chrono::microseconds{48}, 12e-6};
+
+void run_sql(const std::string& path, const std::string& sql) {
+    sqlite3* connection = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &connection), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(connection, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+        << sqlite3_errmsg(connection);
+    sqlite3_close(connection);
+}
+
+class SynchronisationRows : public ::testing::Test {
+protected:
+    /// A datum and three points; the second one's time is not known.
+    void write_run() {
+        auto writer = RunFileWriter::create(path, random.header()).value();
+        RunBatch tied;
+        tied.datum = random.datum();
+        tied.datum->id = "L-1/1/1";
+        tied.synchronisation = known;
+        ASSERT_TRUE(writer.write(tied));
+        for (int step = 0; step < 3; ++step) {
+            RunBatch batch;
+            batch.point = random.point(step);
+            batch.point->datum_id = "L-1/1/1";
+            if (step != 1) batch.synchronisation = known;
+            ASSERT_TRUE(writer.write(batch));
+        }
+        ASSERT_TRUE(writer.close(false, "done", random.tie()));
+    }
+    [[nodiscard]] std::vector<RowFinding> findings() const {
+        const auto report = verify_chain(path);
+        EXPECT_TRUE(report) << describe(report.error());
+        return report ? report->findings : std::vector<RowFinding>{};
+    }
+
+    ScratchFolder scratch;
+    RandomRun random{51};
+    const std::string path = scratch.file("r.axiscal");
+};
+
+TEST_F(SynchronisationRows, ComeBackBesideTheirPointsAndWhatIsNotStatedStaysSo) {
+    write_run();
+    const auto read = read_run_file_contents(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    const auto& records = read->attachments.synchronisation;
+    ASSERT_EQ(records.size(), 4U);
+    EXPECT_EQ(records[0].step, -1);
+    EXPECT_EQ(records[0].datum_id, "L-1/1/1");
+    for (const std::size_t stated : {0U, 1U, 3U}) {
+        ASSERT_TRUE(records[stated].stated);
+        EXPECT_EQ(records[stated].stated->time_uncertainty, known.time_uncertainty);
+        EXPECT_EQ(records[stated].stated->error_um, known.error_um);
+    }
+    EXPECT_EQ(records[2].step, 1);
+    EXPECT_FALSE(records[2].stated) << "never 0";
+    EXPECT_TRUE(findings().empty());
+}
+
+TEST_F(SynchronisationRows, AChangedOneIsNamed) {
+    write_run();
+    run_sql(path, "UPDATE synchronisation SET error_um = 0.0 WHERE step = 2");
+    const auto found = findings();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].damage, RowDamage::changed);
+    EXPECT_EQ(found[0].table, "synchronisation");
+    EXPECT_EQ(found[0].row, "step=2");
+    EXPECT_FALSE(read_run_file(path));
+}
+
+TEST_F(SynchronisationRows, AMissingOneIsNamedByThePointBeforeIt) {
+    for (const std::string step : {"-1", "0", "2"}) {
+        std::filesystem::remove(path);
+        write_run();
+        run_sql(path, "DELETE FROM synchronisation WHERE step = " + step);
+        const auto found = findings();
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0].damage, RowDamage::missing);
+        EXPECT_EQ(found[0].table, "synchronisation");
+        EXPECT_EQ(found[0].row, "step=" + step);
+    }
+}
+
+TEST_F(SynchronisationRows, AMissingPointOrDatumIsNamedByTheOneAfterIt) {
+    write_run();
+    run_sql(path, "DELETE FROM point WHERE step = 1; DELETE FROM datum");
+    const auto found = findings();
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].table, "datum");
+    EXPECT_EQ(found[0].row, "id=L-1/1/1");
+    EXPECT_EQ(found[1].table, "point");
+    EXPECT_EQ(found[1].row, "step=1");
+}
+
+TEST_F(SynchronisationRows, AnAddedOneIsNamed) {
+    write_run();
+    run_sql(path, "INSERT INTO synchronisation SELECT (SELECT max(link) + 1 FROM closing), 9, '', "
+                  "1, 0.0, hash FROM synchronisation LIMIT 1");
+    const auto found = findings();
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].damage, RowDamage::added);
+    EXPECT_EQ(found[0].table, "synchronisation");
+    EXPECT_EQ(found[0].row, "step=9");
+}
+
+TEST_F(SynchronisationRows, AnUncertaintyOfNothingIsNotWritten) {
+    auto writer = RunFileWriter::create(path, random.header()).value();
+    RunBatch batch;
+    batch.point = random.point(0);
+    batch.synchronisation = Synchronisation{Duration{}, 0};
+    const auto written = writer.write(batch);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().fault, Fault::internal);
+}
+
+/// An open file as the version before this one left it.
+TEST_F(SynchronisationRows, AFileOfFormat3GoesOnWithoutThem) {
+    RunRecord header = random.header();
+    header.calibrations.clear();
+    header.rotary.reset();
+    ASSERT_TRUE(RunFileWriter::create(path, header));
+    run_sql(path, drop_format_4 + "PRAGMA user_version=3");
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    RunBatch batch;
+    batch.point = random.point(0);
+    batch.synchronisation = known;
+    batch.preflight = {{"soak", true, false, "Calm.", ""}};
+    ASSERT_TRUE(writer->write(batch));
+    ASSERT_TRUE(writer->close(true, "done", random.tie()));
+    const auto read = read_run_file_contents(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_EQ(read->format, 3);
+    EXPECT_EQ(read->run.points.size(), 1U);
+    EXPECT_TRUE(read->attachments.synchronisation.empty());
+    EXPECT_TRUE(findings().empty());
+}
+
+} // namespace
+} // namespace axiscal

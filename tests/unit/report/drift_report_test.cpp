@@ -1,0 +1,222 @@
+// The report of a drift test. The truth is a creep put in by hand: 6 um in two hours, 3 um in one.
+#include "acquisition/publish/report/drift_pages.hpp"
+#include "acquisition/publish/report/drift_plot.hpp"
+#include "acquisition/publish/report/drift_report.hpp"
+#include "analysis/air_refraction.hpp"
+#include "pdf_tools.hpp"
+#include "synthetic_certificate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace axiscal {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::ScratchFolder;
+
+constexpr int least_margin = 28; // points; the narrowest a copier and a hole punch leave
+constexpr double two_hours_s = 7200, interval_s = 10;
+
+double index_of_refraction(const RunRecord& run) {
+    AirState air;
+    air.temperature = Temperature::celsius(20);
+    air.pressure = pascal(101325);
+    air.relative_humidity = percent(50);
+    air.vacuum_wavelength = run.laser.vacuum_wavelength;
+    air.co2_ppm = run.air.co2_ppm;
+    return 1 + refractivity_of(run.air.formula, air)->n_minus_1;
+}
+
+/// Air and material stand still at 20 degC; only the axis creeps.
+RunRecord creeping(const std::function<double(double)>& creep_um, double duration_s = two_hours_s) {
+    RunRecord run = test::synthetic_run();
+    run.run_id = "20260101T000000Z-X-drift";
+    run.plan.pass = "drift";
+    run.plan.targets.clear();
+    run.plan.points.clear();
+    run.points.clear();
+    run.environment.clear();
+    run.laser.beam_walk = run.laser.beam_walk_travel = Length{};
+    run.channels.insert(run.channels.begin(),
+                        ChannelRecord{7, "axis 1", run.laser.instrument, "",
+                                      ChannelKind::displacement, Medium::none, 0});
+    run.channels.push_back(
+        {8, "spindle", "mat", "nose", ChannelKind::temperature, Medium::none, 0.3});
+    run.channels.push_back(
+        {9, "tool gauge", "gauge", "", ChannelKind::displacement, Medium::none, 0});
+    const double n = index_of_refraction(run);
+    const double origin_s = seconds_of(run.opened.before.time_since_epoch());
+    for (int i = 1; i * interval_s <= duration_s; ++i)
+        for (const ChannelRecord& channel : run.channels) {
+            const double s = i * interval_s;
+            double value = 20;
+            if (channel.kind == ChannelKind::pressure) value = 101325;
+            if (channel.kind == ChannelKind::humidity) value = 50;
+            if (channel.id == 7) value = run.laser.sign * n * (0.9 + creep_um(s) * 1e-6);
+            if (channel.id == 8) value = 20 + s / duration_s; // 1 K warmer at the end
+            if (channel.id == 9) value = 2.5e-6 * s / duration_s;
+            run.environment.push_back(
+                {channel.id, monotonic_from_ns(std::llround((origin_s + s) * 1e9)), value});
+        }
+    return run;
+}
+
+DriftDocument document_of(RunRecord run, Duration duration = 2h) {
+    DriftDocument document;
+    document.attachments.drift = DriftSetup{duration, 10s, mm(900)};
+    auto drift = evaluate_drift(run, *document.attachments.drift);
+    EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
+    document.drift = drift.value_or(RunDrift{});
+    document.run = std::move(run);
+    document.run_file_sha256 = std::string(64, 'a');
+    document.result_digest = std::string(64, 'd');
+    return document;
+}
+
+/// From the first reading, after one interval, to the last.
+double steady_creep_um(double s) {
+    return 6 * (s - interval_s) / (two_hours_s - interval_s);
+}
+
+class DriftReport : public ::testing::Test {
+protected:
+    std::string render(const DriftDocument& document) {
+        const auto pdf = render_drift_pdf(document);
+        EXPECT_TRUE(pdf.has_value()) << (pdf ? "" : describe(pdf.error()));
+        return test::write_pdf(folder_, pdf.value_or(""));
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(DriftReport, PrintsTheCreepThatWasPutInAndWhoMeasuredWhat) {
+    const std::string text = test::text_of(render(document_of(creeping(steady_creep_um))));
+    // E_VE 6 um, of which an hour sees 3; 6 / (2 sqrt 3) = 1.732, rounded up
+    for (const char* words : {"E_VE", "6.00", "ETVE", "3.00", "1.74", "120.00"})
+        EXPECT_THAT(text, HasSubstr(words));
+    for (const char* words : {"Drift test",
+                              "State: as found",
+                              "Example Calibration Laboratory",
+                              "SYNTHETIC-0001",
+                              "Example customer",
+                              "Hall 3, bay 12",
+                              "MC-800",
+                              "0815-4711",
+                              "QP-17",
+                              "A. Operator",
+                              "B. Approver",
+                              "L-0042",
+                              "C-2025-118",
+                              "2026-09-30",
+                              "at rest at 900.000 mm",
+                              "2 h",
+                              "10 s",
+                              "720 of 720",
+                              "30 min of full strokes",
+                              "Ciddor",
+                              "version 0.1.0",
+                              "20260101T000000Z-X-drift",
+                              "not recorded"})
+        EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_THAT(text, HasSubstr(std::string(64, 'a')));
+    EXPECT_THAT(text, HasSubstr(std::string(64, 'd')));
+    EXPECT_THAT(text, Not(HasSubstr("PRELIMINARY")));
+}
+
+TEST_F(DriftReport, ShowsEveryChannelWithItsRangeInTheUnitOfPaper) {
+    const std::string text = test::text_of(render(document_of(creeping(steady_creep_um))));
+    for (const char* words :
+         {"air temperature", "air pressure", "air humidity", "scale left", "scale right", "spindle",
+          "nose", "tool gauge", "Further temperature, °C", "Further length, change, µm", "1013.25",
+          "21.00", "2.50", "Time since the beginning of the test, min"})
+        EXPECT_THAT(text, HasSubstr(words));
+}
+
+TEST_F(DriftReport, OfAShortTestSaysThatItSawNoHour) {
+    const auto creep = [](double s) { return s / 600; };
+    const std::string text = test::text_of(render(document_of(creeping(creep, 600), 10min)));
+    EXPECT_THAT(text, HasSubstr("shorter than 60 min"));
+    EXPECT_THAT(text, HasSubstr("10 min"));
+    EXPECT_THAT(test::text_of(render(document_of(creeping(steady_creep_um)))),
+                Not(HasSubstr("shorter than")));
+}
+
+TEST_F(DriftReport, TellsTheIntervalsThatAreMissing) {
+    RunRecord run = creeping(steady_creep_um);
+    int left_out = 0;
+    std::erase_if(run.environment, [&](const EnvironmentReading& reading) {
+        return reading.channel == 7 && ++left_out > 300 && left_out <= 312;
+    });
+    EXPECT_THAT(test::text_of(render(document_of(std::move(run)))),
+                HasSubstr("12 of 720 intervals have no good reading"));
+}
+
+TEST_F(DriftReport, GivesTheSameBytesAgain) {
+    const DriftDocument document = document_of(creeping(steady_creep_um));
+    EXPECT_TRUE(render_drift_pdf(document).value() == render_drift_pdf(document).value());
+}
+
+TEST_F(DriftReport, HasNoWordOverAnotherAndFreeMarginsHoweverMuchIsStated) {
+    RunRecord crowded = creeping([](double s) { return 40 * std::sin(s / 300); });
+    const std::string tale = "a long text that somebody typed into the station file because it "
+                             "could be done, with every detail of the name and the address";
+    crowded.statements.machine = crowded.statements.customer = crowded.statements.laboratory =
+        crowded.statements.offsets = crowded.statements.operator_name = tale;
+    for (int i = 20; i < 30; ++i)
+        crowded.channels.push_back({i, "column " + std::to_string(i) + " " + tale, "mat", tale,
+                                    ChannelKind::temperature, Medium::none, 0.02});
+    RunRecord bare = creeping([](double) { return 0; });
+    bare.statements = {};
+    bare.channels.resize(6); // the laser and what brings it to 20 degC
+    for (const RunRecord& run : {creeping(steady_creep_um), crowded, bare}) {
+        const std::string pdf = render(document_of(run));
+        EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
+        for (int page = 1; page <= test::pages_of(pdf); ++page) {
+            EXPECT_EQ(test::image_of(pdf, page).ink_outside(least_margin), 0) << page;
+            EXPECT_GT(test::image_of(pdf, page).ink(), 0) << page;
+        }
+    }
+}
+
+TEST(DriftPlot, DrawsTheExtremesOfALongRecord) {
+    DriftSeries series;
+    for (int i = 0; i < 100'000; ++i) {
+        series.times.push_back(i);
+        series.readings.push_back(i == 71'234 ? 9 : i == 3 ? -7 : std::sin(i));
+    }
+    const DriftSeries drawn = as_drawn(series);
+    EXPECT_LE(drawn.times.size(), 2000U);
+    EXPECT_TRUE(std::ranges::is_sorted(drawn.times));
+    EXPECT_EQ(std::ranges::max(drawn.readings), 9);
+    EXPECT_EQ(std::ranges::min(drawn.readings), -7);
+    series.times.resize(2000);
+    series.readings.resize(2000);
+    EXPECT_EQ(as_drawn(series).times, series.times);
+}
+
+TEST(DriftPlot, PutsEachKindOfChannelIntoItsOwnPanel) {
+    const DriftDocument document = document_of(creeping(steady_creep_um));
+    const auto traces = drift_traces_of(document.drift);
+    std::vector<std::string> names;
+    for (const EnvironmentPanel& panel : drift_panels_of(traces))
+        names.push_back(panel.paper.quantity);
+    EXPECT_THAT(names, ::testing::ElementsAre("Further length, change", "Material temperature",
+                                              "Air temperature", "Further temperature",
+                                              "Air pressure", "Relative humidity"));
+}
+
+TEST(DriftWords, TellADurationInItsLargestWholeUnit) {
+    EXPECT_EQ(duration_words(30min), "30 min");
+    EXPECT_EQ(duration_words(12h), "12 h");
+    EXPECT_EQ(duration_words(90s), "90 s");
+    EXPECT_EQ(duration_words(500ms), "0.500 s");
+}
+
+} // namespace
+} // namespace axiscal

@@ -1,0 +1,259 @@
+// A rotary axis at the station: behind an indexing table with the interferometer's readings, and
+// before an autocollimator whose readings are typed.
+#include "analysis/certificate.hpp"
+#include "station_bench.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace axiscal {
+namespace {
+
+using namespace testing;
+
+constexpr double rad = std::numbers::pi / 180, arm_mm = 32.61, step_deg = 5;
+
+/// Five targets over a quarter turn, once from each side: ten points.
+void make_rotary(Shop& shop) {
+    CycleConfig& cycle = shop.config.cycle;
+    cycle.axis_kind = AxisKind::rotary;
+    cycle.travel_low = mm(-3);
+    cycle.travel_high = mm(95);
+    cycle.interval.reset();
+    cycle.target_count.reset();
+    cycle.first_target.reset();
+    cycle.seed.reset();
+    cycle.targets = std::vector<Length>{mm(0), mm(31.2), mm(62.9), mm(70), mm(90)};
+    cycle.overrun = mm(1);
+    cycle.datum = mm(-2);
+    cycle.near_tolerance = mm(0.2);
+    cycle.approaches = 1;
+    shop.config.capture.spread_limit = mm(1.0 / 3600);
+    shop.config.capture.fastest = metre_per_second(50); // the table of this bench turns at once
+    shop.config.axis.material_temperature.clear();
+    AngleConfig& angle = shop.config.axis.angle.emplace();
+    angle.setup.step_deg = step_deg;
+    angle.setup.arm = mm(arm_mm);
+    angle.artefact.name = "indexing table";
+    angle.artefact.serial = "T-7";
+    shop.axis.speed_mm_per_s = 50;
+}
+
+/// The axis with two seconds of arc of lost motion each way, and the table on it.
+class TableShop : public Shop {
+public:
+    TableShop() {
+        make_rotary(*this);
+        axis.go(-2, now);
+        reading_m = [this](MonotonicTime at) {
+            const double rest = axis.at(at) + error_deg + 2 - position * step_deg;
+            return arm_mm * 1e-3 * std::sin(rest * rad) * (1 + 2.7e-4);
+        };
+    }
+    int position = 0;
+    double error_deg = 0;
+};
+
+/// As the part program does: to the begin of the approach, the table is turned, then the approach.
+void drive_behind_table(Life& life, TableShop& shop, const PlannedPoint& point, int off = 0) {
+    const double target = shop.plan().targets[static_cast<std::size_t>(point.target_index)].in(mm);
+    const int side = static_cast<int>(point.direction);
+    const auto go = [&](double to_deg) {
+        const Duration needed = shop.axis.time_to(to_deg, life.scheduler.now());
+        shop.axis.go(to_deg, life.scheduler.now());
+        life.run(needed + 50ms);
+    };
+    go(target - side);
+    shop.position = static_cast<int>(std::lround((target + 2) / step_deg)) + off;
+    life.run(200ms);
+    shop.error_deg = side * 2.0 / 3600;
+    go(target);
+}
+
+bool take_behind_table(Life& life, TableShop& shop, int step) {
+    const PlannedPoint point = shop.plan().points[static_cast<std::size_t>(step)];
+    drive_behind_table(life, shop, point);
+    const auto sequence = static_cast<std::uint16_t>(step + 1);
+    life.ask(Life::request_for(point, sequence));
+    for (int i = 0; i < 40 && life.port->done != sequence && life.port->refusals.empty(); ++i)
+        life.run(100ms);
+    return life.port->done == sequence;
+}
+
+TEST(StationRotary, MeasuresBehindATableThatIsTurnedBackAtEachTarget) {
+    TableShop shop;
+    Life life{shop};
+    ArmRequest request;
+    request.statements["run_out"] = "6 um";
+    const auto armed = life.arm(request);
+    ASSERT_TRUE(armed) << describe(armed.error());
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(take_behind_table(life, shop, step))
+            << step << " " << life.status().run->last_sentence;
+    life.run_until([&] { return !life.status().run_open; });
+    ASSERT_EQ(shop.run_files().size(), 1U);
+    const RunRecord run = read_run_file(shop.run_files().front()).value();
+    ASSERT_TRUE(run.rotary);
+    EXPECT_EQ(run.rotary->run_out, "6 um");
+    EXPECT_EQ(run.instruments.back().serial, "T-7");
+    EXPECT_GE(run.points.front().approach_travel, mm(0.9));
+    const auto certificate = make_certificate(run, "hash");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    // The bench's index is 2.7e-4, the air's 2.65e-4: 5e-6 of a rest of 2.5 degrees is 0.05".
+    constexpr double bound_deg = 0.06 / 3600;
+    for (const auto& row : certificate->deviations.forward())
+        EXPECT_NEAR(row[0], 2.0 / 3600, bound_deg);
+    EXPECT_NEAR(*certificate->result.parameters.B_mean, 4.0 / 3600, bound_deg);
+}
+
+TEST(StationRotary, ATableOneStepOffIsRefusedAndNamed) {
+    TableShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(take_behind_table(life, shop, 0));
+    const PlannedPoint point = shop.plan().points[1];
+    drive_behind_table(life, shop, point, -1);
+    life.ask(Life::request_for(point, 2));
+    life.run(3s);
+    ASSERT_FALSE(life.port->refusals.empty());
+    EXPECT_EQ(life.port->refusals.front().second, Fault::outside_window);
+    EXPECT_NE(life.status().run->last_sentence.find("1 step short"), std::string::npos)
+        << life.status().run->last_sentence;
+}
+
+TEST(StationRotary, ShowsAPositionNearTheNextTargetOnly) {
+    TableShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    EXPECT_FALSE(life.status().axis.position_mm); // at the datum, 2 degrees from the first target
+    drive_behind_table(life, shop, shop.plan().points[0]);
+    ASSERT_TRUE(life.status().axis.position_mm);
+    EXPECT_NEAR(*life.status().axis.position_mm, 2.0 / 3600, 0.1 / 3600);
+    EXPECT_NEAR(*life.port->status.measured_mm, 2.0 / 3600, 0.1 / 3600);
+}
+
+TEST(StationRotary, AsksForTheRunOutOfTheSetUp) {
+    TableShop shop;
+    Life life{shop};
+    const auto run_out = [&](const ArmRequest& request) {
+        const auto checks = life.station->preflight(request).value();
+        return *std::ranges::find(checks, "run_out", &PreflightRecord::name);
+    };
+    EXPECT_TRUE(run_out({}).warning);
+    EXPECT_NE(run_out({}).verdict.find("--state-that run_out="), std::string::npos);
+    ArmRequest request;
+    request.statements["run_out"] = "6 um";
+    EXPECT_FALSE(run_out(request).warning);
+}
+
+TEST(StationRotary, AnArtefactThatIsPastItsDateBlocks) {
+    TableShop shop;
+    shop.config.axis.angle->artefact.due_on = "1969-12-31"; // the bench's calendar begins after it
+    Life life{shop};
+    const auto checks = life.station->preflight({}).value();
+    const auto papers = std::ranges::find(checks, "certificates", &PreflightRecord::name);
+    EXPECT_FALSE(papers->passed);
+    EXPECT_NE(papers->verdict.find("indexing table was due for calibration on 1969-12-31"),
+              std::string::npos)
+        << papers->verdict;
+}
+
+/// Eight faces over a turn; the readings are typed.
+class PolygonShop : public Shop {
+public:
+    PolygonShop() {
+        make_rotary(*this);
+        config.cycle.travel_low = mm(-2);
+        config.cycle.travel_high = mm(362);
+        config.cycle.overrun = mm(2);
+        config.cycle.datum.reset();
+        config.cycle.targets = std::vector<Length>{};
+        for (int face = 0; face < 8; ++face)
+            config.cycle.targets->push_back(mm(45 * face));
+        config.axis.laser = config.axis.air_temperature = {};
+        config.axis.air_pressure = config.axis.air_humidity = {};
+        RotarySetup& setup = config.axis.angle->setup;
+        setup.method = AngleMethod::polygon;
+        setup.step_deg = 45;
+        setup.range_deg = 0.1;
+        setup.arm = {};
+        setup.deviations_arcsec = {0, 1, -2, 0, 0, 0, 0, 0.5};
+        config.axis.angle->artefact.name = "polygon";
+    }
+    /// An axis that leads by 3 seconds of arc, seen through the polygon.
+    [[nodiscard]] double arcsec_at(const PlannedPoint& point) const {
+        const auto& faces = config.axis.angle->setup.deviations_arcsec;
+        return 3.0 * static_cast<int>(point.direction) +
+               faces[static_cast<std::size_t>(point.target_index)];
+    }
+};
+
+TEST(StationRotary, APolygonsReadingsAreTyped) {
+    PolygonShop shop;
+    Life life{shop};
+    EXPECT_EQ(life.station->type_reading(1).error().fault, Fault::no_run_armed);
+    const auto armed = life.arm();
+    ASSERT_TRUE(armed) << describe(armed.error());
+    for (const PlannedPoint& point : shop.plan().points) {
+        const auto typed = life.station->type_reading(shop.arcsec_at(point));
+        ASSERT_TRUE(typed) << point.step << " " << describe(typed.error());
+        life.run(200ms);
+    }
+    life.run_until([&] { return !life.status().run_open; });
+    const RunRecord run = read_run_file(shop.run_files().front()).value();
+    EXPECT_TRUE(run.complete);
+    EXPECT_EQ(run.points.front().origin, TriggerOrigin::manual);
+    const auto certificate = make_certificate(run, "hash");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    EXPECT_NEAR(*certificate->result.parameters.E, 6.0 / 3600, 1e-12);
+    EXPECT_NEAR(*certificate->result.parameters.M, 0, 1e-12);
+    EXPECT_NEAR(*certificate->result.parameters.B_mean, 6.0 / 3600, 1e-12);
+}
+
+TEST(StationRotary, ATypedReadingAnswersTheControlThatAsks) {
+    PolygonShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    life.run(1s);
+    EXPECT_EQ(life.port->done, 0);
+    const auto beyond = life.station->type_reading(400); // 0.111 degrees
+    ASSERT_FALSE(beyond);
+    EXPECT_EQ(beyond.error().fault, Fault::outside_window);
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    ASSERT_TRUE(life.station->type_reading(3));
+    life.run(1s);
+    EXPECT_EQ(life.port->done, 1);
+}
+
+TEST(StationRotary, AControlThatNobodyAnswersIsRefusedInTime) {
+    PolygonShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    life.run(shop.config.capture.timeout + 1s);
+    ASSERT_FALSE(life.port->refusals.empty());
+    EXPECT_EQ(life.port->refusals.front().second, Fault::not_still);
+}
+
+TEST(StationRotary, WhatWasTypedIsNotGoneOnWithAfterARestart) {
+    PolygonShop shop;
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        ASSERT_TRUE(life.station->type_reading(3));
+        life.run(1s);
+    }
+    const Life again{shop};
+    EXPECT_FALSE(again.status().run_open);
+    EXPECT_EQ(again.notes_with("was typed before a restart"), 1);
+}
+
+TEST(StationRotary, AStationWithAnInterferometerTakesNoTypedReading) {
+    TableShop shop;
+    Life life{shop};
+    EXPECT_EQ(life.station->type_reading(1).error().fault, Fault::bad_request);
+}
+
+} // namespace
+} // namespace axiscal
