@@ -2,37 +2,33 @@
 
 #include "acquisition/journal/durable_file.hpp"
 
-#include <sodium.h>
-
 #include <fcntl.h>
 #include <unistd.h>
 #include <vector>
 
 namespace axiscal {
-namespace {
 
-static_assert(crypto_hash_sha256_BYTES == std::tuple_size_v<Digest>);
-
-const unsigned char* bytes_of(std::string_view text) {
-    return reinterpret_cast<const unsigned char*>(text.data());
+void Sha256::add(std::string_view bytes) {
+    sha256_update(&state_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
 }
 
-} // namespace
+Digest Sha256::finish() {
+    Digest digest{};
+    sha256_digest(&state_, digest.size(), digest.data());
+    return digest;
+}
 
 Digest sha256(std::string_view bytes) {
-    Digest digest{};
-    crypto_hash_sha256(digest.data(), bytes_of(bytes), bytes.size());
-    return digest;
+    Sha256 hash;
+    hash.add(bytes);
+    return hash.finish();
 }
 
 Digest sha256_link(const Digest& previous, std::string_view bytes) {
-    crypto_hash_sha256_state state;
-    Digest digest{};
-    crypto_hash_sha256_init(&state);
-    crypto_hash_sha256_update(&state, previous.data(), previous.size());
-    crypto_hash_sha256_update(&state, bytes_of(bytes), bytes.size());
-    crypto_hash_sha256_final(&state, digest.data());
-    return digest;
+    Sha256 hash;
+    hash.add({reinterpret_cast<const char*>(previous.data()), previous.size()});
+    hash.add(bytes);
+    return hash.finish();
 }
 
 std::string hex_of(const Digest& digest) {
@@ -52,20 +48,17 @@ std::string sha256_hex(std::string_view bytes) {
 Result<std::string> sha256_of_file(const std::string& path, const std::function<void()>& progress) {
     const FileHandle file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file) return fail_io("cannot open", path);
-    crypto_hash_sha256_state state;
-    crypto_hash_sha256_init(&state);
-    std::vector<unsigned char> block(1U << 20U);
+    Sha256 hash;
+    std::vector<char> block(1U << 20U);
     for (;;) {
         const auto got = ::read(file.get(), block.data(), block.size());
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return fail_io("cannot read", path);
         if (got == 0) break;
-        crypto_hash_sha256_update(&state, block.data(), static_cast<std::size_t>(got));
+        hash.add({block.data(), static_cast<std::size_t>(got)});
         if (progress) progress();
     }
-    Digest digest{};
-    crypto_hash_sha256_final(&state, digest.data());
-    return hex_of(digest);
+    return hex_of(hash.finish());
 }
 
 } // namespace axiscal

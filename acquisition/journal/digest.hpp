@@ -1,17 +1,30 @@
 #pragma once
-// SHA-256 by libsodium, the one hash of run files and published results. Pure, but for the file.
+// SHA-256 by nettle, the one hash of run files and published results. Pure, but for the file.
 
 #include "analysis/quantity/result.hpp"
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <nettle/sha2.h>
 #include <string>
 #include <string_view>
 
 namespace axiscal {
 
-using Digest = std::array<std::uint8_t, 32>;
+using Digest = std::array<std::uint8_t, SHA256_DIGEST_SIZE>;
+
+/// Of bytes that come in parts.
+class Sha256 {
+public:
+    Sha256() { sha256_init(&state_); }
+    void add(std::string_view bytes);
+    /// Of all that was added; begins anew.
+    Digest finish();
+
+private:
+    sha256_ctx state_{};
+};
 
 Digest sha256(std::string_view bytes);
 /// SHA-256(previous, bytes): one link of a chain.

@@ -1,10 +1,9 @@
 #include "acquisition/publish/result_digest.hpp"
 
+#include "acquisition/journal/digest.hpp"
 #include "analysis/certificate.hpp"
 #include "analysis/circular/circular_certificate.hpp"
 
-#include <array>
-#include <sodium.h>
 #include <vector>
 
 namespace axiscal {
@@ -12,12 +11,7 @@ namespace axiscal {
 namespace {
 
 std::string sha256_of(const std::vector<std::byte>& bytes) {
-    std::array<unsigned char, crypto_hash_sha256_BYTES> hash{};
-    crypto_hash_sha256(hash.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
-                       bytes.size());
-    std::array<char, crypto_hash_sha256_BYTES * 2 + 1> hex{};
-    sodium_bin2hex(hex.data(), hex.size(), hash.data(), hash.size());
-    return hex.data();
+    return sha256_hex({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 } // namespace

@@ -4,8 +4,6 @@
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/durable_file.hpp"
 
-#include <sodium.h>
-
 #include <algorithm>
 #include <array>
 #include <fcntl.h>
@@ -41,36 +39,20 @@ std::string escaped(const std::string& path) {
     return text;
 }
 
-class RunningSha256 {
-public:
-    RunningSha256() { crypto_hash_sha256_init(&state_); }
-    void add(const char* bytes, std::size_t size) {
-        crypto_hash_sha256_update(&state_, reinterpret_cast<const unsigned char*>(bytes), size);
-    }
-    std::string hex() {
-        Digest digest{};
-        crypto_hash_sha256_final(&state_, digest.data());
-        return hex_of(digest);
-    }
-
-private:
-    crypto_hash_sha256_state state_{};
-};
-
 /// Of the first `size` bytes, or up to the end where the file is shorter. Empty when reading fails;
 /// errno says why.
 std::optional<std::string> hash_of(SmbFile& file, std::uint64_t size, const Progress& progress) {
-    RunningSha256 hash;
+    Sha256 hash;
     std::vector<char> bytes(std::min<std::uint64_t>(size, block));
     while (size > 0) {
         const auto got = file.read(bytes.data(), std::min<std::uint64_t>(size, bytes.size()));
         if (got < 0) return std::nullopt;
         if (got == 0) break;
-        hash.add(bytes.data(), static_cast<std::size_t>(got));
+        hash.add({bytes.data(), static_cast<std::size_t>(got)});
         size -= static_cast<std::uint64_t>(got);
         if (progress) progress();
     }
-    return hash.hex();
+    return hex_of(hash.finish());
 }
 
 bool write_all(SmbFile& file, const char* bytes, ssize_t size) {
