@@ -1,5 +1,6 @@
 #include "acquisition/journal/row.hpp"
 
+#include <array>
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -59,9 +60,12 @@ std::string canonical_bytes(const Table& table, const Row& row) {
     return bytes;
 }
 
+// Eight bytes at a time: the window of a point has three thousand such words.
 void put_u64(std::string& bytes, std::uint64_t word) {
-    for (unsigned shift = 0; shift < 64; shift += 8)
-        bytes += static_cast<char>(static_cast<unsigned char>(word >> shift));
+    std::array<char, sizeof word> little{};
+    for (std::size_t i = 0; i < little.size(); ++i)
+        little[i] = static_cast<char>(static_cast<unsigned char>(word >> (8 * i)));
+    bytes.append(little.data(), little.size());
 }
 
 std::uint64_t get_u64(std::string_view bytes) {

@@ -4,9 +4,11 @@
 
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/record_rows.hpp"
+#include "acquisition/journal/statement.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,7 +17,6 @@
 
 namespace axiscal {
 
-class Database;
 struct RunFileContents;
 
 inline constexpr std::string_view run_file_ending = ".axiscal";
@@ -89,6 +90,7 @@ private:
     RunFileWriter(std::string path, std::unique_ptr<Database> database);
     static Result<RunFileWriter> attach(const std::string& path);
     static Result<RunFileWriter> go_on(const std::string& path, const RunFileContents& contents);
+    Result<Statement*> insertion_into(const Table& table);
     Result<void> append(const ChainedRow& row);
     /// `before`: SQL of the same transaction that comes first.
     Result<void> transact(const std::vector<ChainedRow>& rows, const std::string& before = {});
@@ -96,6 +98,7 @@ private:
 
     std::string path_;
     std::unique_ptr<Database> database_;
+    std::map<std::string_view, Statement> insertions_; ///< by table
     std::int64_t links_ = 0; ///< in the chain so far
     Digest head_{};          ///< hash of the last link; zeros before the first
     int format_ = 0;         ///< set by create and reopen

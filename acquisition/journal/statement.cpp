@@ -38,11 +38,10 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
     sqlite3_finalize(statement);
 }
 
-Result<void> Statement::bind(const Row& values) {
+Result<void> Statement::bind(const Row& values, int first) {
     sqlite3_reset(statement_.get());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (bind_value(statement_.get(), static_cast<int>(i + 1), values[i]) != SQLITE_OK)
-            return owner_->failure();
+    for (const auto& value : values)
+        if (bind_value(statement_.get(), first++, value) != SQLITE_OK) return owner_->failure();
     return {};
 }
 

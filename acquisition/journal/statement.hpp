@@ -15,8 +15,8 @@ class Database;
 /// One prepared statement.
 class Statement {
 public:
-    /// Binds all parameters from ?1 on, anew.
-    Result<void> bind(const Row& values);
+    /// Begins anew: binds the parameters from ?`first` on; what was bound before stays.
+    Result<void> bind(const Row& values, int first = 1);
     /// true: a row stands in the columns; false: done.
     Result<bool> step();
     [[nodiscard]] Value column(int index) const;
