@@ -184,11 +184,15 @@ Task<bool> ModbusTcpPort::answer_frames(Client& client) {
         const auto verdict = request ? client.desk->space().check(*request) : request.error();
         if (verdict == ModbusException::none && !request->values.empty())
             client.desk->write(*request, at);
-        const auto reply =
-            client.answerer->answer(*frame, verdict, client.desk->image(client.scheduler->now()));
-        if (!reply) co_return false;
         ++client.desk->counters.requests;
         if (verdict != ModbusException::none) ++client.desk->counters.exceptions;
+        const RegisterImage image = client.desk->image(client.scheduler->now());
+        const auto at_once = client.answerer->answer_at_once(client.socket.native_handle(), *frame,
+                                                             verdict, image);
+        if (!at_once) co_return false;
+        if (*at_once) continue;
+        const auto reply = client.answerer->answer(*frame, verdict, image);
+        if (!reply) co_return false;
         client.deadline = client.scheduler->now() + client.patience.answer;
         const auto [error, sent] =
             co_await asio::async_write(client.socket, asio::buffer(*reply), quietly);
