@@ -3,7 +3,7 @@
 #include "drivers/link/can_link.hpp"
 
 #include "drivers/link/can_interface.hpp"
-#include "drivers/link/deadline.hpp"
+#include "drivers/link/deadline_watch.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -83,7 +83,8 @@ public:
     SocketCanLink(Scheduler& scheduler, int descriptor, std::string interface)
         : scheduler_{scheduler}
         , interface_{std::move(interface)}
-        , descriptor_{scheduler.executor(), descriptor} {
+        , descriptor_{scheduler.executor(), descriptor}
+        , reading_{scheduler, [this] { descriptor_.cancel(); }} {
         lay_out_buffers();
     }
     Result<void> hear(const std::vector<std::uint32_t>& ids) override;
@@ -103,6 +104,7 @@ private:
     Scheduler& scheduler_;
     std::string interface_;
     boost::asio::posix::stream_descriptor descriptor_;
+    DeadlineWatch reading_;
     std::array<can_frame, batch> frames_{};
     std::array<iovec, batch> places_{};
     std::array<std::array<char, 128>, batch> beside_{}; ///< room for both control messages
@@ -198,11 +200,13 @@ Task<boost::system::error_code> SocketCanLink::readable() {
 Task<Result<std::vector<TimedCanFrame>>> SocketCanLink::read_some(MonotonicTime deadline) {
     for (;;) {
         if (then_) co_return tl::unexpected<Error>(*std::exchange(then_, std::nullopt));
-        const auto ready = co_await before(scheduler_, readable(), deadline);
-        if (!ready) co_return fail(Fault::link_timeout, "nothing came on " + interface_);
-        if (*ready) co_return fail(Fault::link_closed, interface_, *ready);
+        reading_.begin(deadline);
+        const auto error = co_await readable();
+        const bool late = reading_.end();
+        if (error && !late) co_return fail(Fault::link_closed, interface_, error);
         auto arrived = drain();
         if (!arrived || !arrived->empty()) co_return arrived;
+        if (late && !then_) co_return fail(Fault::link_timeout, "nothing came on " + interface_);
     }
 }
 

@@ -27,7 +27,8 @@ DescriptorLink::DescriptorLink(Scheduler& scheduler, int descriptor, DescriptorK
     : scheduler_{scheduler}
     , kind_{std::move(kind)}
     , buffer_(largest_read)
-    , descriptor_{scheduler.executor(), descriptor} {}
+    , descriptor_{scheduler.executor(), descriptor}
+    , reading_{scheduler, [this] { descriptor_.cancel(); }} {}
 
 DescriptorLink::~DescriptorLink() {
     // A pty that somebody else keeps open would stay exclusive.
@@ -41,11 +42,15 @@ Task<boost::system::error_code> DescriptorLink::readiness(WaitType what) {
     co_return error;
 }
 
-Task<Result<void>> DescriptorLink::wait(WaitType what, MonotonicTime deadline) {
-    const auto error = co_await before(scheduler_, readiness(what), deadline);
-    if (!error) co_return fail(Fault::link_timeout, "nothing moved on " + kind_.name);
+Task<Result<void>> DescriptorLink::writable(MonotonicTime deadline) {
+    const auto error = co_await before(scheduler_, readiness(WaitType::wait_write), deadline);
+    if (!error) co_return silent();
     if (*error) co_return fail(Fault::link_closed, kind_.name, *error);
     co_return Result<void>{};
+}
+
+tl::unexpected<Error> DescriptorLink::silent() const {
+    return fail(Fault::link_timeout, "nothing moved on " + kind_.name);
 }
 
 tl::unexpected<Error> DescriptorLink::closed(int error_number) const {
@@ -56,8 +61,11 @@ tl::unexpected<Error> DescriptorLink::closed(int error_number) const {
 
 Task<Result<TimedBytes>> DescriptorLink::read_some(MonotonicTime deadline) {
     for (;;) {
-        const auto ready = co_await wait(boost::asio::posix::descriptor_base::wait_read, deadline);
-        if (!ready) co_return tl::unexpected<Error>(ready.error());
+        reading_.begin(deadline);
+        const auto error = co_await readiness(WaitType::wait_read);
+        // What came while the host stalled is read, however late it is.
+        const bool late = reading_.end();
+        if (error && !late) co_return fail(Fault::link_closed, kind_.name, error);
         const ssize_t count = ::read(descriptor_.native_handle(), buffer_.data(), buffer_.size());
         const int error_number = errno;
         const MonotonicTime read_at = scheduler_.now();
@@ -68,6 +76,7 @@ Task<Result<TimedBytes>> DescriptorLink::read_some(MonotonicTime deadline) {
         // End of file, and EIO of a tty whose other end is gone, are one thing: unplugged.
         if (count == 0) co_return closed(0);
         if (!means_try_again(error_number)) co_return closed(error_number);
+        if (late) co_return silent();
     }
 }
 
@@ -84,7 +93,7 @@ Task<Result<void>> DescriptorLink::write_all(std::vector<std::byte> bytes, Monot
             continue;
         }
         if (!means_try_again(errno)) co_return closed(errno);
-        const auto ready = co_await wait(boost::asio::posix::descriptor_base::wait_write, deadline);
+        const auto ready = co_await writable(deadline);
         if (!ready) co_return ready;
     }
     co_return Result<void>{};

@@ -2,6 +2,7 @@
 // A link over any pollable descriptor: tty, pty or socket. Loop-bound.
 
 #include "drivers/link/byte_link.hpp"
+#include "drivers/link/deadline_watch.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 
@@ -36,13 +37,15 @@ public:
 private:
     using WaitType = boost::asio::posix::descriptor_base::wait_type;
     Task<boost::system::error_code> readiness(WaitType what);
-    Task<Result<void>> wait(WaitType what, MonotonicTime deadline);
+    Task<Result<void>> writable(MonotonicTime deadline);
+    [[nodiscard]] tl::unexpected<Error> silent() const;
     [[nodiscard]] tl::unexpected<Error> closed(int error_number) const;
 
     Scheduler& scheduler_;
     DescriptorKind kind_;
     std::vector<std::byte> buffer_;
     boost::asio::posix::stream_descriptor descriptor_;
+    DeadlineWatch reading_;
 };
 
 } // namespace axiscal
