@@ -21,7 +21,7 @@ from guest import SHARE, SOURCE, check, expect, load_modules, run, run_checks, w
 sys.path.insert(0, str(SOURCE / "tests/simulation"))
 import bench  # noqa: E402  (the bench of the whole-run tests, here with its state on another disk)
 
-CUTS = int(os.environ.get("AXISCAL_CUTS", "20"))
+CUTS = int(os.environ.get("AXISCAL_CUTS", "10"))
 STATE = Path("/mnt/state")
 POINTS = 20
 DISK, NOTES, AFTER = "/dev/vda", "/dev/vdb", "/dev/vdc"
