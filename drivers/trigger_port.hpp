@@ -52,8 +52,8 @@ enum class PortState : std::uint16_t {
     hold = 6
 };
 
-/// Everything the CNC may read besides `done`; absent values are published as 0 with the
-/// environment words at -32768.
+/// Everything the CNC may read besides `done`; an absent value is published as a number that no
+/// value has (docs/trigger.md).
 struct PortStatus {
     PortState state = PortState::idle;
     std::optional<double> measured_mm, deviation_um, next_nominal_mm;

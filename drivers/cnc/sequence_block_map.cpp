@@ -25,9 +25,22 @@ std::optional<TriggerCommand> command_of(std::uint16_t word) {
 }
 
 std::uint16_t environment_word(std::optional<double> value, double counts_per_unit) {
-    if (!value) return absent;
+    if (!value || !std::isfinite(*value)) return absent;
     const double counts = std::clamp(std::round(*value * counts_per_unit), -32767.0, 32767.0);
     return static_cast<std::uint16_t>(static_cast<std::int16_t>(counts));
+}
+
+std::uint16_t index_word(std::optional<int> index) {
+    return index ? static_cast<std::uint16_t>(std::clamp(*index, 0, absent_index - 1))
+                 : absent_index;
+}
+
+/// The bits of a signed 32-bit word, as many counts as are nearest.
+std::uint32_t long_word(std::optional<double> value, double counts_per_unit) {
+    if (!value || !std::isfinite(*value)) return absent_long;
+    constexpr double most = std::numeric_limits<std::int32_t>::max();
+    const double counts = std::clamp(std::round(*value * counts_per_unit), -most, most);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(counts));
 }
 
 std::uint16_t permit_word(const PortStatus& status) {
@@ -146,10 +159,10 @@ void SequenceBlockMap::show(const PortStatus& status) {
     const double deviation_scale =
         rotary ? deviation_counts_per_millidegree : deviation_counts_per_um;
     words_[state] = static_cast<std::uint16_t>(status.state);
-    put_long(measured_position, status.measured_mm.value_or(0) * position_scale);
-    put_long(deviation, status.deviation_um.value_or(0) * deviation_scale);
-    words_[next_target] = static_cast<std::uint16_t>(status.next_target.value_or(0));
-    put_long(next_nominal, status.next_nominal_mm.value_or(0) * position_scale);
+    put_long(measured_position, long_word(status.measured_mm, position_scale));
+    put_long(deviation, long_word(status.deviation_um, deviation_scale));
+    words_[next_target] = index_word(status.next_target);
+    put_long(next_nominal, long_word(status.next_nominal_mm, position_scale));
     words_[permit] = permit_word(status);
     words_[air_temperature] = environment_word(status.air_degC, 100);
     words_[air_pressure] = environment_word(status.pressure_Pa, 0.1);
@@ -164,11 +177,7 @@ std::int32_t SequenceBlockMap::long_at(int word) const {
     return static_cast<std::int32_t>(high << 16 | low);
 }
 
-void SequenceBlockMap::put_long(int word, double counts) {
-    using Limits = std::numeric_limits<std::int32_t>;
-    const double kept = std::clamp(std::round(counts), static_cast<double>(Limits::min()),
-                                   static_cast<double>(Limits::max()));
-    const auto bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(kept));
+void SequenceBlockMap::put_long(int word, std::uint32_t bits) {
     const auto place = static_cast<std::size_t>(word);
     words_[place + (low_word_first_ ? 1 : 0)] = static_cast<std::uint16_t>(bits >> 16);
     words_[place + (low_word_first_ ? 0 : 1)] = static_cast<std::uint16_t>(bits);

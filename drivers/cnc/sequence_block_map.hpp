@@ -32,7 +32,10 @@ enum Word : std::uint8_t {
     fault_sequence = 32
 };
 inline constexpr int words = 33, cnc_words = 10, daemon_words = words - daemon_heartbeat;
-inline constexpr std::uint16_t absent = 0x8000; ///< -32768 in an environment word
+/// What stands for an absent value; no value that is there is ever published as one of them.
+inline constexpr std::uint16_t absent = 0x8000;           ///< -32768 in an environment word
+inline constexpr std::uint32_t absent_long = 0x8000'0000; ///< in measured_position .. next_nominal
+inline constexpr std::uint16_t absent_index = 0xFFFF;     ///< in next_target
 } // namespace sequence_block
 
 class SequenceBlockMap : public RegisterMap {
@@ -60,7 +63,7 @@ private:
     void take_edge(MonotonicTime at, MapNews& news);
     [[nodiscard]] std::optional<TriggerEvent> decode() const;
     [[nodiscard]] std::int32_t long_at(int word) const;
-    void put_long(int word, double counts);
+    void put_long(int word, std::uint32_t bits);
 
     std::array<std::uint16_t, sequence_block::words> words_{};
     std::optional<std::uint16_t> last_request_; ///< empty: none seen since the start
