@@ -1,4 +1,5 @@
 #include "acquisition/program/part_program.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -228,8 +229,8 @@ TEST(PartProgram, AnUnknownDialectIsRefusedWithTheList) {
 TEST(PartProgram, Rs274OfLinuxcncAcceptsItAndMovesAsPlanned) {
     if (std::system("command -v rs274 >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "rs274 (linuxcnc-uspace) is not installed";
-    char name[] = "/tmp/axiscal-rs274-XXXXXX";
-    const std::filesystem::path folder = ::mkdtemp(name);
+    const testing::ScratchFolder scratch;
+    const std::filesystem::path folder = scratch.path();
     for (const TriggerShape shape : {TriggerShape::sequence_block, TriggerShape::single_register,
                                      TriggerShape::coil_and_index, TriggerShape::dwell}) {
         const RunPlan plan = plan_of({10.123, 60.5, 111.25, 160, 210.999}, 5);
@@ -254,7 +255,6 @@ TEST(PartProgram, Rs274OfLinuxcncAcceptsItAndMovesAsPlanned) {
         }
         expect_follows_plan(stops, plan);
     }
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // stands, and what the interferometer between them would see.
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/program/table_halts.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -159,8 +160,8 @@ TEST(TableHalts, GoInStridesOfWholeSteps) {
 TEST(RotaryProgram, Rs274OfLinuxcncAcceptsItAndTurnsAAsPlanned) {
     if (std::system("command -v rs274 >/dev/null 2>&1") != 0)
         GTEST_SKIP() << "rs274 (linuxcnc-uspace) is not installed";
-    char name[] = "/tmp/axiscal-rs274-XXXXXX";
-    const std::filesystem::path folder = ::mkdtemp(name);
+    const testing::ScratchFolder scratch;
+    const std::filesystem::path folder = scratch.path();
     const ProgramOrder order = order_of(5);
     std::ofstream{folder / "cycle.ngc"} << *write_linuxcnc(order);
     ASSERT_EQ(
@@ -187,7 +188,6 @@ TEST(RotaryProgram, Rs274OfLinuxcncAcceptsItAndTurnsAAsPlanned) {
                     5e-5);
     }
     EXPECT_EQ(next, order.plan.points.size());
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace
