@@ -56,6 +56,9 @@ public:
     [[nodiscard]] virtual std::optional<Optics> optics() const { return std::nullopt; }
     /// Where the device's own sample number begins again (65536 for 16 bits); 0: it does not.
     [[nodiscard]] virtual std::uint64_t count_modulus() const { return 0; }
+    /// Counts from where it was: its zero holds only while it counts on. Every interferometer does,
+    /// a scale behind a counter, too.
+    [[nodiscard]] virtual bool incremental() const { return optics().has_value(); }
 };
 
 struct Appearance;

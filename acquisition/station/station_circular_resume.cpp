@@ -50,7 +50,7 @@ CircleResume Station::judge_circles(const RunFileContents& contents) const {
         const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
         now.speaks = reading.has_value();
         if (reading && reading->value()) now.bar = reading;
-        now.incremental = bar.optics().has_value();
+        now.incremental = bar.incremental();
         now.limits.count_modulus = bar.count_modulus();
         now.limits.rate_hz = stored_rate_hz(contents.blocks);
         if (now.limits.rate_hz <= 0 && contents.circular)

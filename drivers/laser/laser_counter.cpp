@@ -65,6 +65,7 @@ public:
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
     [[nodiscard]] std::optional<Optics> optics() const override { return setup_.optics; }
+    [[nodiscard]] bool incremental() const override { return true; }
 
 private:
     void take(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink);

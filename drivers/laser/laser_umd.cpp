@@ -6,7 +6,8 @@
 // (state of 2025). "field n" is the place in a record from 0, "code n" the low-speed code, both as
 // listed in docs/instruments/umd.md. Nothing here was seen on a real device yet.
 //
-// The instrument only sends: there is nothing to ask, to zero or to configure.
+// The instrument only sends: there is nothing to ask, to zero or to configure. Its homodyne
+// firmware counts the lines of a scale as it counts fringes: one count is pitch / counts per cycle.
 
 #include "drivers/laser/laser_umd.hpp"
 #include "config/settings.hpp"
@@ -50,8 +51,10 @@ public:
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
     [[nodiscard]] std::optional<Optics> optics() const override {
+        if (setup_.resolution) return std::nullopt;
         return Optics{setup_.wavelength, setup_.optical_fold};
     }
+    [[nodiscard]] bool incremental() const override { return true; }
     [[nodiscard]] std::uint64_t count_modulus() const override { return counter_.modulus(); }
 
 private:
@@ -125,9 +128,8 @@ std::optional<UmdPhase> read_phase(Settings& options) {
     return std::nullopt;
 }
 
-UmdSetup read_setup(Settings& options) {
-    UmdSetup setup;
-    setup.wavelength = options.length("wavelength", nm(400), nm(1600));
+void read_laser(Settings& options, UmdSetup& setup) {
+    setup.wavelength = options.length("wavelength", nm(400), nm(1600), nm(633));
     setup.optical_fold =
         options.choice("fold", {"corner cube", "plane mirror"}) == "plane mirror" ? 4 : 2;
     if (options.has("counts_per_cycle"))
@@ -137,6 +139,31 @@ UmdSetup read_setup(Settings& options) {
                          ? UmdHead::homodyne
                          : UmdHead::heterodyne;
     setup.phase = read_phase(options);
+}
+
+/// The length of one count says everything of a scale: what belongs to a laser is refused beside
+/// it.
+void read_scale(Settings& options, UmdSetup& setup) {
+    setup.resolution = options.length("resolution", nm(0.01), mm(1));
+    setup.head = UmdHead::homodyne;
+    setup.phase = UmdPhase::none;
+    for (const char* key : {"wavelength", "fold", "counts_per_cycle", "head", "phase"})
+        if (options.has(key))
+            options.refuse(key, "belongs to a laser, resolution (length of one count) to a scale: "
+                                "state one of them");
+}
+
+/// A scale by its resolution, or a laser by its wavelength: one of them.
+UmdSetup read_setup(Settings& options) {
+    UmdSetup setup;
+    const bool scale = options.has("resolution");
+    if (!scale && !options.has("wavelength"))
+        options.refuse("wavelength", "is missing: state it for a laser (in vacuum), or resolution "
+                                     "(length of one count) for a scale");
+    if (scale)
+        read_scale(options, setup);
+    else
+        read_laser(options, setup);
     setup.axis = static_cast<int>(options.integer("axis", 1, 3, 1));
     setup.fastest = options.speed("fastest", mm_per_minute(1), metre_per_second(20));
     return setup;

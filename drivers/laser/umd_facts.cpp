@@ -72,14 +72,15 @@ std::optional<UmdPhase> UmdFacts::phase() const {
 }
 
 bool UmdFacts::complete() const {
-    return rate_Hz_ && head() && counts_per_cycle() && phase();
+    return rate_Hz_ && head() && (setup_.resolution || counts_per_cycle()) && phase();
 }
 
 std::string UmdFacts::missing() const {
     std::string text;
     if (!rate_Hz_) text += " record rate (code 8)";
     if (!head()) text += " head (code 20, or key head)";
-    if (!counts_per_cycle()) text += " counts per cycle (code 20, or key counts_per_cycle)";
+    if (!setup_.resolution && !counts_per_cycle())
+        text += " counts per cycle (code 20, or key counts_per_cycle)";
     if (!phase()) text += " phase format (code 10, or key phase)";
     return "not told by the instrument:" + text;
 }
@@ -88,6 +89,9 @@ std::string UmdFacts::contradiction() const {
     if (setup_.counts_per_cycle && told_counts_ && *setup_.counts_per_cycle != *told_counts_)
         return "counts_per_cycle = " + std::to_string(*setup_.counts_per_cycle) +
                " is configured and used, the instrument says " + std::to_string(*told_counts_);
+    if (setup_.resolution && homodyne_axes_ && *homodyne_axes_ == 0)
+        return "a scale (resolution) is configured, the instrument says heterodyne: it counts no "
+               "A-quad-B";
     if (setup_.head && homodyne_axes_ &&
         (*setup_.head == UmdHead::homodyne) != (*homodyne_axes_ > 0))
         return "the configured head is used, the instrument says " +
@@ -119,6 +123,7 @@ std::string UmdFacts::firmware() const {
 }
 
 double UmdFacts::metres_per_count() const {
+    if (setup_.resolution) return setup_.resolution->in(metre);
     return setup_.wavelength.in(metre) / (setup_.optical_fold * *counts_per_cycle());
 }
 

@@ -23,8 +23,11 @@ enum class UmdPhase : std::uint8_t {
 
 /// What the station file states; empty: the instrument is asked.
 struct UmdSetup {
-    Length wavelength; ///< in vacuum
+    Length wavelength; ///< in vacuum; of a laser
     double optical_fold = 2;
+    /// One count of a scale. With it wavelength, fold and counts per cycle mean nothing, and the
+    /// firmware counts A-quad-B: `head` is homodyne.
+    std::optional<Length> resolution;
     std::optional<int> counts_per_cycle;
     std::optional<UmdHead> head;
     std::optional<UmdPhase> phase;
@@ -52,7 +55,7 @@ public:
     [[nodiscard]] std::string contradiction() const;
     [[nodiscard]] std::string model() const;    ///< "uMD2"
     [[nodiscard]] std::string firmware() const; ///< "264.07"; empty before code 10
-    /// Metres of vacuum displacement per count; only when complete.
+    /// Metres per count, of a laser in vacuum; only when complete.
     [[nodiscard]] double metres_per_count() const;
 
 private:

@@ -121,6 +121,18 @@ def arcs(b):
     expect_hidden(answer)
 
 
+@sentence("CirclesReadByAGlassScaleTellTheHiddenErrors")
+def glass_scale(b):
+    """A scale of 0.4 um a line, 0.1 um a count: rounding adds 0.03 um to the noise of 0.1 um. Taken for
+    the fringes of a laser with a corner cube, the same counts would be 0.79 times as long."""
+    with_ballbar(b, overshoot="90 deg")
+    b.scenario["ballbar"]["resolution_um"] = 0.1
+    bar = b.station["instrument"][-1]
+    del bar["wavelength"], bar["fold"]
+    bar["resolution"] = "0.1 um"
+    expect_hidden(measure(b))
+
+
 LASER_HZ, LEFT_OUT = 50_000, 50
 
 

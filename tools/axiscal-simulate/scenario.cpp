@@ -224,6 +224,9 @@ void read_ballbar(Fields& f, BallbarScenario& bar) {
     f.read("noise_um", bar.noise_um);
     f.read("rate_hz", bar.rate_hz);
     if (bar.rate_hz && !(*bar.rate_hz > 0)) f.refuse("rate_hz", "must be above 0");
+    f.read("resolution_um", bar.resolution_um);
+    if (bar.resolution_um && !(*bar.resolution_um > 0))
+        f.refuse("resolution_um", "must be above 0");
     if (bar.path.empty()) f.refuse("path", "is missing");
 }
 

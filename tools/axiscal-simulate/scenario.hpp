@@ -85,7 +85,8 @@ struct BallbarScenario {
     double backlash_first_um = 0, backlash_second_um = 0; ///< lost motion
     double cyclic_first_um = 0, cyclic_period_mm = 10;    ///< amplitude
     double noise_um = 0;                                  ///< sigma per sample
-    std::optional<double> rate_hz; ///< of its counter; absent: the counter's usual rate
+    std::optional<double> rate_hz;       ///< of its counter; absent: the counter's usual rate
+    std::optional<double> resolution_um; ///< a glass scale: one count; absent: a laser
 };
 
 struct SensorScenario {

@@ -119,8 +119,9 @@ TEST(Counter, ReadsEventsFromAPipeAndEndsWithIt) {
 TEST(Counter, IsAScaleOrALaserAndNotBoth) {
     const std::string keys =
         "device = \"/dev/counter0\"\nevent = \"index\"\nbits = 32\nfastest = \"1 m/s\"\n";
-    EXPECT_FALSE(
-        testing::instrument("counter", keys + "resolution = \"0.1 um\"\n")->optics().has_value());
+    const auto scale = testing::instrument("counter", keys + "resolution = \"0.1 um\"\n");
+    EXPECT_FALSE(scale->optics().has_value());
+    EXPECT_TRUE(scale->incremental());
     EXPECT_EQ(testing::make_instrument("counter", keys).refusals.size(), 1U);
     EXPECT_EQ(testing::make_instrument("counter", keys + "resolution = \"0.1 um\"\nwavelength = "
                                                          "\"633 nm\"\ncounts_per_cycle = 4\n")

@@ -44,6 +44,28 @@ TEST(Registry, MakesALaserWithItsOptics) {
     EXPECT_EQ(made.instrument->channels().front().name, "axis 1");
 }
 
+TEST(Registry, MakesAUmdOnAScaleWithoutOpticsWhoseZeroHoldsOnlyWhileItCounts) {
+    const auto made = testing::make_instrument(
+        "umd", "link = \"serial:/dev/ttyACM0\"\nresolution = \"0.1 um\"\nfastest = \"30 m/min\"\n");
+    EXPECT_EQ(all_refusals(made), "");
+    EXPECT_FALSE(made.instrument->optics());
+    EXPECT_TRUE(made.instrument->incremental());
+    EXPECT_EQ(made.instrument->channels().front().name, "axis 1");
+}
+
+TEST(Registry, RefusesAUmdThatIsScaleAndLaserOrNeither) {
+    const std::string both = all_refusals(testing::make_instrument(
+        "umd", umd_keys + "resolution = \"0.1 um\"\ncounts_per_cycle = 4\nphase = \"none\"\n"));
+    for (const char* key : {"wavelength", "fold", "counts_per_cycle", "phase"})
+        EXPECT_NE(both.find(std::string{key} + ": belongs to a laser"), std::string::npos)
+            << key << "\n"
+            << both;
+    const std::string neither = all_refusals(testing::make_instrument(
+        "umd", "link = \"serial:/dev/ttyACM0\"\nfold = \"corner cube\"\nfastest = \"1 m/s\"\n"));
+    EXPECT_NE(neither.find("or resolution (length of one count) for a scale"), std::string::npos)
+        << neither;
+}
+
 TEST(Registry, RefusesWrongDriverKeysAllAtOnce) {
     const auto made = testing::make_instrument(
         "umd", "link = \"usb:1\"\nwavelength = \"633\"\nfold = \"corner\"\naxis = 4\nspeed = 1\n");

@@ -100,6 +100,8 @@ TEST_P(TapeReplay, IsRecordedAsItWasPlayed) {
 const std::string umd_keys = "link = \"serial:/dev/null\"\nwavelength = \"632.991354 nm\"\n"
                              "fastest = \"0.5 m/s\"\n";
 const std::string corner_cube = umd_keys + "fold = \"corner cube\"\n";
+const std::string glass_scale =
+    "link = \"serial:/dev/null\"\nresolution = \"5 um\"\nfastest = \"0.5 m/s\"\n";
 const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string usb_keys = "link = \"usb:any\"\n";
 const std::string ballbar_keys = "link = \"usb:470012345\"\nscale_length = \"1 mm\"\n";
@@ -118,6 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"umd1-heterodyne", "umd", corner_cube},
                       TapeCase{"umd0-homodyne", "umd", plane_mirror},
                       TapeCase{"umd2-sixteen-bit", "umd", corner_cube},
+                      TapeCase{"umd2-glass-scale", "umd", glass_scale},
                       TapeCase{"dracal-vcp-pth450", "dracal-vcp", line_keys},
                       TapeCase{"dracal-vcp-faults", "dracal-vcp", line_keys},
                       TapeCase{"gauge-nd-28x", "ascii-gauge", model_keys + "\"nd-28x\"\n"},

@@ -164,6 +164,23 @@ TEST(UmdFacts, ScaleCountsByOpticsAndCountsPerCycle) {
     EXPECT_NEAR(scale_nm(4, 4), 39.562, 5e-4);
 }
 
+/// A scale of 20 um a line: the quadrature firmware makes 4 counts of it, 5 um each.
+TEST(UmdFacts, ScaleCountsByTheResolutionWhateverTheInstrumentSaysOfCycles) {
+    UmdSetup setup;
+    setup.resolution = um(5);
+    setup.head = UmdHead::homodyne;
+    setup.phase = UmdPhase::none;
+    EXPECT_FALSE(facts_of({}, setup).complete()); // the record rate is not known yet
+    EXPECT_EQ(facts_of({}, setup).missing().find("counts_per_cycle"), std::string::npos);
+    const auto silent = facts_of({{8, 100000}}, setup), told = facts_of({{20, 1025}}, setup);
+    EXPECT_TRUE(silent.complete());
+    EXPECT_DOUBLE_EQ(silent.metres_per_count(), 5e-6);
+    EXPECT_DOUBLE_EQ(told.metres_per_count(), 5e-6);
+    EXPECT_EQ(told.contradiction(), "");
+    EXPECT_NE(facts_of({{20, 0x0100}}, setup).contradiction().find("no A-quad-B"),
+              std::string::npos);
+}
+
 TEST(UmdFacts, NameWhatIsMissingAndWhatContradicts) {
     UmdSetup setup = helium_neon();
     EXPECT_NE(facts_of({{8, 100000}}).missing().find("counts_per_cycle"), std::string::npos);

@@ -17,11 +17,17 @@ double play_mm(double backlash_um) {
 
 LaserScenario counter_of(const BallbarScenario& bar) {
     LaserScenario laser;
-    laser.kind = "umd2-heterodyne";
+    laser.kind = bar.resolution_um ? "umd2-homodyne" : "umd2-heterodyne";
     laser.path = bar.path;
-    laser.counts_per_cycle = 1;
+    laser.counts_per_cycle = bar.resolution_um ? 4 : 1; // A-quad-B: every edge of a line
     laser.rate_hz = bar.rate_hz;
     return laser;
+}
+
+/// Lines of the scale, or fringes of the laser.
+double cycles_per_mm_of(const BallbarScenario& bar, const LaserScenario& counter) {
+    if (bar.resolution_um) return 1e3 / (*bar.resolution_um * counter.counts_per_cycle);
+    return counter.fold / (counter.wavelength_nm * 1e-6);
 }
 
 /// A counter that is faster than this hands over what it has once a frame, as one behind USB does.
@@ -60,6 +66,7 @@ BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const Comman
     , plane_{plane}
     , circle_{*scenario.ballbar, scenario.seed}
     , laser_{counter_of(*scenario.ballbar)}
+    , cycles_per_mm_{cycles_per_mm_of(*scenario.ballbar, laser_)}
     , counter_{laser_} {
     pty_.keep(static_cast<std::size_t>(counter_.rate_hz() * kept_s * longest_record));
 }
@@ -67,8 +74,7 @@ BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const Comman
 /// The next record; empty where the counter leaves one out.
 std::string BarFace::record(PlanePoint drive) {
     const double reading_mm = circle_.reading_mm(drive, sample_++);
-    const double cycles = laser_.fold * reading_mm / (laser_.wavelength_nm * 1e-6);
-    const UmdRecord next = counter_.next(cycles);
+    const UmdRecord next = counter_.next(reading_mm * cycles_per_mm_);
     if (left_out_ == 0) return encode(next);
     --left_out_;
     return {};

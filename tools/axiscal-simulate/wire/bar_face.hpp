@@ -1,6 +1,6 @@
 #pragma once
-// A ballbar whose length a µMD counter reads, on its pty: the simulated machine's circle with its
-// hidden errors. The counter was zeroed at the nominal radius.
+// A ballbar whose length a µMD counter reads, by a laser or a glass scale, on its pty: the
+// simulated machine's circle with its hidden errors. The counter was zeroed at the nominal radius.
 
 #include "cnc/commanded_plane.hpp"
 #include "seeded_noise.hpp"
@@ -50,6 +50,7 @@ private:
     const CommandedPlane& plane_;
     TrueCircle circle_;
     LaserScenario laser_;
+    double cycles_per_mm_;
     UmdCounter counter_;
     std::uint64_t sample_ = 0; ///< written by its own thread alone
     std::uint64_t left_out_ = 0;
