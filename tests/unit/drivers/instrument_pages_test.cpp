@@ -75,5 +75,41 @@ TEST(InstrumentPages, ShowBlocksThatTheDriversAcceptAndTellEveryKey) {
     EXPECT_GE(blocks, 5);
 }
 
+/// The cell beside `title` in the table under "Checked"; empty: no such row.
+std::string checked_cell(const std::string& page, const std::string& title) {
+    const auto table = page.find("\n## Checked\n\n| | |\n|---|---|\n");
+    if (table == std::string::npos) return {};
+    const std::string begin = "\n| " + title + " | ", end = " |\n";
+    const auto row = page.find(begin, table);
+    if (row == std::string::npos) return {};
+    const auto text = row + begin.size();
+    return page.substr(text, page.find(end, text) - text);
+}
+
+/// A page that says "seen" must be changed here, too, with the tape of the device beside it.
+TEST(InstrumentPages, SayWhatWasCheckedAgainstWhatAndThatNoDeviceWasSeen) {
+    int pages = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator{test::source_dir() + "/docs/instruments"}) {
+        const std::string name = entry.path().filename().string();
+        if (name == "README.md") continue;
+        const std::string page = text_of(entry.path());
+        for (const char* title : {"bytes checked against", "kernel path checked"})
+            EXPECT_GT(checked_cell(page, title).size(), 10U) << name << ": " << title;
+        EXPECT_EQ(checked_cell(page, "seen on a real device"), "never") << name;
+        ++pages;
+    }
+    EXPECT_GE(pages, 14);
+}
+
+TEST(InstrumentPages, RowThatIsMissingOrStandsElsewhereIsNotFound) {
+    const std::string row = "| seen on a real device | never |\n";
+    const std::string table = "\n## Checked\n\n| | |\n|---|---|\n";
+    EXPECT_EQ(checked_cell(table + row, "seen on a real device"), "never");
+    EXPECT_EQ(checked_cell(table, "seen on a real device"), "");
+    EXPECT_EQ(checked_cell("\n" + row, "seen on a real device"), "");
+    EXPECT_EQ(checked_cell(table + row, "kernel path checked"), "");
+}
+
 } // namespace
 } // namespace axiscal
