@@ -98,6 +98,17 @@ Obstacle not_allowed(const PluggedDevice& device, const Account& service) {
             line};
 }
 
+/// The bit rate is that of a JUMO CANtrans T as delivered. Debian's gs_usb refuses restart-ms, and
+/// with it the whole command; what has no adapter behind it (vcan) has no bit rate.
+std::string raising_of(const PluggedDevice& can) {
+    std::string line = "sudo ip link set " + can.place + " up";
+    if (can.kernel_driver.empty()) return line;
+    line += " type can bitrate 500000";
+    if (can.kernel_driver != "gs_usb") line += " restart-ms 100";
+    return line + " (500000 is a JUMO CANtrans T as delivered: state the bit rate of the "
+                  "instruments)";
+}
+
 } // namespace
 
 StationWires read_station_wires(SettingsDocument& document) {
@@ -153,10 +164,7 @@ std::vector<Obstacle> obstacles(const PluggedDevice& device, const Account& serv
                         "again",
                         false});
     if (device.wire == Wire::can && !device.up)
-        list.push_back({"the interface " + device.place + " is down",
-                        "sudo ip link set " + device.place +
-                            " up type can bitrate 250000 restart-ms 100 (the bit rate of the "
-                            "instruments)"});
+        list.push_back({"the interface " + device.place + " is down", raising_of(device)});
     if (device.wire == Wire::one_wire && device.module.empty() && device.sensors.empty())
         list.push_back({"no thermometer answers on the 1-Wire bus",
                         "look at its three wires; then: ls /sys/bus/w1/devices"});

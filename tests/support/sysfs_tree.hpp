@@ -69,8 +69,11 @@ public:
         node(device / "hidraw" / name, "hidraw", device);
         write(Path{dev()} / name, "");
     }
-    void can(const Path& interface, const std::string& name, const std::string& flags) {
-        drive(interface, "gs_usb");
+    void can(const Path& interface,
+             const std::string& name,
+             const std::string& flags,
+             const std::string& driver = "gs_usb") {
+        drive(interface, driver);
         const Path net = interface / "net" / name;
         node(net, "net", interface);
         write(net / "type", "280");

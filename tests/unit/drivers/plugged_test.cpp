@@ -120,6 +120,23 @@ TEST_F(Plugged, InterfaceThatIsDownIsToldWithTheCommandThatRaisesIt) {
     EXPECT_TRUE(obstacles(found[1], someone()).empty());
 }
 
+/// gs_usb of Debian's kernel refuses restart-ms (docs/instruments/canopen-404.md); a CANtrans T
+/// comes with 500 kbit/s.
+TEST_F(Plugged, CommandThatRaisesAnInterfaceHoldsOnlyWhatItsAdapterTakes) {
+    tree.can(tree.usb("1-1", {"1d50", "606f", "candleLight"}), "can0", "0x40080");
+    tree.can(tree.usb("1-2", {"0c72", "000c", "PCAN-USB"}), "can1", "0x40080", "peak_usb");
+    testing::SysfsTree::write(std::filesystem::path{tree.sysfs()} / "class/net/vcan0/type", "280");
+    testing::SysfsTree::write(std::filesystem::path{tree.sysfs()} / "class/net/vcan0/flags",
+                              "0x80");
+    std::string told;
+    for (const PluggedDevice& device : listed())
+        for (const Obstacle& obstacle : obstacles(device, someone()))
+            told += obstacle.mend.substr(0, obstacle.mend.find(" (")) + "\n";
+    EXPECT_EQ(told, "sudo ip link set can0 up type can bitrate 500000\n"
+                    "sudo ip link set can1 up type can bitrate 500000 restart-ms 100\n"
+                    "sudo ip link set vcan0 up\n");
+}
+
 TEST_F(Plugged, ThermometersOfOneBusAreOneInstrument) {
     tree.one_wire("w1_bus_master1");
     tree.one_wire("28-0000075b3c2a");
