@@ -57,7 +57,17 @@ Task<void> run_to_the_end(Instrument& instrument,
     }
 }
 
+/// libmodbus speaks its line itself, on a thread and in real time: no tape can be put under it.
+bool is_modbus(const Tape& tape) {
+    const auto driver = tape.header.find("driver");
+    return driver != tape.header.end() && driver->second == "modbus";
+}
+
 Result<std::string> driver_says(const Tape& tape) {
+    if (is_modbus(tape))
+        return fail(Fault::bad_request,
+                    "a Modbus sensor is read on a wire only: play its tape to the daemon, with "
+                    "axiscal replay --link PATH (RTU) or --port N (TCP)");
     AXISCAL_TRY(const auto instrument, instrument_of(tape));
     VirtualScheduler scheduler;
     TapePlayer player{scheduler, tape};

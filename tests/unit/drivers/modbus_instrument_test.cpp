@@ -248,6 +248,7 @@ TEST_P(TcpTape, GivesExactlyWhatIsExpected) {
 INSTANTIATE_TEST_SUITE_P(Instruments,
                          TcpTape,
                          ::testing::Values("vaisala-indigo",
+                                           "comet-t7510",
                                            "labjack-t7-thermocouple",
                                            "labjack-t7-lvdt"),
                          [](const auto& which) {
