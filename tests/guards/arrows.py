@@ -1,85 +1,150 @@
 #!/usr/bin/env python3
-"""The arrows of docs/architecture.md, held against every #include of the product.
+"""The arrows of docs/architecture.md (table "Rooms"), held against every #include and every link of the product.
 
-arrows.py SOURCE_DIR        checks the tree
-arrows.py --self-test       proves that a planted backward include is seen
+arrows.py SOURCE_DIR               checks the tree
+arrows.py --self-test SOURCE_DIR   proves that planted backward includes and links are seen
 """
 import pathlib
 import re
 import sys
 
-# room -> rooms whose headers it may include (itself always). quantity <- config <- drivers <- acquisition -> analysis
-MAY = {
-    "analysis/quantity": set(),
-    "analysis": {"analysis/quantity"},
-    "config": {"analysis/quantity", "analysis/run_record.hpp", "analysis/circular/circular_setup.hpp"},
-    "drivers": {"analysis/quantity", "analysis/run_record.hpp", "config"},
-    "acquisition/capture": {"analysis/quantity", "analysis", "config", "drivers"},
-    "acquisition/run": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture"},
-    "acquisition/program": {"analysis/quantity", "analysis", "config", "drivers/framing/checksum.hpp"},
-    "acquisition/journal": {"analysis/quantity", "analysis", "drivers"},
-    "acquisition/publish": {"analysis/quantity", "analysis", "config", "acquisition/journal"},
-    "acquisition/publish/smb": {"analysis/quantity", "config", "acquisition/publish", "acquisition/journal"},
-    "acquisition/station": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/capture",
-                            "acquisition/run", "acquisition/journal"},
-    "acquisition/console": {"analysis/quantity", "analysis", "config", "acquisition/station",
-                            "drivers/scheduler.hpp", "drivers/spawn.hpp"},
-    "acquisition": {"analysis/quantity", "analysis", "config", "drivers", "acquisition/journal", "acquisition/station",
-                    "acquisition/console"},
-    "tools/axiscal-simulate": {"analysis/quantity"},
-}
-# Libraries that may be named only in one room.
-ONLY = {
-    "cairo": {"acquisition/publish"}, "pango": {"acquisition/publish"}, "sqlite3": {"acquisition/journal"}, "zstd": {"acquisition/journal"},
-    "libsmbclient": {"acquisition/publish/smb"},  # GPL: docs/dependencies.md
-    "toml++": {"config", "tools/axiscal-simulate"}, "modbus": {"drivers", "tools/axiscal-simulate"},
-    "libusb": {"drivers"}, "hidapi": {"drivers"},
-    "boost/asio": {"drivers", "acquisition/station", "acquisition/journal", "acquisition/console", "acquisition",
-                   "acquisition/publish", "tools/axiscal-simulate", "tools/axiscal"},
-}
+FOLDERS = ("analysis", "config", "drivers", "acquisition", "tools")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
+QUOTED = re.compile(r"`([^`]+)`")
+# How CMake names the libraries of the table.
+LINKED_AS = {"PkgConfig::pangocairo": "cairo", "PkgConfig::modbus": "modbus", "PkgConfig::libusb": "libusb", "PkgConfig::hidapi": "hidapi",
+             "PkgConfig::tomlplusplus": "toml++", "PkgConfig::zstd": "zstd", "PkgConfig::nettle": "nettle", "SQLite::SQLite3": "sqlite3",
+             "PkgConfig::smbclient": "libsmbclient", "Boost::headers": "boost/asio"}
+# Links that carry no arrow: compiler options, and libraries that stand in no row.
+FREE = {"axiscal_options", "Threads::Threads", "CLI11::CLI11", "spdlog::spdlog", "nlohmann_json::nlohmann_json", "PkgConfig::systemd"}
 
 
-def room_of(path):
-    """The longest room that holds this path, or None."""
-    rooms = [room for room in MAY if path == room or path.startswith(room + "/")]
-    return max(rooms, key=len) if rooms else None
+class Table:
+    """may: room -> rooms and headers it may include; target_room; holder: header -> the target that holds it; at_home: library -> rooms."""
+
+    def __init__(self, page):
+        self.may, self.target_room, self.holder, self.at_home = {}, {}, {}, {}
+        for line in page.split("## Rooms", 1)[-1].split("\n## ", 1)[0].splitlines():
+            cells = line.strip("|").split(" | ")
+            if line.startswith("| `") and len(cells) >= 4:
+                self.add(cells)
+
+    def add(self, cells):
+        room = QUOTED.search(cells[0]).group(1)
+        self.may[room] = {word for word in QUOTED.findall(cells[3]) if not word.startswith("tests/")}
+        for library in QUOTED.findall(cells[4] if len(cells) > 4 else ""):
+            self.at_home.setdefault(library, set()).add(room)
+        if cells[1].startswith("part of"):
+            return
+        for target, header in re.findall(r"`([\w-]+)`(?: \(`([^`]+)`)?", cells[1]):
+            self.target_room[target] = room
+            if header:
+                self.holder[header] = target
+
+    def room_of(self, path):
+        """The longest room that holds this path, or None."""
+        rooms = [room for room in self.may if path == room or path.startswith(room + "/")]
+        return max(rooms, key=len) if rooms else None
+
+    def include_complaints(self, path, text):
+        room = self.room_of(path)
+        for included in INCLUDE.findall(text):
+            target = self.room_of(included)
+            if room and target and target != room and target not in self.may[room] and included not in self.may[room]:
+                yield f"{path}: {room} may not include {included}"
+            for library, rooms in self.at_home.items():
+                if included.startswith(library) and room and room not in rooms:
+                    yield f"{path}: <{included}> is at home in {', '.join(sorted(rooms))} only"
+
+    def link_complaints(self, path, target, link):
+        room = self.target_room.get(target)
+        if room is None:
+            yield f"{path}: {target} has no room: name it in the table of docs/architecture.md"
+        elif link in self.target_room:
+            held = [header for header, holder in self.holder.items() if holder == link and header in self.may[room]]
+            if self.target_room[link] not in self.may[room] | {room} and not held:
+                yield f"{path}: {target} ({room}) may not link {link} ({self.target_room[link]})"
+        elif link in LINKED_AS:
+            if room not in self.at_home.get(LINKED_AS[link], {room}):
+                yield f"{path}: {target} ({room}) may not link {link}"
+        elif link not in FREE:
+            yield f"{path}: {target} links {link}, of which neither docs/architecture.md nor this guard knows the room"
 
 
-def complaints(path, text):
-    room = room_of(path)
-    for included in INCLUDE.findall(text):
-        target = room_of(included)
-        if room and target and target != room and target not in MAY[room] and included not in MAY[room]:
-            yield f"{path}: {room} may not include {included}"
-        for library, rooms in ONLY.items():
-            if included.startswith(library) and room and room not in rooms:
-                yield f"{path}: <{included}> is at home in {', '.join(sorted(rooms))} only"
+def links_of(text):
+    """(target, link) of every link command of one CMakeLists; axiscal_room makes a target of its folder."""
+    text = re.sub(r"#[^\n]*", "", text)
+    for command, inside in re.findall(r"\b(target_link_libraries|axiscal_room)\s*\(([^()]*)\)", text):
+        words = inside.split()
+        target = ("axiscal_" if command == "axiscal_room" else "") + words[0]
+        if target == "axiscal_${name}":
+            continue  # the body of axiscal_room
+        for word in words[1:]:
+            if word not in ("PUBLIC", "PRIVATE", "INTERFACE"):
+                yield target, word
 
 
-def self_test():
+def cmake_complaints(table, files):
+    """files: path -> text of the product's CMakeLists."""
+    linking = set()
+    for path, text in files.items():
+        for target, link in links_of(text):
+            linking.add(target)
+            if target != "axiscal_options":
+                yield from table.link_complaints(path, target, link)
+    for target in sorted(set(table.target_room) - linking):
+        yield f"docs/architecture.md: no CMakeLists links anything to {target}"
+
+
+def include_self_test(table):
     planted = {
         "analysis/x.cpp": '#include "drivers/sample.hpp"\n', "drivers/x.cpp": '#include "acquisition/run/run_machine.hpp"\n',
         "analysis/quantity/x.hpp": '#include "analysis/run_record.hpp"\n', "tools/axiscal-simulate/x.cpp": '#include "drivers/sample.hpp"\n',
         "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "acquisition/publish/x.cpp": "#include <libsmbclient.h>\n",
         "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/certificate.hpp"\n',
+        "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
+        "acquisition/publish/z.cpp": '#include "acquisition/publish/report/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_setup.hpp"\n',
+        "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
     }
-    missed = [path for path, text in planted.items() if not list(complaints(path, text))]
-    fine = list(complaints("drivers/x.cpp", '#include "analysis/run_record.hpp"\n#include <modbus.h>\n'))
-    print("missed:", missed, "false alarms:", fine)
-    return 1 if missed or fine else 0
+    fine = {"drivers/z.cpp": '#include "analysis/run_record.hpp"\n#include <modbus.h>\n', "acquisition/publish/report/x.cpp": "#include <cairo.h>\n"}
+    missed = [path for path, text in planted.items() if not list(table.include_complaints(path, text))]
+    return missed + [alarm for path, text in fine.items() for alarm in table.include_complaints(path, text)]
+
+
+def link_self_test(table, files):
+    """Plants a line in the real CMakeLists; each adds its own complaint to those of the tree."""
+    planted = {
+        "target_link_libraries(axiscal_drivers PRIVATE\n    axiscal_analysis)": 1, "target_link_libraries(axiscal_station PUBLIC axiscal_report)": 1,
+        "axiscal_room(console axiscal_publish)": 1, "target_link_libraries(axiscald PRIVATE PkgConfig::pangocairo)": 1,
+        "target_link_libraries(axiscal_publish PRIVATE PkgConfig::pangocairo)": 1, "target_link_libraries(axiscal_simulated axiscal_drivers)": 1,
+        "target_link_libraries(axiscal_config PUBLIC axiscal_analysis)": 1, "target_link_libraries(axiscal_attic PUBLIC axiscal_quantity)": 1,
+        "target_link_libraries(axiscal_journal PUBLIC axiscal_drivers)": 1, "target_link_libraries(axiscal_run PRIVATE ${whatever})": 1,
+        "target_link_libraries(axiscald PRIVATE axiscal_smb)": 1,
+        "target_link_libraries(axiscal_drivers PRIVATE axiscal_record) # axiscal_analysis": 0,
+    }
+    alone = len(list(cmake_complaints(table, files)))
+    wrong = [line for line, more in planted.items()
+             if len(list(cmake_complaints(table, files | {"planted": line}))) != alone + more]
+    without = {path: text for path, text in files.items() if not path.startswith("drivers")}
+    return wrong + ([] if len(list(cmake_complaints(table, without))) > alone else ["a target of the table without a CMakeLists"])
 
 
 def main():
+    root = pathlib.Path(sys.argv[-1])
+    table = Table((root / "docs/architecture.md").read_text(encoding="utf-8"))
+    lists = {file.relative_to(root).as_posix(): file.read_text(encoding="utf-8")
+             for folder in FOLDERS for file in sorted((root / folder).rglob("CMakeLists.txt"))}
     if sys.argv[1] == "--self-test":
-        return self_test()
-    root, found, seen = pathlib.Path(sys.argv[1]), [], 0
-    for folder in ("analysis", "config", "drivers", "acquisition", "tools"):
+        wrong = include_self_test(table) + link_self_test(table, lists)
+        print("not as planted:", wrong)
+        return 1 if wrong else 0
+    found, seen = list(cmake_complaints(table, lists)), 0
+    for folder in FOLDERS:
         for file in sorted((root / folder).rglob("*.[ch]pp")):
             seen += 1
-            found += complaints(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8"))
-    print("\n".join(found) or f"{seen} files, every arrow points the right way")
-    return 1 if found or seen < 20 else 0
+            found += table.include_complaints(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8"))
+    print("\n".join(found) or f"{seen} files and {len(table.target_room)} targets, every arrow points the right way")
+    return 1 if found or seen < 20 or len(table.may) < 15 else 0
 
 
 sys.exit(main())
