@@ -61,6 +61,7 @@ def rounds(site, program):
 
 def main():
     try:
+        samba_server.require()
         with Site(Path(sys.argv[1]) / "axiscal-publish") as site:
             site.samba.start()
             best = rounds(site, Path(sys.argv[1]) / "axiscal-publish")

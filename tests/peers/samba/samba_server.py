@@ -1,7 +1,7 @@
 """A real Samba server on a port of its own, for one test; and the publisher beside it.
 
-Debian's smbd with every folder of its state in a scratch folder, never the system's own. It needs root; the account is
-"games", which every Debian has and nobody logs in with.
+Debian's smbd with every folder of its state in a scratch folder, never the system's own. It needs root, so require() starts
+the script again through sudo for everybody else; the account is "games", which every Debian has and nobody logs in with.
 """
 import contextlib
 import ctypes
@@ -13,10 +13,14 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "support"))
+import as_root
 
 PATIENCE_S = 90  # only ends a failing test
 LOOK_S = 0.002
@@ -102,18 +106,20 @@ def own_namespaces(kinds):
 
 
 def require():
+    """smbd and root, else Skip. Whoever is not root ends here with what the script says under sudo."""
     for tool in ("smbd", "smbpasswd", "smbclient"):
         if not shutil.which(tool, path=os.environ.get("PATH", "") + ":/usr/sbin"):
             raise Skip(f"{tool} is missing: tools/install-dependencies test")
-    if os.geteuid() != 0:
-        raise Skip("smbd starts as root only")
+    try:
+        as_root.require()
+    except as_root.NoRoot as why:
+        raise Skip(f"smbd starts as root only; {why}") from why
 
 
 class Samba:
     """One server; `share` is the folder behind //address:port/results."""
 
     def __init__(self, folder, address="127.0.0.1", interface="lo", enter=()):
-        require()
         self.home = Path(folder) / "samba"
         self.share = Path(folder) / "share"
         self.address, self.port, self.enter = address, free_port(), list(enter)
@@ -232,7 +238,7 @@ class Site:
 
     def __init__(self, program, folder=None, **server):
         self.program = program
-        memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+        memory = "/dev/shm" if "TMPDIR" not in os.environ and os.access("/dev/shm", os.W_OK) else None
         self.folder = Path(folder or tempfile.mkdtemp(prefix="axiscal-samba-", dir=memory))
         self.folder.chmod(0o755)
         self.samba = Samba(self.folder, **server)

@@ -309,6 +309,7 @@ def many():
 def main():
     name = sys.argv[2]
     try:
+        samba_server.require()
         sentences[name]()
     except Skip as missing:
         print(f"cannot run here: {missing}")
