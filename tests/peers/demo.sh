@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # tools/demo --json as a program would call it: one line on stdout, a path, and a truth that holds.
 #   demo.sh SOURCE_DIR BUILD_DIR [demo options]
+# A missing LinuxCNC is a failure unless AXISCAL_MAY_SKIP names linuxcnc (then exit 77).
 set -euo pipefail
 source=$1 build=$2
 shift 2
+if [[ " $* " == *linuxcnc* ]] && ! command -v linuxcnc >/dev/null; then
+    echo "linuxcnc is missing: tools/install-dependencies linuxcnc, or AXISCAL_MAY_SKIP=linuxcnc"
+    case ",${AXISCAL_MAY_SKIP:-}," in *,linuxcnc,*) exit 77 ;; esac
+    exit 1
+fi
 line=$(AXISCAL_BUILD=$build "$source/tools/demo" --json "$@")
 python3 - "$line" <<'E2'
 import json, sys
