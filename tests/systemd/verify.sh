@@ -67,7 +67,7 @@ while read -r kind; do
         || fail "no module of modules-load.d/axiscal.conf makes the devices of DeviceAllow=char-$kind"
 done < <(sed -n 's/^DeviceAllow=char-\([A-Za-z_]*\) .*/\1/p' "$root/$units/axiscald.service")
 judge axiscald.service 20
-judge axiscal-publish.service 12
+judge axiscal-publish.service 10
 
 # The judge is awake: a planted mistake is told.
 sed 's/^NoNewPrivileges=/NoNewPriviliges=/' "$root/$units/axiscald.service" >"$root/$units/axiscal-planted.service"
