@@ -7,6 +7,7 @@
 #include "acquisition/station/station_loader.hpp"
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/cnc/trigger_ports.hpp"
+#include "drivers/link/line_writer.hpp"
 #include "drivers/link/link_opener.hpp"
 #include "drivers/spawn.hpp"
 
@@ -15,7 +16,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <systemd/sd-daemon.h>
 
@@ -25,6 +26,8 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <mutex>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -112,7 +115,12 @@ struct Daemon {
         spawn(scheduler, end_on_signal());
         spawn(scheduler, run());
         spawn(scheduler, feed_watchdog(scheduler));
-        loop.run();
+        try {
+            loop.run();
+        } catch (const std::exception& bug) { // told like all else: stderr may block
+            spdlog::critical("{}", bug.what());
+            code = exit_failed;
+        }
         return code;
     }
 
@@ -125,14 +133,33 @@ struct Daemon {
     int code = exit_ok;
 };
 
-void log_to_stderr() {
-    auto log = spdlog::stderr_logger_st("axiscald");
-    // Under systemd the journal stamps the lines itself.
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread runs yet
-    log->set_pattern(std::getenv("JOURNAL_STREAM") != nullptr ? "%l: %v" : "%H:%M:%S.%e %l: %v");
-    log->flush_on(spdlog::level::info);
-    spdlog::set_default_logger(std::move(log));
-}
+/// spdlog's own queue wakes each ten seconds for nothing, and waits without end for a pipe
+/// that nobody reads when it is taken down.
+class StderrSink final : public spdlog::sinks::base_sink<std::mutex> {
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        spdlog::memory_buf_t line;
+        formatter_->format(message, line);
+        writer_.put({line.data(), line.size()});
+    }
+    void flush_() override {} // the writer keeps nothing back
+
+    LineWriter writer_{STDERR_FILENO};
+};
+
+/// While it lives, log lines go to stderr, and nobody who logs waits for it.
+struct LogToStderr {
+    LogToStderr() {
+        auto log = std::make_shared<spdlog::logger>("axiscald", std::make_shared<StderrSink>());
+        // Under systemd the journal stamps the lines itself.
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread changes the environment
+        const bool journal = std::getenv("JOURNAL_STREAM") != nullptr;
+        log->set_pattern(journal ? "%l: %v" : "%H:%M:%S.%e %l: %v");
+        spdlog::set_default_logger(std::move(log));
+    }
+    ~LogToStderr() { spdlog::shutdown(); }
+    LogToStderr(const LogToStderr&) = delete;
+    LogToStderr& operator=(const LogToStderr&) = delete;
+};
 
 int run(int argc, char** argv) {
     CLI::App app{"axiscald: the axiscal calibration station. It reads the instruments, serves the "
@@ -147,7 +174,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_ok : exit_usage;
     }
-    log_to_stderr();
+    const LogToStderr log; // to the very end: the last words of all else are written, too
     auto loaded = load_station(config);
     if (!loaded) {
         for (const Refusal& refusal : loaded.error())

@@ -120,6 +120,7 @@ class Bench:
         self.folder = Path(tempfile.mkdtemp(prefix="axiscal-"))
         self.processes = {}
         self.environment = {}  # of the daemon, and of what it starts
+        self.daemon_stderr = subprocess.STDOUT  # its log; or a descriptor of the test's own
         self.logs = []
         self.share = self.folder / "share"
         self.share.mkdir()
@@ -195,7 +196,7 @@ class Bench:
                 env={**os.environ, **(self.environment if name == "axiscald" else {})},
                 stdin=subprocess.DEVNULL,
                 stdout=out,
-                stderr=subprocess.STDOUT,
+                stderr=self.daemon_stderr if name == "axiscald" else subprocess.STDOUT,
                 preexec_fn=lambda: lib.prctl(DIE_WITH_PARENT, signal.SIGKILL),
             )
         self.processes[name] = process
