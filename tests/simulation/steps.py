@@ -3,11 +3,19 @@ of tests/preload/write_steps.cpp."""
 
 import mmap
 import os
+import re
 import struct
 
-HEAD = struct.Struct("<8Q256s")  # count, kill_at, tear, error, kinds, failed, program, reserved, folder
+# count, kill_at, tear, error, kinds, failed, program, met, folder, kill_what
+HEAD = struct.Struct("<8Q256s64s")
 WORDS, LOGGED = 64, 8192
 DATA, SYNC, NAME = 1, 2, 4
+
+
+def label_of(step):
+    """What a step of the log does and to which file, whatever the date in its name."""
+    kind, name, _ = step
+    return re.sub("[0-9]", "0", f"{kind} {name}")
 
 
 class Steps:
@@ -37,6 +45,12 @@ class Steps:
         """From now on these kinds of steps fail with this errno; 0 ends it."""
         self["fail_kinds"] = kinds
         self["fail_error"] = error
+
+    def kill_before(self, label, nth, tear):
+        """The nth step with this label (see label_of) is not done any more, or by half."""
+        at = struct.calcsize("<8Q256s")
+        self.memory[at : at + len(label)] = label.encode()
+        self["kill_at"], self["tear"] = nth, tear
 
     def log(self):
         """What each step was: ("pwrite", "x.axiscal-wal", 4096)."""
