@@ -16,10 +16,13 @@ namespace {
 
 // A file system stamps changes by a coarse clock: what changed this recently may change again under
 // the same stamp, and is read again.
-constexpr std::int64_t coarse_ns = 1'000'000'000;
+constexpr Duration coarse = std::chrono::seconds{1};
+// A result that the daemon finds when it starts may wait since long holidays; a stamp older than
+// this, or of the future, is one of a clock that was wrong.
+constexpr Duration longest_plausible_wait = std::chrono::hours{24 * 366};
 constexpr std::uintmax_t longest_report = 16'384; // bytes; one sentence and two names
 
-std::optional<std::int64_t> changed_ns(const std::string& path) {
+std::optional<std::int64_t> changed_ns_of(const std::string& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return std::nullopt;
     return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
@@ -38,38 +41,55 @@ OutboxWatch::OutboxWatch(const std::string& state_directory, PublishConfig confi
     , lock_{state_directory + "/publisher.lock"}
     , config_{std::move(config)} {}
 
-OutboxView OutboxWatch::look(std::int64_t utc_ns) {
-    scan(utc_ns);
-    listen(utc_ns);
+bool OutboxWatch::Stamp::renew(const std::string& path, MonotonicTime now) {
+    const auto there_ns = changed_ns_of(path).value_or(0);
+    if (there_ns == changed_ns && settled) return false;
+    if (there_ns != changed_ns) seen = now;
+    changed_ns = there_ns;
+    settled = now - seen > coarse;
+    return true;
+}
+
+OutboxView OutboxWatch::look(const ClockTie& now) {
+    scan(now);
+    listen(now.after);
+    looked_ = now.after;
     OutboxView view = known_;
-    if (oldest_ns_) view.oldest_s = std::max(0.0, static_cast<double>(utc_ns - *oldest_ns_) * 1e-9);
+    view.waiting = static_cast<int>(finished_.size());
+    for (const auto& [name, since] : finished_)
+        view.oldest_s = std::max(view.oldest_s.value_or(0), seconds_of(now.after - since));
     view.publisher_runs = publisher_runs();
     view.alarm = alarm_of(view);
     return view;
 }
 
-void OutboxWatch::scan(std::int64_t utc_ns) {
-    const auto changed = changed_ns(outbox_).value_or(0);
-    if (changed == scanned_change_ns_) return;
-    known_.waiting = 0;
-    oldest_ns_.reset();
+void OutboxWatch::scan(const ClockTie& now) {
+    if (!outbox_stamp_.renew(outbox_, now.after)) return;
+    std::map<std::string, MonotonicTime> there;
     std::error_code error;
     for (std::filesystem::directory_iterator at{outbox_, error}, end; !error && at != end;
          at.increment(error)) {
-        if (at->path().filename().string().starts_with(".") || !at->is_directory(error)) continue;
-        ++known_.waiting;
-        // The entry's files were all there before it got its name: none came later.
-        if (const auto finished = changed_ns(at->path().string()))
-            oldest_ns_ = std::min(oldest_ns_.value_or(*finished), *finished);
+        const std::string name = at->path().filename().string();
+        std::error_code gone; // published meanwhile: no reason to forget the others
+        if (name.starts_with(".") || !at->is_directory(gone)) continue;
+        const auto known = finished_.find(name);
+        there[name] = known != finished_.end() ? known->second : finished(at->path().string(), now);
     }
-    const bool settled = !error && std::abs(utc_ns - changed) > coarse_ns;
-    scanned_change_ns_ = settled ? changed : -1;
+    if (error) outbox_stamp_.settled = false;
+    if (error && error != std::errc::no_such_file_or_directory) return;
+    finished_ = std::move(there);
 }
 
-void OutboxWatch::listen(std::int64_t utc_ns) {
-    const auto changed = changed_ns(report_).value_or(0);
-    if (changed == read_change_ns_) return;
-    read_change_ns_ = std::abs(utc_ns - changed) > coarse_ns ? changed : -1;
+/// When a new entry was finished, by the monotonic clock. Its files were all there before it got
+/// its name: the folder's time is that of the last of them.
+MonotonicTime OutboxWatch::finished(const std::string& folder, const ClockTie& now) const {
+    const Duration age{now.utc_ns - changed_ns_of(folder).value_or(now.utc_ns)};
+    if (looked_) return now.after - std::clamp(age, Duration{}, now.after - *looked_);
+    return age < Duration{} || age > longest_plausible_wait ? now.after : now.after - age;
+}
+
+void OutboxWatch::listen(MonotonicTime now) {
+    if (!report_stamp_.renew(report_, now)) return;
     std::error_code error;
     const auto size = std::filesystem::file_size(report_, error);
     nlohmann::json said = nlohmann::json::object();

@@ -2,9 +2,11 @@
 // What waits for the share, how long, and what the publisher says about it. Reads names and two
 // small files of this PC's own disk, never the share, and those only when they changed. Loop-bound.
 
+#include "analysis/quantity/time.hpp"
 #include "config/station_config.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -12,8 +14,7 @@ namespace axiscal {
 
 struct OutboxView {
     int waiting = 0;
-    std::optional<double>
-        oldest_s; ///< since the oldest was finished, by the wall clock; none: empty
+    std::optional<double> oldest_s; ///< since the oldest was finished; none: empty. Never negative
     bool publisher_runs = false;
     /// The publisher's own words (publisher.json); empty before it spoke. state: idle | publishing
     /// | waiting | nowhere.
@@ -21,23 +22,37 @@ struct OutboxView {
     std::string alarm; ///< one sentence for people; empty: all is well
 };
 
+/// Ages are counted by the monotonic clock from when an entry was first seen, so that a clock that
+/// is set makes no result older or younger. What it was older then is told by its file's time, as
+/// far as that is plausible: between 0 and the time since the look before, which did not see it;
+/// at the first look between 0 and a year, else 0.
 class OutboxWatch {
 public:
     OutboxWatch(const std::string& state_directory, PublishConfig config);
-    /// @param utc_ns now. A clock set back makes nothing older: ages end at 0.
-    [[nodiscard]] OutboxView look(std::int64_t utc_ns);
+    /// @param now both clocks; the monotonic one never goes back from look to look.
+    [[nodiscard]] OutboxView look(const ClockTie& now);
 
 private:
-    void scan(std::int64_t utc_ns);
-    void listen(std::int64_t utc_ns);
+    /// Of a file that may change: its stamp, and since when it has borne it.
+    struct Stamp {
+        std::int64_t changed_ns = -1;
+        MonotonicTime seen;
+        bool settled = false; ///< what it says was read when it could not change unseen any more
+        /// @returns whether it has to be read at `now`.
+        bool renew(const std::string& path, MonotonicTime now);
+    };
+    void scan(const ClockTie& now);
+    void listen(MonotonicTime now);
+    [[nodiscard]] MonotonicTime finished(const std::string& folder, const ClockTie& now) const;
     [[nodiscard]] bool publisher_runs() const;
     [[nodiscard]] std::string alarm_of(const OutboxView& view) const;
 
     std::string outbox_, report_, lock_;
     PublishConfig config_;
     OutboxView known_;
-    std::optional<std::int64_t> oldest_ns_;
-    std::int64_t scanned_change_ns_ = -1, read_change_ns_ = -1;
+    std::map<std::string, MonotonicTime> finished_; ///< by name of the entry
+    std::optional<MonotonicTime> looked_;           ///< none: this is the first look
+    Stamp outbox_stamp_, report_stamp_;
 };
 
 /// "12 results wait", "1 result waits".

@@ -64,7 +64,7 @@ void Station::look_at_the_time() {
 
 /// Told once when it begins and once when it is over, however the count goes meanwhile.
 void Station::judge_outbox() {
-    const OutboxView outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
+    const OutboxView outbox = outbox_watch_.look(scheduler_.clock_tie());
     outbox_waiting_ = outbox.waiting;
     if (outbox.alarm.empty() == outbox_alarm_.empty()) return;
     outbox_alarm_ = outbox.alarm;

@@ -185,7 +185,7 @@ StationStatus Station::status() const {
     if (run_ && (machine_ || circular_)) status.run = run_status();
     status.run_open = run_open();
     if (drift_) status.drift = drift_view();
-    status.outbox = outbox_watch_.look(scheduler_.clock_tie().utc_ns);
+    status.outbox = outbox_watch_.look(scheduler_.clock_tie());
     status.notes.assign(notes_.begin(), notes_.end());
     return status;
 }

@@ -21,8 +21,10 @@ constexpr std::int64_t second_ns = 1'000'000'000;
 struct Shelf {
     ScratchFolder scratch;
     PublishConfig config;
-    std::int64_t now_ns = std::int64_t{::time(nullptr)} * second_ns;
+    std::int64_t now_ns = std::int64_t{::time(nullptr)} * second_ns; ///< the wall clock
+    MonotonicTime mono = monotonic_from_ns(7'000 * second_ns);
     OutboxWatch watch;
+    int changes = 0;
     explicit Shelf(int alarm_count = 10)
         : config{make_config(alarm_count)}
         , watch{scratch.path(), config} {
@@ -35,12 +37,24 @@ struct Shelf {
         return config;
     }
     /// As finished so many seconds ago.
-    void put(const std::string& run_id, std::int64_t age_s) const {
+    void put(const std::string& run_id, std::int64_t age_s) {
         const auto folder = scratch.file("outbox/" + run_id);
         std::filesystem::create_directory(folder);
         const timespec then{static_cast<time_t>(now_ns / second_ns - age_s), 0};
         const timespec both[2] = {then, then};
         ASSERT_EQ(::utimensat(AT_FDCWD, folder.c_str(), both, 0), 0);
+        stamp();
+    }
+    void take(const std::string& run_id) {
+        std::filesystem::remove(scratch.file("outbox/" + run_id));
+        stamp();
+    }
+    /// Two changes within a tick of the real clock bear one stamp; in this test seconds lie
+    /// between.
+    void stamp() {
+        const timespec then{1'700'000'000 + ++changes, 0};
+        const timespec both[2] = {then, then};
+        ASSERT_EQ(::utimensat(AT_FDCWD, scratch.file("outbox").c_str(), both, 0), 0);
     }
     void say(const std::string& state, const std::string& reason) const {
         write_bytes(
@@ -48,37 +62,91 @@ struct Shelf {
             R"({"format":"axiscal.publisher/1","destination":"smb://fs1/quality","state":")" +
                 state + R"(","reason":")" + reason + R"(","since_utc":"2026-11-21T10:00:00Z"})");
     }
-    [[nodiscard]] OutboxView look() { return watch.look(now_ns); }
+    [[nodiscard]] OutboxView look() { return watch.look({mono, now_ns, mono}); }
+    /// Time goes by on both clocks.
+    void pass(std::int64_t seconds) {
+        now_ns += seconds * second_ns;
+        mono += Duration{seconds * second_ns};
+    }
+    /// Somebody sets the wall clock.
+    void step(std::int64_t seconds) { now_ns += seconds * second_ns; }
+    void start_anew() { watch = OutboxWatch{scratch.path(), config}; }
 };
 
 TEST(OutboxWatch, CountsWhatWaitsAndHowLong) {
     Shelf shelf;
     EXPECT_EQ(shelf.look().waiting, 0);
     EXPECT_FALSE(shelf.look().oldest_s);
+    shelf.pass(600);
     shelf.put("run-1", 40);
     shelf.put("run-2", 300);
-    shelf.put(".run-3.staging", 4000);
+    shelf.put(".run-3.staging", 400);
     EXPECT_EQ(shelf.look().waiting, 2);
     EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 300);
-    shelf.now_ns += 10 * second_ns;
+    shelf.pass(10);
     EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 310);
-    std::filesystem::remove(shelf.scratch.file("outbox/run-2"));
+    shelf.take("run-2");
     EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 50);
 }
 
-TEST(OutboxWatch, IsNotAlarmedByAClockThatWasSetBack) {
+TEST(OutboxWatch, GivesNoFalseAlarmWhenTheClockIsSetForward) {
     Shelf shelf;
-    shelf.put("run-1", -4000);
-    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 0);
+    EXPECT_EQ(shelf.look().waiting, 0);
+    shelf.pass(10);
+    shelf.put("run-1", 5);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 5);
+    shelf.step(365 * 86'400);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 5);
     EXPECT_EQ(shelf.look().alarm, "");
+    shelf.pass(896); // limit: 15 min
+    EXPECT_NE(shelf.look().alarm, "");
+}
+
+TEST(OutboxWatch, GivesADueAlarmWhenTheClockIsSetBack) {
+    Shelf shelf;
+    EXPECT_EQ(shelf.look().waiting, 0);
+    shelf.put("run-1", 0);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 0);
+    shelf.step(-365 * 86'400);
+    shelf.pass(899);
+    EXPECT_EQ(shelf.look().alarm, "");
+    shelf.pass(2);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 901);
+    EXPECT_NE(shelf.look().alarm, "");
+}
+
+TEST(OutboxWatch, BelievesOfAResultSeenFirstNoMoreThanTheTimeSinceItWasNotThere) {
+    Shelf shelf;
+    EXPECT_EQ(shelf.look().waiting, 0);
+    shelf.pass(10);
+    shelf.put("run-1", 4'000); // written before the clock was set forward
+    shelf.put("run-2", -4'000);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 10);
+    shelf.take("run-1");
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 0);
+}
+
+TEST(OutboxWatch, GoesByTheFoldersTimeAfterARestartWhereItIsPlausible) {
+    Shelf shelf;
+    shelf.put("run-1", 3 * 86'400);
+    EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 3 * 86'400);
+    EXPECT_NE(shelf.look().alarm.find("since 3 d"), std::string::npos) << shelf.look().alarm;
+    for (const std::int64_t age_s : {std::int64_t{-4'000}, std::int64_t{20} * 365 * 86'400}) {
+        shelf.put("run-1", age_s);
+        shelf.start_anew();
+        EXPECT_DOUBLE_EQ(shelf.look().oldest_s.value(), 0) << age_s;
+        EXPECT_EQ(shelf.look().alarm, "");
+        shelf.pass(901);
+        EXPECT_NE(shelf.look().alarm, "") << "its waiting begins with the daemon";
+    }
 }
 
 TEST(OutboxWatch, AlarmsWhenTheOldestIsOlderThanTheLimit) {
     Shelf shelf;
-    shelf.put("run-1", 899);
+    shelf.put("run-1", 899); // found at the start
     shelf.say("waiting", "the share is full");
     EXPECT_EQ(shelf.look().alarm, "");
-    shelf.now_ns += 100 * second_ns; // limit: 15 min
+    shelf.pass(100); // limit: 15 min
     EXPECT_NE(shelf.look().alarm.find("1 result waits for the share since 16 min"),
               std::string::npos)
         << shelf.look().alarm;
@@ -123,7 +191,7 @@ TEST(OutboxWatch, IsSilentWhereNoShareIsWanted) {
     ScratchFolder scratch;
     std::filesystem::create_directories(scratch.file("outbox/run-1"));
     OutboxWatch watch{scratch.path(), PublishConfig{}};
-    const auto view = watch.look((std::int64_t{::time(nullptr)} + 1'000'000) * second_ns);
+    const auto view = watch.look({{}, (std::int64_t{::time(nullptr)} + 1'000'000) * second_ns, {}});
     EXPECT_EQ(view.waiting, 1);
     EXPECT_EQ(view.alarm, "");
 }

@@ -107,19 +107,22 @@ void Week::carry_to_share() {
     std::filesystem::last_write_time(outbox, stamp);
 }
 
-/// Results that wait for more than a quarter of an hour are an alarm; a clock that was stepped
-/// meanwhile may make it earlier or later.
+/// Results that wait for more than a quarter of an hour are an alarm, and not before, however the
+/// clock is stepped meanwhile. The test sees the first of them up to a chunk late, the station too.
 void Week::judge_alarm() {
     const StationStatus status = life_.status();
     if (status.notes.size() > 20) ++tally_.too_many_notes;
     if (status.outbox.waiting == 0) {
         waits_since_.reset();
-        steps_meanwhile_ = false;
         return;
     }
     if (!waits_since_) waits_since_ = life_.scheduler.now();
     const Duration waited = life_.scheduler.now() - *waits_since_;
-    if (steps_meanwhile_ || waited < shop_.config.publish.alarm_age + 2 * chunk) return;
+    const PublishConfig& publish = shop_.config.publish;
+    const bool many = status.outbox.waiting >= publish.alarm_count;
+    if (waited < publish.alarm_age - 2 * chunk && !many && !status.outbox.alarm.empty())
+        ++tally_.false_alarms;
+    if (waited < publish.alarm_age + 2 * chunk) return;
     ++tally_.alarms;
     if (status.outbox.alarm.empty()) ++tally_.untold_waits;
 }
@@ -135,8 +138,8 @@ void Week::lose_share(bool lost) {
 void Week::step_clock(Duration by) {
     life_.scheduler.utc_at_zero_ns += by.count();
     stepped_ += by;
-    steps_meanwhile_ = true;
     ++tally_.steps;
+    if (waits_since_) ++tally_.steps_while_waiting;
 }
 
 void Week::unplug(BenchInstrument& one) {
@@ -170,9 +173,10 @@ void Week::idle_trouble(Trouble trouble) {
 }
 
 void Week::hour() {
-    if (hours_++ % 24 == 0)
-        if (const auto heap = ::mallinfo2(); heap.uordblks != 0)
-            tally_.bytes_at_midnight.push_back(heap.uordblks + heap.hblkhd);
+    if (hours_++ % 24 == 0) {
+        const auto heap = ::mallinfo2();
+        tally_.bytes_at_midnight.push_back(heap.uordblks == 0 ? 0 : heap.uordblks + heap.hblkhd);
+    }
     const auto trouble = static_cast<Trouble>(std::uniform_int_distribution{0, 5}(dice_));
     const bool in_the_run = std::bernoulli_distribution{0.5}(dice_);
     run(some(1min, 40min));

@@ -30,6 +30,7 @@ enum class Trouble : std::uint8_t {
 struct Tally {
     int armed = 0, complete = 0, requests = 0, acknowledged = 0, refused = 0;
     int unplugged = 0, steps = 0, losses = 0, published = 0, alarms = 0;
+    int steps_while_waiting = 0; ///< with a result in the outbox
     int unanswered = 0;          ///< 0: neither done nor refused within the limit of a capture
     int refused_for_nothing = 0; ///< 0: while nothing was wrong
     int left_open = 0;           ///< 0: runs that did not come to their end
@@ -39,10 +40,10 @@ struct Tally {
     int wrong_points = 0;        ///< 0: not what the laser showed in the point's window
     int wrong_dates = 0;         ///< 0: a run file whose UTC is not that of its arming
     int untold_waits = 0;        ///< 0: results waited too long without an alarm
+    int false_alarms = 0;        ///< 0: an alarm of few results that have not waited so long
     int too_many_notes = 0;      ///< 0: a list that grows
     std::map<std::string, int> faults;
-    std::vector<std::size_t>
-        bytes_at_midnight; ///< in use on the heap; empty where it cannot be told
+    std::vector<std::size_t> bytes_at_midnight; ///< in use on the heap; 0 where it cannot be told
 };
 
 class Week {
@@ -89,7 +90,6 @@ private:
     std::array<double, 10> stood_um_{}; ///< the laser at each point, without its drift
     Duration stepped_{};
     std::optional<MonotonicTime> waits_since_, share_back_at_;
-    bool steps_meanwhile_ = false;
     std::set<std::string> stamped_; ///< entries that got their virtual date
     FolderDestination share_;
     Heard heard_;

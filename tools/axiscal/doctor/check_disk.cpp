@@ -106,7 +106,7 @@ std::vector<Finding> check_share(const Patient& patient, std::int64_t utc_ns) {
                  "no destination is configured: certificates stay in the outbox",
                  "write destination under [publish]"}};
     OutboxWatch watch{patient.config->state_directory, publish};
-    const OutboxView outbox = watch.look(utc_ns);
+    const OutboxView outbox = watch.look({{}, utc_ns, {}}); // one look: by the files' times
     std::vector<Finding> found;
     found.push_back(is_share_address(publish.destination)
                         ? check_server(outbox, publish.destination)
