@@ -1,29 +1,13 @@
+// What each row tells of those that stood before it.
 #include "acquisition/journal/missing_rows.hpp"
 
+#include "acquisition/journal/missing_rows_words.hpp"
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 
 namespace axiscal {
 namespace {
-
-constexpr std::array singles{"run", "plan", "laser", "material", "air"}; // exactly one row each
-constexpr int most_steps = 100'000;                 // a wrong number is no reason to count to it
-constexpr std::string_view first_of_body = "datum"; // tables from here on are written in the run
-
-std::size_t place_of(std::string_view table) {
-    return static_cast<std::size_t>(&table_named(table) - chained_tables().data());
-}
-
-std::string text_at(const Row& row, std::size_t column) {
-    const auto* text = column < row.size() ? std::get_if<std::string>(&row[column]) : nullptr;
-    return text ? *text : std::string{};
-}
-
-int number_at(const Row& row, std::size_t column) {
-    const auto* number = column < row.size() ? std::get_if<std::int64_t>(&row[column]) : nullptr;
-    return number ? static_cast<int>(std::clamp<std::int64_t>(*number, -1, most_steps)) : -1;
-}
 
 /// "Skipped: planned step 7"; -1 for any other event.
 int skipped_by(const Row& event) {
@@ -35,11 +19,12 @@ int skipped_by(const Row& event) {
     return step;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    return text;
+std::string about_step(int step) {
+    return "step=" + std::to_string(step);
+}
+
+std::string about_block(int stream, int block) {
+    return "stream=" + std::to_string(stream) + ", block=" + std::to_string(block);
 }
 
 } // namespace
@@ -51,27 +36,41 @@ std::int64_t MissingRows::count_of(std::string_view table) const {
 
 void MissingRows::hole(std::int64_t link) {
     holes_.push_back({{link, {}, {}}, last_table_, chained_tables().size()});
-    after_hole_ = !due_synchronisation_;
-    if (!due_synchronisation_) return;
-    holes_.back().row.table = "synchronisation";
-    holes_.back().row.about = "step=" + std::to_string(*due_synchronisation_);
-    due_synchronisation_.reset();
+    if (fresh_++ > 0) holes_.back().alone = holes_[holes_.size() - 2].alone = false;
+    if (!due_) return;
+    holes_.back().row.table = due_->table;
+    holes_.back().row.about = due_->about;
+    due_.reset();
 }
 
 void MissingRows::see(const Table& table, const Row& row) {
-    const std::size_t place = place_of(table.name);
-    for (auto hole = holes_.rbegin(); hole != holes_.rend(); ++hole) {
-        if (hole->after != chained_tables().size()) break;
-        hole->after = place;
-    }
-    last_table_ = place;
-    due_synchronisation_.reset();
-    if (table.name == "synchronisation") see_synchronisation(row);
-    after_hole_ = false;
-    if (format_ >= 4 && table.name == "datum") due_synchronisation_ = -1;
-    if (format_ >= 4 && table.name == "point") due_synchronisation_ = number_at(row, 0);
+    for (Hole& hole : fresh())
+        hole.after = place_of(table.name);
+    due_.reset();
+    if (table.name == "synchronisation" || table.name == "stream_block_time")
+        see_second_of_pair(table, row);
+    if (table.name == "retake_point") see_retake_point(row);
+    if (format_ >= 4) see_first_of_pair(table, row);
+    last_table_ = place_of(table.name);
     ++counts_[std::string{table.name}];
-    if (table.name == "plan") rotary_axis_ = text_at(row, 0) == "rotary";
+    fresh_ = 0;
+    see_header(table, row);
+    if (table.name == "datum") datums_.insert(text_at(row, 0));
+    if (table.name == "environment") referred_channels_.insert(number_at(row, 0));
+    if (table.name == "event") accounted_.insert(skipped_by(row));
+    if (table.name == "point") see_point(row);
+    if (table.name == "retake") retakes_ = std::max(retakes_, number_at(row, 0));
+    if (table.name == "stream") streams_.insert(number_at(row, 0));
+    if (table.name == "stream_block") referred_streams_.insert(number_at(row, 0));
+    if (table.name == "closing" && number_at(row, 0) == 1)
+        settle_points(static_cast<int>(planned_.size()));
+}
+
+void MissingRows::see_header(const Table& table, const Row& row) {
+    if (table.name == "plan") {
+        rotary_axis_ = text_at(row, 0) == "rotary";
+        circular_pass_ = text_at(row, 2) == "circular";
+    }
     if (table.name == "plan_point") {
         planned_.insert(number_at(row, 0));
         targets_ = std::max(targets_, number_at(row, 1) + 1);
@@ -83,119 +82,104 @@ void MissingRows::see(const Table& table, const Row& row) {
         channels_.insert(number_at(row, 0));
         referred_instruments_.insert(text_at(row, 2));
     }
-    if (table.name == "datum") datums_.insert(text_at(row, 0));
-    if (table.name == "environment") referred_channels_.insert(number_at(row, 0));
-    if (table.name == "event") accounted_.insert(skipped_by(row));
-    if (table.name == "point") see_point(row);
-    if (table.name == "closing" && number_at(row, 0) == 1)
-        settle_points(static_cast<int>(planned_.size()));
+    if (table.name == "channel_calibration") calibrated_.insert(number_at(row, 0));
+    if (table.name == "channel_correction") corrected_.insert(number_at(row, 0));
 }
 
-/// The row before it is the point or the datum that it belongs to.
-void MissingRows::see_synchronisation(const Row& row) {
-    if (!after_hole_ || holes_.empty() || !holes_.back().row.table.empty()) return;
+void MissingRows::see_first_of_pair(const Table& table, const Row& row) {
+    if (table.name == "datum") due_ = MissingRow{0, "synchronisation", about_step(-1)};
+    if (table.name == "point")
+        due_ = MissingRow{0, "synchronisation", about_step(number_at(row, 0))};
+    if (table.name == "stream_block")
+        due_ =
+            MissingRow{0, "stream_block_time", about_block(number_at(row, 0), number_at(row, 1))};
+}
+
+/// The row before it is the point, the datum or the block that it belongs to.
+void MissingRows::see_second_of_pair(const Table& table, const Row& row) {
+    if (fresh_ == 0 || !holes_.back().open()) return;
     MissingRow& missing = holes_.back().row;
+    const int first = number_at(row, 0);
+    if (table.name == "stream_block_time") {
+        missing.table = "stream_block", missing.about = about_block(first, number_at(row, 1));
+        referred_streams_.insert(first);
+        return;
+    }
+    missing.table = first < 0 ? "datum" : "point";
+    missing.about = first < 0 ? "id=" + text_at(row, 1) : about_step(first);
+    if (first < 0) datums_.insert(text_at(row, 1));
+    accounted_.insert(first);
+}
+
+/// An order and its points stand together, and their steps go on from those of the plan and of the
+/// order before: as many points are missing as steps, and one row more is the order.
+void MissingRows::see_retake_point(const Row& row) {
     const int step = number_at(row, 0);
-    missing.table = step < 0 ? "datum" : "point";
-    missing.about = step < 0 ? "id=" + text_at(row, 1) : "step=" + std::to_string(step);
-    if (step < 0) datums_.insert(text_at(row, 1));
-    accounted_.insert(step);
+    const int last = ordered_.empty() ? static_cast<int>(planned_.size()) - 1 : *ordered_.rbegin();
+    const bool order_is_due =
+        last_table_ != place_of("retake") &&
+        (last_table_ != place_of("retake_point") || static_cast<int>(fresh_) > step - last - 1);
+    int missed = step;
+    for (auto hole = holes_.rbegin(); hole != holes_.rbegin() + std::ssize(fresh()); ++hole) {
+        if (!hole->open()) break;
+        if (--missed > last) {
+            hole->row.table = "retake_point", hole->row.about = about_step(missed);
+            ordered_.insert(missed);
+            continue;
+        }
+        if (order_is_due)
+            hole->row.table = "retake", hole->row.about = "number=" + std::to_string(++retakes_);
+        break;
+    }
+    ordered_.insert(step);
+}
+
+/// Somebody ordered it: right after the order, or after its other points.
+void MissingRows::see_ordered_point(int step, int planned_step) {
+    if (step == planned_step || !ordered_.insert(step).second) return;
+    for (Hole& hole : holes_)
+        if (hole.open() && hole.before >= place_of("retake") &&
+            hole.before <= place_of("retake_point")) {
+            hole.row.table = "retake_point", hole.row.about = about_step(step);
+            return;
+        }
 }
 
 void MissingRows::see_point(const Row& row) {
     const std::string datum = text_at(row, 15);
     if (datums_.insert(datum).second) // nobody tied what this point refers to
         for (Hole& hole : holes_)
-            if (hole.row.table.empty() && hole.after >= place_of(first_of_body)) {
+            if (hole.open() && hole.after >= place_of(first_of_body)) {
                 hole.row.table = "datum", hole.row.about = "id=" + datum;
                 break;
             }
     const int step = number_at(row, 0);
+    see_ordered_point(step, number_at(row, 2));
     settle_points(step);
     last_step_ = std::max(last_step_, step);
     in_question_ = holes_.size();
 }
 
-/// The holes since the last point are the steps that were passed over, where they are as many.
+/// The holes since the last point are the steps that were passed over, where they are as many. From
+/// format 4 on no point is missing alone: its row of synchronisation would tell.
 void MissingRows::settle_points(int next_step) {
     std::vector<int> missed;
     for (int step = last_step_ + 1; step < next_step; ++step)
         if (!accounted_.contains(step)) missed.push_back(step);
     std::vector<Hole*> open;
     for (std::size_t i = in_question_; i < holes_.size(); ++i)
-        if (holes_[i].row.table.empty() && holes_[i].after >= place_of(first_of_body))
+        if (holes_[i].open() && holes_[i].after >= place_of(first_of_body) &&
+            (format_ < 4 || !holes_[i].alone))
             open.push_back(&holes_[i]);
     if (missed.empty()) return;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const bool certain = missed.size() >= open.size();
-        open[i]->row.table = certain        ? "point"
-                             : format_ >= 4 ? "point, synchronisation, environment or event"
-                                            : "point, environment or event";
-        open[i]->row.about = "step=" + std::to_string(missed[std::min(i, missed.size() - 1)]);
+        open[i]->row.table = certain ? "point"
+                             : format_ >= 4
+                                 ? "point, synchronisation, environment, event or exclusion"
+                                 : "point, environment or event";
+        open[i]->row.about = about_step(missed[std::min(i, missed.size() - 1)]);
     }
-}
-
-void MissingRows::gather_header_evidence() {
-    for (const char* table : singles)
-        if (count_of(table) == 0) miss(table, "");
-    if (count_of("plan_target") < targets_) miss("plan_target", "");
-    const int steps = planned_.empty() ? 0 : *planned_.rbegin() + 1;
-    for (int step = 0; step < steps; ++step)
-        if (!planned_.contains(step)) miss("plan_point", "step=" + std::to_string(step));
-    for (const ChainedRow& row : header_rows({}))
-        if (row.table->name == "statement" && !statements_.contains(text_at(row.row, 0)))
-            miss("statement", "name=" + text_at(row.row, 0));
-    if (count_of("uncertainty") == 0 && count_of("uncertainty_target") > 0) miss("uncertainty", "");
-    if (count_of("rotary") == 0 && count_of("rotary_deviation") > 0) miss("rotary", "");
-    if (count_of("alignment") == 0 && count_of("alignment_place") > 0) miss("alignment", "");
-    for (const std::string& name : referred_instruments_)
-        if (!instruments_.contains(name)) miss("instrument", "name=" + name);
-    referred_channels_.insert(channels_.empty() ? 0 : *channels_.rbegin());
-    for (int id = 0; id <= *referred_channels_.rbegin(); ++id)
-        if (!channels_.contains(id)) miss("channel", "id=" + std::to_string(id));
-}
-
-void MissingRows::settle_header(Hole& hole) {
-    const std::size_t body = place_of(first_of_body);
-    const std::size_t last = std::min(hole.after, body - 1);
-    const auto fits = [&](const auto& known) {
-        const std::size_t place = place_of(known.first);
-        return place >= hole.before && place <= last;
-    };
-    if (const auto known = std::ranges::find_if(evidence_, fits); known != evidence_.end()) {
-        hole.row.table = known->first, hole.row.about = known->second;
-        evidence_.erase(known);
-        return;
-    }
-    std::vector<std::string> candidates;
-    for (std::size_t place = hole.before; place <= last; ++place) {
-        const std::string name{chained_tables()[place].name};
-        // Tables of later formats, which most runs leave empty.
-        if (name.starts_with("alignment") && count_of("alignment") == 0) continue;
-        if (name.starts_with("channel_") && count_of("channel_calibration") == 0) continue;
-        if (name.starts_with("rotary") && !rotary_axis_) continue;
-        if (name.starts_with("probing") && count_of("probing") == 0) continue;
-        const bool single = name == "uncertainty" || name == "statement" ||
-                            std::ranges::find(singles, name) != singles.end();
-        if (!single || count_of(name) == 0) candidates.push_back(name);
-    }
-    if (hole.after >= body) candidates.insert(candidates.end(), {"environment", "event"});
-    hole.row.table = joined(candidates);
-}
-
-std::vector<MissingRow> MissingRows::result() {
-    if (!holes_.empty()) gather_header_evidence();
-    std::vector<MissingRow> rows;
-    rows.reserve(holes_.size());
-    const std::size_t body = place_of(first_of_body);
-    for (Hole& hole : holes_) {
-        if (hole.row.table.empty() && hole.before < body) settle_header(hole);
-        if (hole.row.table.empty())
-            hole.row.table =
-                datums_.empty() ? "datum, environment or event" : "environment or event";
-        rows.push_back(hole.row);
-    }
-    return rows;
 }
 
 } // namespace axiscal

@@ -104,9 +104,11 @@ private:
 /// The chain as far as it was walked.
 class Walk {
 public:
-    explicit Walk(ChainReport& report)
+    /// @param last_closing the highest number of a closing row; 0: there is none.
+    Walk(ChainReport& report, std::int64_t last_closing)
         : report_{report}
-        , missing_{report.format} {}
+        , missing_{report.format}
+        , last_closing_{last_closing} {}
 
     /// All rows that bear the same number; one of them is the row that was written.
     void take(std::vector<StoredRow> same_number) {
@@ -117,7 +119,7 @@ public:
             if (row != kept) added(*row, "bears the number of another row");
         if (kept->link < 1)
             added(*kept, "bears a number that no row has");
-        else if (report_.closed && !reopens(*kept->table))
+        else if (report_.closed && !reopens(*kept->table) && !is_reopened_before(*kept))
             added(*kept, "stands after the end of the run");
         else
             follow(*kept);
@@ -158,6 +160,13 @@ private:
         return stored_ ? Fit::no : Fit::unknown;
     }
 
+    /// The row that opened the closed run again is missing: it was closed once more after this one,
+    /// or this is a point that the missing one ordered.
+    [[nodiscard]] bool is_reopened_before(const StoredRow& row) const {
+        const bool after_hole = row.link > report_.links + 1;
+        return after_hole && (row.link <= last_closing_ || row.table->name == "retake_point");
+    }
+
     void follow(const StoredRow& row) {
         for (std::int64_t link = report_.links + 1;
              link < row.link && link <= report_.links + most_holes; ++link)
@@ -180,7 +189,7 @@ private:
         previous_ = StoredRow{row.table, row.link, {row.row.begin(), row.row.begin() + 1}, {}, {}};
         if (row.table->since <= 1 && row.table->name == "datum") ran_ = true;
         if (row.table->name == "event" || row.table->name == "point") ran_ = true;
-        if (reopens(*row.table)) report_.closed = report_.complete = false;
+        report_.closed = report_.complete = false;
         if (row.table->name != "closing") return;
         report_.closed = true;
         report_.complete = row.row[0] == Value{std::int64_t{1}};
@@ -207,6 +216,7 @@ private:
 
     ChainReport& report_;
     MissingRows missing_;
+    std::int64_t last_closing_;
     std::optional<Digest> stored_ = Digest{}, computed_; ///< hash of the last row; empty: unknown
     std::optional<StoredRow> suspect_, previous_;
     std::string suspicion_;
@@ -293,7 +303,9 @@ Result<ChainReport> verify_chain(const std::string& path) {
     ChainReport report;
     report.format = file.format;
     AXISCAL_TRY(auto tables, open_tables(*file.database, file.format, report));
-    Walk walk{report};
+    AXISCAL_TRY(const auto last_closing,
+                file.database->integer_of("SELECT ifnull(max(link), 0) FROM closing"));
+    Walk walk{report, last_closing};
     std::string head;
     for (;;) {
         AXISCAL_TRY(auto rows, next_rows(tables));

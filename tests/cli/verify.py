@@ -12,75 +12,27 @@ import json
 import os
 import shutil
 import sqlite3
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import run_files
+from run_files import chain_anew, columns_of, make_room, rows_of
+
 AXISCAL, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")  # of format 1
-SCHEMAS = [os.path.join(SOURCE, "acquisition", "journal", f"schema_{name}.sql")
-           for name in ("2", "3_streams", "3", "3_beside", "4")]
-TABLES = ["run", "plan", "plan_target", "plan_point", "laser", "material", "air", "uncertainty",
-          "uncertainty_target", "statement", "instrument", "channel", "datum", "point", "environment",
-          "synchronisation", "event", "closing"]  # in the order in which a header is written
-
-
-def canonical(table, values):
-    def text(tag, data):
-        return tag + struct.pack("<Q", len(data)) + data
-
-    out = text(b"t", table.encode())
-    for value in values:
-        if value is None:
-            out += b"n"
-        elif isinstance(value, int):
-            out += b"i" + struct.pack("<q", value)
-        elif isinstance(value, float):
-            out += b"r" + struct.pack("<d", value)
-        elif isinstance(value, str):
-            out += text(b"t", value.encode())
-        else:
-            out += text(b"b", value)
-    return out
-
-
-def columns_of(base, table):
-    return [row[1] for row in base.execute(f"PRAGMA table_info({table})")
-            if row[1] not in ("link", "hash")]
-
-
-def rows_of(base):
-    """{link: (table, values)} of the whole chain."""
-    rows = {}
-    for table in tables_of(base):
-        columns = ", ".join(columns_of(base, table))
-        for link, *values in base.execute(f"SELECT link, {columns} FROM {table}"):
-            rows[link] = (table, values)
-    return rows
-
-
-def tables_of(base):
-    there = {row[0] for row in base.execute("SELECT name FROM sqlite_schema")}
-    return [table for table in TABLES if table in there]
-
-
-def chain_anew(base, only=None):
-    """Gives every row the hash it needs now; with `only` that row alone."""
-    before = bytes(32)
-    for link, (table, values) in sorted(rows_of(base).items()):
-        right = hashlib.sha256(before + canonical(table, values)).digest()
-        if only in (None, link):
-            base.execute(f"UPDATE {table} SET hash=? WHERE link=?", (right, link))
-        before = base.execute(f"SELECT hash FROM {table} WHERE link=?", (link,)).fetchone()[0]
-
-
-def make_room(base, link, count=1):
-    """Moves every row from `link` on to later numbers."""
-    for table in tables_of(base):
-        base.execute(f"UPDATE {table} SET link=-(link+?) WHERE link>=?", (count, link))
-        base.execute(f"UPDATE {table} SET link=-link WHERE link<0")
+KINDS = ("linear", "revised", "circular", "rotary", "probing", "drift")
+# What the schema holds to be unique gets another value in a copied row.
+NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement", "name"): "name || '2'",
+            ("channel_calibration", "channel"): "channel + 100", ("point", "step"): "step + 1000",
+            ("stream", "id"): "id + 100", ("retake", "number"): "number + 100",
+            ("retake_point", "step"): "step + 1000", ("exclusion", "step"): "step + 1000",
+            ("synchronisation", "step"): "step + 1000"}
+# A row of these leaves no trace in others, or stands where several can: then each is named.
+ALIKE = {"environment", "event", "exclusion", "closing", "preflight", "uncertainty_target", "instrument",
+         "channel_calibration", "channel_correction", "alignment", "alignment_place", "eve_source", "rotary",
+         "rotary_deviation", "probing_touch"}
 
 
 def other(value):
@@ -104,37 +56,26 @@ class Verify(unittest.TestCase):
 
     def make_whole(self, path):
         """The reference run in format 4, with rows of every kind that a positioning run has and a result."""
-        shutil.copy(RUN, path)
+        run_files.write(path, SOURCE, run_files.linear(RUN))
+        told = self.verify(path)
+        self.assertEqual(told["findings"], [])
+        digest, document = told["result_digest"], '{"kept": true}'
         base = sqlite3.connect(path)
-        for name in SCHEMAS:
-            with open(name, encoding="utf-8") as schema:
-                base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
-        base.execute("PRAGMA user_version=4")
-        place = base.execute("SELECT link FROM air").fetchone()[0] + 1
-        make_room(base, place, 3)
-        base.execute("INSERT INTO uncertainty VALUES(?, NULL, NULL, 2.0, 2e-6, 1e-6, 0.001, NULL, 1.0, "
-                     "2e-6, 1.7e-6, 'mean', x'00')", (place,))
-        for i, name in enumerate(("A", "B_mean")):
-            base.execute("INSERT INTO uncertainty_target VALUES(?, ?, 0.000005, x'00')",
-                         (place + 1 + i, name))
-        captures = base.execute("SELECT link, -1, id, slope_um_per_s FROM datum UNION ALL "
-                                "SELECT link, step, datum_id, slope_um_per_s FROM point ORDER BY link DESC")
-        for link, step, datum, slope in captures.fetchall():
-            make_room(base, link + 1)
-            base.execute("INSERT INTO synchronisation VALUES(?, ?, ?, 40000, ?, x'00')",
-                         (link + 1, step, datum, abs(slope) * 40e-6))
-        base.execute("DELETE FROM result")
-        chain_anew(base)
-        base.commit()
-        base.close()
-        self.assertEqual(self.verify(path)["findings"], [])
-        digest = self.verify(path)["result_digest"]
-        base = sqlite3.connect(path)
-        document = '{"kept": true}'
         base.execute("INSERT INTO result(digest, document, hash) VALUES(?, ?, ?)",
                      (digest, document, hashlib.sha256(f"{digest}\n{document}".encode()).digest()))
         base.commit()
         base.close()
+
+    def each_kind(self):
+        """(name, tables): the whole file is one of each kind; the tables of its rows."""
+        for name in KINDS:
+            os.unlink(self.whole)
+            rows = getattr(run_files, name)(RUN)
+            run_files.write(self.whole, SOURCE, rows)
+            told = self.verify(self.whole)
+            self.assertEqual(told["findings"], [], name)
+            self.assertTrue(told["complete"], name)
+            yield name, {table for table, _ in rows}
 
     def verify(self, path, code=0, *words):
         done = subprocess.run([AXISCAL, "verify", path, "--json", *words], capture_output=True, text=True,
@@ -159,7 +100,6 @@ class Verify(unittest.TestCase):
         for link, (table, values) in sorted(rows_of(base).items()):
             by_table.setdefault(table, []).append((link, values))
         base.close()
-        self.assertEqual(sorted(by_table), sorted(TABLES))
         for table, rows in by_table.items():
             for place in sorted({round(share * (len(rows) - 1)) for share in shares}):
                 yield (table, *rows[place])
@@ -174,42 +114,78 @@ class Verify(unittest.TestCase):
         self.assertEqual(words.returncode, 0)
         self.assertIn("each as it was written", words.stdout)
 
-    def test_every_column_of_every_table(self):
-        base = sqlite3.connect(self.whole)
-        columns = {table: columns_of(base, table) for table in TABLES}
-        base.close()
-        tried = 0
-        for table, link, values in self.some_rows([0.5]):
-            for column, value in zip(columns[table] + ["hash"], values + [b"\0" * 32]):
-                def change(base, value=value, column=column, table=table, link=link):
-                    base.execute(f"UPDATE {table} SET {column}=? WHERE link=?", (other(value), link))
+    def test_the_kinds_fill_every_table_of_the_chain(self):
+        filled = set().union(*(tables for _, tables in self.each_kind()))
+        with contextlib.closing(sqlite3.connect(self.whole)) as base:
+            chained = run_files.tables_of(base)
+        self.assertEqual(sorted(chained), sorted(run_files.tables_of_program(SOURCE)))
+        self.assertEqual(sorted(chained), sorted(filled), "a table that no file here fills is not proved")
 
-                try:
-                    found = self.spoil(change)
-                except sqlite3.IntegrityError:  # NULL where none may be, a name twice
-                    continue
-                tried += 1
-                named = [(f["what"], f["table"], f["row"]) for f in found]
-                self.assertEqual(named[0], ("changed", table, link), f"{column}: {named}")
-                self.assertLessEqual(len(named), 1, f"{column}: {named}")
-                self.assertIn(f"row {link} (table {table}", found[0]["sentence"])
-        print(f"{tried} changed cells in {len(TABLES)} tables, each named")
-        self.assertGreater(tried, 100)
+    def test_every_column_of_every_table(self):
+        tried, done = 0, set()
+        for _, tables in self.each_kind():
+            with contextlib.closing(sqlite3.connect(self.whole)) as base:
+                columns = {table: columns_of(base, table) for table in tables}
+            for table, link, values in self.some_rows([0.5]):
+                if table not in done:
+                    tried += self.change_each_cell(table, link, [*zip(columns[table], values), ("hash", bytes(32))])
+            done |= tables
+        print(f"{tried} changed cells in {len(done)} tables, each named")
+        self.assertGreater(tried, 200)
+
+    def change_each_cell(self, table, link, cells):
+        """Gives back how many of them could be changed."""
+        tried = 0
+        for column, value in cells:
+            def change(base, value=value, column=column):
+                base.execute(f"UPDATE {table} SET {column}=? WHERE link=?", (other(value), link))
+
+            try:
+                found = self.spoil(change)
+            except sqlite3.IntegrityError:  # NULL where none may be, a name twice
+                continue
+            tried += 1
+            named = [(f["what"], f["table"], f["row"]) for f in found]
+            self.assertEqual(named, [("changed", table, link)], f"{column}: {found}")
+            self.assertIn(f"row {link} (table {table}", found[0]["sentence"])
+        self.assertGreater(tried, 0, table)
+        return tried
 
     def test_every_missing_row(self):
-        tried = 0
-        for table, link, values in self.some_rows():
-            found = self.spoil(lambda base: base.execute(f"DELETE FROM {table} WHERE link=?", (link,)))
-            tried += 1
-            self.assertEqual([(f["what"], f["row"]) for f in found], [("missing", link)])
-            self.assertIn(table, found[0]["table"], f"{link}: {found}")
-            if table not in ("environment", "event", "uncertainty_target", "instrument"):
-                self.assertEqual(found[0]["table"], table, f"{link}: {found}")
-            if table == "point":
-                self.assertEqual(found[0]["about"], f"step={values[0]}")
-            if table == "statement":
-                self.assertEqual(found[0]["about"], f"name={values[0]}")
-        print(f"{tried} missing rows, each named")
+        tried, done = 0, set()
+        for kind, tables in self.each_kind():
+            for table, link, values in self.some_rows():
+                if kind == "linear" or table not in done or (kind == "revised" and table in ("point", "closing")):
+                    self.take_out(kind, table, link, values)
+                    tried += 1
+            done |= tables
+        print(f"{tried} missing rows of {len(done)} tables, each named")
+
+    def take_out(self, kind, table, link, values):
+        found = self.spoil(lambda base: base.execute(f"DELETE FROM {table} WHERE link=?", (link,)))
+        told = f"{kind}, {table} {link}: {found}"
+        self.assertEqual([(f["what"], f["row"]) for f in found], [("missing", link)], told)
+        named = found[0]["table"].replace(" or ", ", ").split(", ")
+        self.assertIn(table, named, told)
+        if table not in ALIKE:
+            self.assertEqual(named, [table], told)
+        for tables, about in ((("point", "retake_point"), "step"), (("statement",), "name"), (("stream",), "id"),
+                              (("retake",), "number")):
+            if table in tables and found[0]["about"]:
+                self.assertEqual(found[0]["about"], f"{about}={values[0]}", told)
+        if table in ("stream_block", "stream_block_time"):
+            self.assertEqual(found[0]["about"], f"stream={values[0]}, block={values[1]}", told)
+
+    def test_an_order_that_is_missing_with_its_points_is_told_by_the_points(self):
+        run_files.write(self.path, SOURCE, run_files.revised(RUN))
+        with contextlib.closing(sqlite3.connect(self.path)) as base, base:
+            links = [row[0] for row in base.execute("SELECT link FROM retake WHERE number=1 UNION ALL "
+                                                    "SELECT link FROM retake_point WHERE step=50")]
+            for link in links:
+                base.execute("DELETE FROM retake WHERE link=?", (link,))
+                base.execute("DELETE FROM retake_point WHERE link=?", (link,))
+        found = [(f["row"], f["table"], f["about"]) for f in self.verify(self.path, 8)["findings"]]
+        self.assertEqual(found, [(links[0], "retake", "number=1"), (links[1], "retake_point", "step=50")])
 
     def test_many_missing_rows_are_told_and_counted(self):
         found = self.spoil(lambda base: base.execute("DELETE FROM point"))
@@ -218,32 +194,47 @@ class Verify(unittest.TestCase):
         self.assertEqual({f["table"] for f in found}, {"point"})
 
     def test_a_row_after_the_end(self):
-        last = max(link for _, link, _ in self.some_rows())
-        for table, link, values in self.some_rows():
-            def add(base, table=table, link=link):
-                names = ", ".join(c for c in columns_of(base, table))
-                base.execute(f"INSERT INTO {table}(link, {names}, hash) SELECT ?, {names}, hash FROM {table} "
-                             "WHERE link=?", (last + 1, link))
-
-            try:
-                found = self.spoil(add)
-            except sqlite3.IntegrityError:  # a step or a name twice: the schema itself forbids it
-                continue
-            self.assertEqual([(f["what"], f["table"], f["row"]) for f in found], [("added", table, last + 1)])
+        proved, tables = set(), set()
+        for _, of_kind in self.each_kind():
+            tables |= of_kind
+            last = max(link for _, link, _ in self.some_rows())
+            for table, link, _ in self.some_rows([0.5]):
+                if table not in proved and self.add_twin(table, link, last + 1, [last + 1]):
+                    proved.add(table)
+        self.assertEqual(tables - proved, set())
 
     def test_a_second_row_of_the_same_number(self):
-        for table in TABLES:
-            def add(base, table=table):
-                names = ", ".join(c for c in columns_of(base, table))
-                taken = base.execute("SELECT link FROM point LIMIT 1 OFFSET 20").fetchone()[0]
-                base.execute(f"INSERT INTO {table}(link, {names}, hash) SELECT ?, {names}, hash FROM {table} "
-                             "LIMIT 1", (taken,))
+        proved, tables = set(), set()
+        for _, of_kind in self.each_kind():
+            tables |= of_kind
+            links = sorted(link for _, link, _ in self.some_rows())
+            middle = links[len(links) // 2]
+            for table, link, _ in self.some_rows([0.5]):
+                taken = links[0] if link == middle else middle
+                if table not in proved and self.add_twin(table, link, taken, None):
+                    proved.add(table)
+        self.assertEqual(tables - proved, set())
 
-            try:
-                found = self.spoil(add)
-            except sqlite3.IntegrityError:
-                continue
-            self.assertEqual([(f["what"], f["table"]) for f in found], [("added", table)])
+    def add_twin(self, table, link, place, rows):
+        """Puts a copy of a row at another place; false: that number is taken, or the schema forbids it."""
+        def add(base):
+            columns = columns_of(base, table)
+            names = ", ".join(columns)
+            chosen = ", ".join(NEW_NAME.get((table, c), c) for c in columns)
+            base.execute(f"INSERT INTO {table}(link, {names}, hash) SELECT ?, {chosen}, hash FROM {table} "
+                         "WHERE link=?", (place, link))
+
+        try:
+            found = self.spoil(add)
+        except sqlite3.IntegrityError:
+            return False
+        right = [("added", table)]
+        if rows and table in ("retake", "exclusion"):  # they may follow the end, but continue nothing here
+            right, rows = [("changed", table), ("missing", "closing")], [place, place + 1]
+        self.assertEqual([(f["what"], f["table"]) for f in found], right, f"{link}: {found}")
+        if rows:
+            self.assertEqual([f["row"] for f in found], rows)
+        return True
 
     def test_a_row_put_in_between_with_a_hash_that_fits(self):
         def add(base):
