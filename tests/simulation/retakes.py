@@ -1,7 +1,9 @@
 """Points taken again and readings left out, from the command line to the certificate."""
 
+import contextlib
 import json
 import signal
+import sqlite3
 from pathlib import Path
 
 import bench
@@ -66,6 +68,50 @@ def after_a_restart(b):
     told = " ".join(certificate["run"]["remarks"])
     for words in ("restarted after the run had been closed", "The laser counted on"):
         expect(words in told, told)
+
+
+@sentence("PointsAreTakenAgainInAnOpenRunAndTheReplacedReadingsStay")
+def in_the_open_run(b):
+    b.begin_run(hold_after=5)
+    b.wait_for_points(5)
+    file = Path(b.run()["file"])
+    first = points_of(file)
+    expect(sorted(first) == [0, 1, 2, 3, 4], f"{sorted(first)}")
+    order = json.loads(b.axiscal("retake", "--json", "--target", 2, "--cycle", 1, "--direction", "up",
+                                 "--reason", "coolant on the mirror"))
+    expect([(one["step"], one["target"]) for one in order["points"]] == [(20, 1)], f"{order}")
+    run = b.run()
+    expect(run["state"] != "complete" and run["retakes_left"] == 1, f"{run}")
+    b.sim("go")
+    b.wait_for_points(20)
+    run = b.run()
+    expect(run["state"] != "complete" and run["certificate"] == "", f"closed without the point: {run}")
+    shown = b.axiscal("program", "--json", "--retake", file, "--config", b.folder / "station.toml",
+                      "--out", b.folder)
+    program = json.loads(shown)["programs"][0]
+    expect(program["points"] == 1 and program["last_request"] == 20, f"{program}")
+    b.sim(f"run {program['file']}")
+    certificate = b.finish()
+    run = b.run()
+    expect(run["state"] == "complete" and run["done"] == 21, f"{run}")
+    forward = certificate["run"]["deviations"]["forward"]
+    expect([len(row) for row in forward] == [2] * 5, f"{forward}")
+    aside = certificate["run"]["set_aside"]
+    expect([(one["target"], one["approach"], one["why"]) for one in aside] == [(1, 0, "superseded")], f"{aside}")
+    expect(abs(aside[0]["deviation"] - forward[1][0]) > 0, "the figures use the new reading")
+    kept = points_of(file)
+    expect(sorted(kept) == list(range(21)), f"{sorted(kept)}")
+    expect(all(kept[step] == first[step] for step in first), "the replaced readings are kept bit for bit")
+    expect(kept[20][1] == kept[1][0] == 1, f"step 20 replaces step 1: {kept[20]}")
+    checked = json.loads(b.axiscal("verify", "--json", file))
+    expect(checked["intact"] and checked["rows"]["closing"] == 1, f"{checked}")
+
+
+def points_of(file):
+    """{step: (step, planned step, target, reading in m)} of the run file; it may be open."""
+    with contextlib.closing(sqlite3.connect(f"file:{file}?mode=ro", uri=True)) as base:
+        rows = base.execute("SELECT step, planned_step, target_index, reading_m FROM point").fetchall()
+    return {row[0]: row for row in rows}
 
 
 @sentence("ReadingLeftOutIsCountedAndThePointTakenAgainCounts")
