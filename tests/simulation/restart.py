@@ -80,6 +80,13 @@ def killed_single_register(b):
     goes_on(b)
 
 
+@sentence("KilledDaemonGoesOnWithTheRunOnCoilAndIndex")
+def killed_coil_and_index(b):
+    b.trigger("coil-and-index", "tcp")
+    interrupt(b, signal.SIGKILL, -signal.SIGKILL)
+    goes_on(b)
+
+
 @sentence("StoppedDaemonGoesOnWithTheRun")
 def stopped(b):
     interrupt(b, signal.SIGTERM, 0)
