@@ -9,7 +9,14 @@
 namespace axiscal::simulate {
 
 /// Streams keep the sources of noise independent of each other.
-enum class NoiseStream : std::uint64_t { axis = 1, approach, garbage, draws };
+enum class NoiseStream : std::uint64_t {
+    axis = 1,
+    approach,
+    garbage,
+    draws,
+    drawn_pace,
+    drawn_phase
+};
 
 class SeededNoise {
 public:

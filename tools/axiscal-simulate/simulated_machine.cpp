@@ -85,14 +85,22 @@ SimulatedMachine::SimulatedMachine(const Scenario& scenario)
     , noise_{scenario.seed}
     , play_{std::max(std::abs(scenario.errors.reversal_um) * 1e-3, least_play_mm)} {}
 
+/// Its offset belongs to a stop by the place and the visit: a turning point between two moves,
+/// which is seen as a stop or not by chance, changes no other.
+std::uint64_t SimulatedMachine::index_of_stop(double drive_mm) {
+    constexpr double places_per_mm = 1e3;
+    const auto place = static_cast<std::int64_t>(std::llround(drive_mm * places_per_mm));
+    return (static_cast<std::uint64_t>(place) << 20U) + ++visits_[place];
+}
+
 /// Each stop has its own random offset; the slide settles to it with the drive's time constant.
 double SimulatedMachine::approach_offset_mm(double drive_mm, double dt_s) {
     const bool moves = std::abs(drive_mm - last_drive_mm_) > still_step_mm;
-    if (moves && !moving_) ++stops_;
+    if (moving_ && !moves)
+        approach_goal_mm_ = scenario_.errors.approach_noise_um * 1e-3 *
+                            noise_.normal(NoiseStream::approach, index_of_stop(drive_mm));
     moving_ = moves;
-    const double goal_mm =
-        scenario_.errors.approach_noise_um * 1e-3 * noise_.normal(NoiseStream::approach, stops_);
-    approach_mm_ += (goal_mm - approach_mm_) * (1.0 - std::exp(-dt_s / settle_s));
+    approach_mm_ += (approach_goal_mm_ - approach_mm_) * (1.0 - std::exp(-dt_s / settle_s));
     return approach_mm_;
 }
 

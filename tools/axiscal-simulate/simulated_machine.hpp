@@ -7,6 +7,7 @@
 #include "true_air.hpp"
 
 #include <cstdint>
+#include <map>
 
 namespace axiscal::simulate {
 
@@ -75,15 +76,16 @@ public:
 private:
     double cycles_of_path(double length_mm, double seconds);
     double approach_offset_mm(double drive_mm, double dt_s);
+    std::uint64_t index_of_stop(double drive_mm);
 
     Scenario scenario_;
     TrueErrors errors_;
     SeededNoise noise_;
     Play play_;
     bool moving_ = false, started_ = false, zeroed_ = false;
-    double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, optical_zero_mm_ = 0,
-           beam_angle_rad_ = 0;
-    std::uint64_t stops_ = 0;
+    double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, approach_goal_mm_ = 0,
+           optical_zero_mm_ = 0, beam_angle_rad_ = 0;
+    std::map<std::int64_t, std::uint64_t> visits_; ///< stops at each place, um
 };
 
 } // namespace axiscal::simulate

@@ -1,9 +1,7 @@
 #include "truth.hpp"
 
-#include "seeded_noise.hpp"
+#include "injected_process.hpp"
 #include "simulated_machine.hpp"
-#include "wire/sensor_faces.hpp"
-#include "wire/umd_counter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +10,6 @@
 namespace axiscal::simulate {
 
 namespace {
-
-using Table = std::vector<std::vector<double>>;
 
 double mean_of(const std::vector<double>& row) {
     double sum = 0;
@@ -42,7 +38,7 @@ struct OneWay {
     double R_um = 0;
 };
 
-OneWay one_way(const Table& table) {
+OneWay one_way(const Readings& table) {
     OneWay way;
     for (const auto& row : table) {
         const double mean = mean_of(row);
@@ -82,22 +78,19 @@ void add_two_way(std::map<std::string, double>& p, const OneWay& up, const OneWa
 }
 
 /// The injected means at 20 C, one row per target.
-Table means_of(const Scenario& scenario, const TruthPlan& plan, int direction) {
+Readings means_of(const Scenario& scenario, const TruthPlan& plan, int direction) {
     const TrueErrors errors{scenario.errors};
-    Table table;
+    Readings table;
     for (const double target : plan.targets_mm)
         table.push_back({errors.deviation_um(target, direction)});
     return table;
 }
 
-/// Standard deviation of one capture, um: the offset of the stop, and what a window leaves of the
-/// noise of its samples and of the vibration (a sine averaged over T keeps at most A / (pi f T)).
-double capture_sigma_um(const Scenario& s) {
-    const double samples = std::max(1.0, s.truth.window_s * UmdCounter{s.laser}.rate_hz());
-    const double rest_of_noise = s.errors.noise_um / std::sqrt(samples);
+/// What a sine averaged over T keeps at most: A / (pi f T). For the bound it counts like a sigma.
+double bound_sigma_um(const Scenario& s) {
     const double rest_of_vibration =
         s.errors.vibration_um / (std::numbers::pi * s.truth.window_s * s.errors.vibration_hz);
-    return std::hypot(s.errors.approach_noise_um, rest_of_noise, rest_of_vibration);
+    return std::hypot(capture_sigma_um(s), rest_of_vibration);
 }
 
 /// What the sensors' resolution and the differences of admissible formulas can shift, um.
@@ -108,43 +101,25 @@ struct Systematic {
     [[nodiscard]] double along() const {
         return material_scale + air + formula + first_order + counting + drift + fixed_point;
     }
-    /// Between two readings at one place (B, R): a scale error is the same for both, but a
-    /// sensor may step to its next digit between them.
+    /// Between two readings at one place (B): a scale error is the same for both, but a sensor may
+    /// step to its next digit between them.
     [[nodiscard]] double between() const {
         return material_step + air + counting + drift + fixed_point;
     }
-};
-
-/// Largest and spread of (shown - true) material temperature over the run, K.
-Range material_error_k(const Scenario& s) {
-    Range range;
-    for (const SensorScenario& sensor : s.sensors) {
-        if (sensor.kind != "tm-th8") continue;
-        const double step = temperature_step_k(sensor);
-        for (int i = 0; i <= 1000; ++i) {
-            const double t = s.thermal.material.at(s.truth.duration_s * i / 1000.0);
-            double sum = 0;
-            for (const double difference : s.thermal.sensor_difference_k)
-                sum += std::round((t + difference) / step) * step;
-            const auto count = static_cast<double>(s.thermal.sensor_difference_k.size());
-            range.put(count > 0 ? sum / count - t : 0);
-        }
+    /// What no draw can hold, of R and A: the rounding to whole counts, at most half a count c of
+    /// each reading. s moves by at most its own s, c/2 sqrt(n/(n-1)); R, or A over the axis, has
+    /// four s and the difference of two means.
+    [[nodiscard]] double rounding_um(int approaches) const {
+        const double n = approaches;
+        return counting * (1 + 2 * std::sqrt(n / (n - 1)));
     }
-    if (range.low > range.high) range.put(0);
-    return range;
-}
+};
 
 /// Half a step of each air quantity in index of refraction (sensitivities near 20 C).
 double air_step_index(const Scenario& s) {
-    double index = 0;
-    for (const SensorScenario& sensor : s.sensors) {
-        if (sensor.kind == "tm-th8") continue;
-        const bool dracal = sensor.kind == "dracal-vcp";
-        const double step = temperature_step_k(sensor);
-        const double pressure_step = dracal ? 1.0 : 10.0; // Pa
-        index = std::max(index, 0.5 * (0.94e-6 * step + 2.68e-9 * pressure_step + 8.5e-9 * step));
-    }
-    return index;
+    const AirSteps steps = air_steps(s);
+    return 0.5 * (0.94e-6 * steps.temperature_k + 2.68e-9 * steps.pressure_pa +
+                  8.5e-9 * steps.humidity_percent);
 }
 
 /// Two accepted equations for n differ by at most this near 20 C, RH up to 100 %.
@@ -152,6 +127,7 @@ constexpr double equations_differ = 6e-8;
 
 /// Least count of the laser, um of its displacement.
 double count_um(const LaserScenario& laser) {
+    if (laser.kind == "ids3010") return 1e-6; // it tells picometres
     const double count = laser.wavelength_nm * 1e-3 / (laser.fold * laser.counts_per_cycle);
     const bool heterodyne = laser.kind == "umd1" || laser.kind == "umd2-heterodyne";
     return heterodyne ? count / std::pow(2.0, laser.phase_bits) : count;
@@ -175,10 +151,12 @@ Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
     const double span_um = (plan.targets_mm.back() - plan.targets_mm.front()) * 1e3;
     const double beam_um = span_um + s.laser.dead_path_mm * 1e3;
     const double alpha = s.thermal.expansion_um_per_m_k * 1e-6;
-    const Range shown = material_error_k(s);
-    Range material;
-    for (int i = 0; i <= 1000; ++i)
-        material.put(s.thermal.material.at(s.truth.duration_s * i / 1000.0));
+    Range shown, material;
+    for (int i = 0; i <= 1000; ++i) {
+        const Weather weather = weather_at(s, s.truth.duration_s * i / 1000.0);
+        shown.put(weather.material_error_k);
+        material.put(weather.material_c);
+    }
     const double from_20 = std::max(std::abs(material.low - 20), std::abs(material.high - 20));
     const double off_mm = std::max(std::abs(s.axis.start_mm - s.thermal.fixed_point_mm),
                                    std::abs(plan.targets_mm.front() - s.thermal.fixed_point_mm));
@@ -199,24 +177,12 @@ struct Quantiles {
 };
 
 /// 10 000 runs of the injected process, seeded; the middle 99.9 % of each parameter.
-std::map<std::string, Quantiles> draw(const Scenario& s, const TruthPlan& plan, double sigma_um) {
-    const SeededNoise noise{s.seed};
-    const Table up = means_of(s, plan, +1), down = means_of(s, plan, -1);
+std::map<std::string, Quantiles> draw(const Scenario& s, const TruthPlan& plan) {
+    const InjectedProcess process{s, plan};
     std::map<std::string, std::vector<double>> drawn;
-    std::uint64_t index = 0;
-    const auto scatter = [&](const Table& means) {
-        Table table;
-        for (const auto& row : means) {
-            auto& readings = table.emplace_back();
-            for (int j = 0; j < plan.approaches; ++j)
-                readings.push_back(row[0] + sigma_um * noise.normal(NoiseStream::draws, index++));
-        }
-        return table;
-    };
     for (int k = 0; k < s.truth.draws; ++k) {
-        const Table forward = scatter(up);
-        const auto values = evaluate_truth(forward, plan.bidirectional ? scatter(down) : Table{});
-        for (const auto& [key, value] : values)
+        const auto run = process.draw(static_cast<std::uint64_t>(k));
+        for (const auto& [key, value] : evaluate_truth(run.forward, run.backward))
             drawn[key].push_back(value);
     }
     std::map<std::string, Quantiles> quantiles;
@@ -241,22 +207,23 @@ double noise_factor(const std::string& key, std::size_t targets) {
 const char* const bound_formula =
     "E, M, B, B_mean: bound = k sigma/sqrt(n) z + systematic; z = sqrt(2 ln(2 m / 0.001)) holds "
     "for all 2 m means at 99.9 %; k: E 2, M sqrt 2, B sqrt 2, B_mean sqrt(2/m); sigma^2 = "
-    "approach^2 "
-    "+ noise^2/(window rate) + (vibration/(pi f window))^2. R, A: the middle 99.9 % of the draws, "
-    "widened by the systematic part. systematic along the axis (E, M, A): span alpha |shown - "
-    "true| "
-    "+ (span + dead path) air steps + span 6e-8 + span (alpha dT)^2 + count + drift time + fixed "
-    "point; between readings at one place (B, B_mean, R): the material sensor's change of error "
-    "in place of the scale terms. Of a rotary axis (mm stands for degree): 2 rests of half a step "
-    "times (2 air steps + 6e-8) + count / (arm pi / 180) + drift time.";
+    "approach^2 + noise^2/(window rate) + (vibration/(pi f window))^2. systematic along the axis "
+    "(E, M): span alpha |shown - true| + (span + dead path) air steps + span 6e-8 + span (alpha "
+    "dT)^2 + count + drift time + fixed point; between readings at one place (B, B_mean): the "
+    "material sensor's change of error in place of the scale terms. Of a rotary axis (mm stands "
+    "for degree): 2 rests of half a step times (2 air steps + 6e-8) + count / (arm pi / 180) + "
+    "drift time. R, A: the middle 99.9 % of the draws, in which noise, vibration, drift, the "
+    "sensors' steps and the pace of the run are drawn; beside it count (1 + 2 sqrt(n/(n-1))), and "
+    "for A span 6e-8 + span (alpha dT)^2: the formulas of air and of expansion are not drawn.";
 
 bool is_between(const std::string& key) {
-    return key.starts_with("B") || key.starts_with("R");
+    return key.starts_with("B");
 }
 
 } // namespace
 
-std::map<std::string, double> evaluate_truth(const Table& forward_um, const Table& backward_um) {
+std::map<std::string, double> evaluate_truth(const Readings& forward_um,
+                                             const Readings& backward_um) {
     std::map<std::string, double> p;
     const auto add = [&](const OneWay& way, const std::string& name) {
         p["E" + name] = way.means.width();
@@ -278,13 +245,14 @@ std::map<std::string, double> evaluate_truth(const Table& forward_um, const Tabl
 }
 
 nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
-    const double sigma_um = capture_sigma_um(scenario);
+    const double sigma_um = bound_sigma_um(scenario);
     const Systematic sys = systematic_of(scenario, plan);
     const auto m = static_cast<double>(plan.targets_mm.size());
     const double z = std::sqrt(2.0 * std::log(2.0 * m / 0.001));
     const double noise_um = z * sigma_um / std::sqrt(plan.approaches);
-    const auto exact = evaluate_truth(means_of(scenario, plan, +1),
-                                      plan.bidirectional ? means_of(scenario, plan, -1) : Table{});
+    const auto exact =
+        evaluate_truth(means_of(scenario, plan, +1),
+                       plan.bidirectional ? means_of(scenario, plan, -1) : Readings{});
     nlohmann::json parameters;
     for (const auto& [key, um] : exact) {
         const double systematic = is_between(key) ? sys.between() : sys.along();
@@ -292,13 +260,13 @@ nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
         parameters[key] = {{"value", um * 1e-3}, {"bound", bound * 1e-3}};
     }
     if (plan.approaches > 1)
-        for (const auto& [key, q] : draw(scenario, plan, sigma_um)) {
+        for (const auto& [key, q] : draw(scenario, plan)) {
             if (!key.starts_with("R") && !key.starts_with("A")) continue;
-            // A drift also widens s: four s of a straight drift stay below twice its range.
-            const double widen = is_between(key) ? 2 * sys.between() : sys.along() + 2 * sys.drift;
+            const double formulas = key.starts_with("A") ? sys.formula + sys.first_order : 0;
+            const double beside = sys.rounding_um(plan.approaches) + formulas;
             parameters[key] = {{"value", q.median * 1e-3},
-                               {"low", std::max(0.0, q.low - widen) * 1e-3},
-                               {"high", (q.high + widen) * 1e-3},
+                               {"low", std::max(0.0, q.low - beside) * 1e-3},
+                               {"high", (q.high + beside) * 1e-3},
                                {"draw_low", q.low * 1e-3},
                                {"draw_high", q.high * 1e-3}};
         }

@@ -112,6 +112,19 @@ TEST(SimulatedMachine, ApproachesScatterWithTheInjectedSigma) {
     EXPECT_NEAR(sigma, 0.5, 0.5 * 4 / std::sqrt(2.0 * n)); // four standard errors of a sigma
 }
 
+TEST(SimulatedMachine, StopThatIsSeenOnTheWayChangesNoOtherStop) {
+    Scenario s = quiet();
+    s.errors.approach_noise_um = 0.5;
+    SimulatedMachine one{s}, halting{s};
+    std::uint64_t a = 0, b = 0;
+    approach(one, 0, 12, a);
+    approach(halting, 0, 5, b);
+    approach(halting, 5, 12, b);
+    EXPECT_EQ(approach(one, 12, 10, a), approach(halting, 12, 10, b));
+    const double again = approach(one, 12, 10, a); // another visit, another offset
+    EXPECT_NE(again, approach(halting, 10, 10, b));
+}
+
 TEST(TrueErrors, SumTermsTableAndPeriod) {
     ErrorScenario e;
     e.linear_um_per_m = 10, e.quadratic_um_per_m2 = 4, e.cubic_um_per_m3 = 8, e.centre_mm = 500;

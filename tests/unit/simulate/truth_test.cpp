@@ -59,6 +59,54 @@ TEST(Truth, WithoutNoiseScatterVanishes) {
     EXPECT_NEAR(value(truth, "R"), 0.003, 1e-12);
 }
 
+double bound(const nlohmann::json& truth, const std::string& key, const std::string& which) {
+    return truth["parameters"][key][which].get<double>();
+}
+
+TEST(Truth, DriftIsDrawnIntoTheScatterAndWidensNothing) {
+    Scenario s = injected();
+    s.errors.approach_noise_um = 0;
+    s.errors.drift_um_per_hour = 36; // 1 um in the 100 s
+    s.truth.duration_s = 100;
+    s.laser.kind = "umd2-heterodyne";
+    s.laser.counts_per_cycle = 1;
+    // 50 captures, 49 gaps; the five of a target lie 10 gaps apart: s = 10 gaps sqrt(2.5). A run
+    // takes all of the 100 s at most, half of them at least.
+    const double longest_mm = 4 * std::sqrt(2.5) * 10 / 49.0 * 1e-3;
+    const double count_mm = 1e-8; // of a phase of 16 bits, with its factor 1 + 2 sqrt(5/4)
+    const auto truth = truth_of(s, plan);
+    EXPECT_LE(bound(truth, "R_forward", "high"), longest_mm + 2 * count_mm);
+    EXPECT_GE(bound(truth, "R_forward", "low"), longest_mm / 2 - 2 * count_mm);
+    EXPECT_NEAR(value(truth, "R_forward"), 0.75 * longest_mm, 0.05 * longest_mm);
+}
+
+TEST(Truth, MaterialSensorThatStepsDuringTheRunIsDrawnIntoTheScatter) {
+    Scenario s = injected();
+    s.errors.approach_noise_um = 0;
+    s.thermal.material = {23.045, 0.36, 0, 600}; // shown 23.0 up to 50 s, then 23.1
+    s.truth.duration_s = 100;
+    s.sensors.push_back({"material", "tm-th8"});
+    // 0.1 K at 1 m: 1.17 um between k of five readings and the others: s = 1.17 sqrt(k (5-k) / 20),
+    // at most sqrt(6/20). The true 0.01 K between the first and the last adds less than 0.117 um.
+    const double largest_mm = 4 * (1.17 * std::sqrt(6.0 / 20.0) + 0.117) * 1e-3;
+    const double rounding_mm = 0.0792e-3 * (1 + 2 * std::sqrt(5.0 / 4.0)); // of a quarter fringe
+    const auto truth = truth_of(s, plan);
+    EXPECT_GT(value(truth, "R_forward"), 4 * 1.0 * std::sqrt(4.0 / 20.0) * 1e-3);
+    EXPECT_LE(bound(truth, "R_forward", "high"), largest_mm + rounding_mm);
+}
+
+TEST(Truth, IntervalOfTheScatterIsThatOfTheDraws) {
+    const auto truth = truth_of(injected(), plan);
+    // Beside the draws: half a count of 632.99 nm / 8 each way, c (1 + 2 sqrt(5/4)); A also sees
+    // the formulas of air, 6e-8 of 1 m.
+    const double rounding_mm = 632.991354e-6 / 8 * (1 + 2 * std::sqrt(5.0 / 4.0));
+    for (const char* key : {"R", "R_forward", "R_backward"})
+        EXPECT_NEAR(bound(truth, key, "high") - bound(truth, key, "draw_high"), rounding_mm, 1e-12)
+            << key;
+    EXPECT_NEAR(bound(truth, "A", "high") - bound(truth, "A", "draw_high"), rounding_mm + 6e-5,
+                1e-12);
+}
+
 TEST(Truth, OneApproachHasNoScatterParameters) {
     const auto truth = truth_of(injected(), TruthPlan{plan.targets_mm, 1, true});
     EXPECT_FALSE(truth["parameters"].contains("R"));
