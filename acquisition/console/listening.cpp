@@ -22,33 +22,46 @@ std::optional<gid_t> group_id(const std::string& name) {
     return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
 }
 
+/// -1 (chown: as it is) where the station file names none.
+Result<gid_t> group_of_socket(const ConsoleConfig& config) {
+    if (config.group.empty()) return static_cast<gid_t>(-1);
+    if (const auto known = group_id(config.group)) return *known;
+    return fail(Fault::io,
+                "[console] group: this PC has no group '" + config.group +
+                    "', which is to own the socket " + config.socket_path +
+                    "; make it (sudo systemd-sysusers axiscal.conf), or name another one");
+}
+
+/// 0660 from the first moment. Removes what a killed daemon left at this path; a running one is
+/// refused by its lock.
+Result<void> bind_socket(asio::local::stream_protocol::acceptor& local, const std::string& path) {
+    boost::system::error_code error;
+    ::unlink(path.c_str());
+    local.open({}, error);
+    const mode_t before = ::umask(0117);
+    if (!error) local.bind(path, error);
+    ::umask(before);
+    if (!error) local.listen(16, error);
+    if (!error) return {};
+    return fail(Fault::io,
+                "cannot listen on " + path +
+                    "; does its folder exist and may this user write there?",
+                error);
+}
+
 } // namespace
 
 Result<void> listen(asio::local::stream_protocol::acceptor& local, const ConsoleConfig& config) {
     if (config.socket_path.empty()) return {};
-    boost::system::error_code error;
-    ::unlink(config.socket_path
-                 .c_str()); // left by a killed daemon; a running one is refused by its lock
-    local.open({}, error);
-    const mode_t before = ::umask(0117); // 0660 from the first moment
-    if (!error) local.bind(config.socket_path, error);
-    ::umask(before);
-    if (!error) local.listen(16, error);
-    if (error)
-        return fail(Fault::io,
-                    "cannot listen on " + config.socket_path +
-                        "; does its folder exist and may this user write there?",
-                    error);
-    if (config.group.empty()) return {};
-    const auto wanted = group_id(config.group);
-    if (!wanted)
-        return fail(Fault::io,
-                    "group '" + config.group +
-                        "' does not exist; create it (systemd-sysusers) or set console.group");
-    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), *wanted) != 0)
-        return fail(Fault::io, "cannot give " + config.socket_path + " to group " + config.group,
-                    {errno, std::generic_category()});
-    return {};
+    AXISCAL_TRY(const gid_t wanted, group_of_socket(config));
+    AXISCAL_CHECK(bind_socket(local, config.socket_path));
+    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), wanted) == 0) return {};
+    const std::error_code refused{errno, std::generic_category()};
+    ::unlink(config.socket_path.c_str());
+    return fail(Fault::io,
+                "[console] group: cannot give " + config.socket_path + " to group '" +
+                    config.group + "'; the user who runs axiscald must be a member of it",
+                refused);
 }
 
 Result<void> listen(asio::ip::tcp::acceptor& tcp, ConsoleConfig& config) {

@@ -10,7 +10,7 @@
 namespace axiscal {
 
 /// The Unix socket, mode 0660 from the first moment, given to the configured group; without a path
-/// nothing. @errors Fault::io naming path or group.
+/// nothing. @errors Fault::io naming path or group; then no socket is left.
 Result<void> listen(boost::asio::local::stream_protocol::acceptor& local,
                     const ConsoleConfig& config);
 

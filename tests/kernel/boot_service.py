@@ -83,6 +83,15 @@ def ready(station):
     expect(publisher == {"ActiveState": "active", "NRestarts": "0"}, f"{publisher}\n{journal('axiscal-publish')}")
 
 
+@check("ControlSocketBelongsToTheGroupAlone")
+def control_socket(station):
+    """docs/install.md: 0660 axiscal:axiscal, in a folder that others do not enter."""
+    for place, mode in ((Path(station.socket), 0o660), (Path(station.socket).parent, 0o750)):
+        rights = place.stat().st_mode & 0o7777
+        expect((place.owner(), place.group(), rights) == ("axiscal", "axiscal", mode),
+               f"{place} belongs to {place.owner()}:{place.group()} and has mode {rights:o}")
+
+
 @check("InstrumentsPluggedInLaterAreNamedGroupedAndOpened")
 def plugged_in(station):
     load_modules("vhci_hcd")  # the drivers of the instruments are udev's to load
