@@ -120,6 +120,7 @@ nlohmann::ordered_json to_json(const InstrumentView& view) {
             {"checksum_errors", counters.checksum_errors},
             {"gaps", counters.gaps},
             {"lost_records", counters.lost_records},
+            {"timeouts", counters.timeouts},
             {"fault", fault_name(view.last_fault)},
             {"note", view.last_note},
             {"repeats", view.repeats}};

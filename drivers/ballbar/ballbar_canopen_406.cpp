@@ -110,7 +110,7 @@ void CanOpen406::hand_up(const std::vector<PdoStream::Numbered>& settled, Sample
     for (const PdoStream::Numbered& one : settled) {
         const auto reading = read_cia406_position(position_, layout, one.arrival.frame);
         const MonotonicTime at = one.at - latency;
-        if (reading.why == Why::short_frame) ++counters_.bad_frames;
+        if (reading.why == Why::short_frame) session_.take_short_frame();
         ++counters_.samples;
         const bool good = reading.metres && !one.arrival.in_error;
         const Quality why = one.arrival.in_error ? Quality::signal_error : Quality::absent;

@@ -213,6 +213,13 @@ void CanOpenSession::take_emergency(const Emergency& emergency) {
                             node_->name() + " tells of a fault: " + emergency.describe());
 }
 
+void CanOpenSession::take_short_frame() {
+    ++counters_.bad_frames;
+    context_.sink->note(Fault::bad_frame,
+                        node_->name() + " sends PDOs that are shorter than its mapping says: "
+                                        "switch it off and on, and look at its mapping");
+}
+
 Result<void> CanOpenSession::take(const TimedCanFrame& timed, std::vector<PdoArrival>& arrived) {
     if (const auto state = decode_heartbeat(timed.frame, setup_.node)) {
         const bool answers = guard_.next_question() && *state != NodeState::boot_up;

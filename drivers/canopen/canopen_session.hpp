@@ -47,6 +47,8 @@ public:
     /// PDOs that are used, in their order, at least one.
     /// @errors of the link; silence(); Fault::link_closed when the node was reset or stopped.
     Task<Result<std::vector<PdoArrival>>> next();
+    /// A PDO ended before the object that is read from it: counted and told.
+    void take_short_frame();
     /// The socket is closed; open() may follow.
     void close();
 

@@ -115,7 +115,7 @@ void CanOpen404::take(const PdoArrival& arrival, SampleSink& sink) {
         if (input.layout != arrival.layout) continue;
         auto reading = read_cia404_input(input, session_.layouts()[arrival.layout], arrival.frame);
         if (reading.why == Why::short_frame) {
-            ++counters_.bad_frames;
+            session_.take_short_frame();
             continue; // it says nothing about the sensor: the last value only grows old
         }
         // Without a status of its own only the device's emergency tells of a fault.

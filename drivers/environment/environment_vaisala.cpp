@@ -31,8 +31,9 @@ constexpr Duration link_patience = std::chrono::seconds{2};
 /// What the transmitter says to commands is waited for no longer than this.
 constexpr Duration talk = std::chrono::milliseconds{500};
 /// One that was switched off has forgotten nothing but may be in another mode: it is told anew
-/// after three silent requests, and the line is opened anew after three such times.
-constexpr int silent_requests = 3, tries = 3;
+/// after three silent requests. After three more the line is opened anew: an adapter that stalled
+/// reads no more until then, and a reading must be back within 5 s.
+constexpr int silent_requests = 3;
 
 struct VaisalaSetup {
     LinkSettings link;
@@ -205,16 +206,14 @@ Task<Result<void>> Vaisala::run(InstrumentContext context) {
     const std::unique_ptr<ByteLink> link = *std::move(opened);
     identified_ = spoke_ = false;
     LineFramer framer{longest_line};
-    const auto wrong_before = counters_.checksum_errors;
-    for (int silent = 0; silent < tries; ++silent) {
+    std::uint64_t wrong_before = 0;
+    for (int answers = 1; answers > 0;) {
         const auto told = co_await prepare(*link, context, framer);
         if (!told) co_return told;
-        const auto answered = co_await ask_while_heard(*link, context, framer);
-        if (!answered) co_return tl::unexpected<Error>(answered.error());
-        if (!spoke_) break;
-        if (*answered > 0) silent = -1;
+        wrong_before = counters_.checksum_errors;
+        AXISCAL_CO_TRY(answers, co_await ask_while_heard(*link, context, framer));
     }
-    if (counters_.checksum_errors > wrong_before + tries)
+    if (counters_.checksum_errors > wrong_before)
         co_return fail(Fault::checksum,
                        "no right checksum on " + setup_.link.describe() +
                            ": the transmitter did not take FORM; try checksum = \"none\"");

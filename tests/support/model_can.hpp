@@ -33,6 +33,8 @@ public:
     int swallow = 0;
     /// They are dropped by the kernel, which counts them.
     int drop = 0;
+    /// Frames from devices lose all bytes beyond.
+    std::size_t longest = 8;
     /// Frames that were heard by no filter of anybody, and those that were.
     int unheard = 0, heard = 0;
     std::vector<CanFrame> sent; ///< by drivers
@@ -109,8 +111,9 @@ inline void ModelCanBus::deliver(const std::vector<simulate::CanMessage>& frames
     for (const simulate::CanMessage& message : frames) {
         CanFrame frame;
         frame.id = message.id;
-        frame.length = message.data.size();
-        std::ranges::copy(std::as_bytes(std::span{message.data}), frame.data.begin());
+        frame.length = std::min(message.data.size(), longest);
+        std::ranges::copy(std::as_bytes(std::span{message.data}.first(frame.length)),
+                          frame.data.begin());
         if (swallow > 0 && swallow-- > 0) continue;
         bool taken = false;
         for (ModelCanLink* link : links_) {

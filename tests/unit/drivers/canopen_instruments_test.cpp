@@ -157,6 +157,26 @@ TEST_F(GuardedProbe, WithAHeartbeatThatCannotBeChangedIsHeardAndNotAsked) {
     EXPECT_FALSE(slow.ends.empty());
 }
 
+TEST_F(CanOpen, PdosShorterThanTheirMappingAreNoReadingsAndAreTold) {
+    material.start();
+    ballbar.start();
+    scheduler.run_for(5s);
+    const auto good = material.sink.samples.size();
+    bus.longest = 3; // both devices begin with a value of four bytes
+    scheduler.run_for(5s);
+    EXPECT_LE(material.sink.samples.size(), good + 1) << "one may have been on its way";
+    EXPECT_FALSE(ballbar.sink.samples.back().value());
+    EXPECT_GE(material.counters().bad_frames, 8U) << "two a second";
+    EXPECT_GE(ballbar.counters().bad_frames, 4900U) << "a thousand a second";
+    EXPECT_NE(std::ranges::count(material.sink.notes, Fault::bad_frame), 0);
+    EXPECT_NE(std::ranges::count(ballbar.sink.notes, Fault::bad_frame), 0);
+    bus.longest = 8;
+    scheduler.run_for(1s);
+    EXPECT_TRUE(ballbar.sink.samples.back().value());
+    EXPECT_GT(material.sink.samples.size(), good);
+    EXPECT_TRUE(ballbar.ends.empty()) << ballbar.last_end();
+}
+
 TEST_F(CanOpen, ANodeWithAHeartbeatIsNotAskedByRemoteFrames) {
     material.start();
     ballbar.start();
