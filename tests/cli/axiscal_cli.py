@@ -85,6 +85,33 @@ class Help(Scratch):
         for code in range(10):
             self.assertRegex(told, rf"\b{code} ")
 
+    def commands(self):
+        """Every one that `axiscal --help` lists, also those that this file knows nothing of."""
+        listed = self.expect(0, "--help").stdout.split("Subcommands:")[1].split("A run, from start")[0]
+        found = re.findall(r"^  (\S+)", listed, re.M)
+        self.assertLessEqual(set(COMMANDS), set(found))
+        return found
+
+    def test_every_command_teaches_by_an_example_and_its_exit_codes(self):
+        whole = " ".join(self.expect(0, "--help").stdout.split("Exit codes:")[1].split())
+        for command in self.commands():
+            told = self.expect(0, command, "--help").stdout
+            self.assertRegex(told, rf"(?m)^[^\n]*Examples?[^\n]*:\n(  sudo [^\n]*\n)?  axiscal {command}( |$)", command)
+            [codes] = re.findall(r"^Exit codes: (.*)\Z", told.strip(), re.M | re.S)
+            meanings = re.split(r"; (?=\d )", " ".join(codes.split()).rstrip("."))
+            self.assertEqual(meanings[0], "0 done", command)
+            self.assertIn("2 wrong usage", meanings, command)
+            for meaning in meanings:
+                self.assertIn(meaning, whole, f"{command} has another word than axiscal --help")
+
+    def test_codes_of_a_daemon_are_told_by_those_that_ask_it(self):
+        for command in ("arm", "status", "watch", "trigger", "abort", "retake", "exclude"):
+            self.assertIn("5 axiscald does not answer", self.expect(0, command, "--help").stdout, command)
+        for command in ("analyze", "program", "export", "check-config", "verify"):
+            told = self.expect(0, command, "--help").stdout
+            self.assertIn("3 input refused", told, command)
+            self.assertNotIn("axiscald does not answer", told, command)
+
     def test_wrong_usage_is_2_with_a_hint(self):
         self.assertIn("did you mean 'status'", self.expect(2, "statsu").stderr)
         self.expect(2)

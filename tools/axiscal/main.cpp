@@ -2,7 +2,6 @@
 // --help`.
 #include "config/measure.hpp"
 #include "tools/axiscal/arguments/options.hpp"
-#include "tools/axiscal/exit_code.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -20,11 +19,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
   axiscal preflight                                  is all as it must be? axiscal arm asks the same
   axiscal arm --program X-whole.ngc                  tie the reading there; the CNC goes on by itself
   axiscal watch                                      next target, reading, temperatures, time left
-
-Exit codes: 0 done; 1 a file or the disk failed; 2 wrong usage; 3 input refused (case, run file,
-station file); 4 the station refuses (rights, busy, not armed); 5 axiscald does not answer;
-6 the run ended incomplete; 7 a figure of the conformance kit, or a tape, disagrees; 8 a run file or its
-certificate is not what was written; 9 the doctor found something broken.)";
+)";
 
 /// The first word is no command: says so, with the nearest one there is.
 void hint_at_command(const CLI::App& app, const std::string& word) {
@@ -42,7 +37,9 @@ int run(int argc, char** argv) {
                  "axiscal"};
     Options options;
     Command chosen;
-    app.footer(footer);
+    teach(app, footer,
+          {exit_ok, exit_failed, exit_usage, exit_refused, exit_forbidden, exit_no_contact,
+           exit_incomplete, exit_disagrees, exit_changed, exit_unwell});
     app.require_subcommand(1);
     app.set_version_flag("--version", AXISCAL_VERSION);
     add_run_commands(app, options, chosen);

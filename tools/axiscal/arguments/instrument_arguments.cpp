@@ -27,7 +27,7 @@ void add_devices_command(CLI::App& app, Options& options, Command& chosen) {
     devices->add_option("--as", request.driver, "show only what could be of this driver");
     devices->add_option("--sysfs", request.places.sysfs, "look there instead of /sys")->group("");
     devices->add_option("--dev", request.places.dev, "look there instead of /dev")->group("");
-    devices->footer(devices_footer);
+    teach(*devices, devices_footer, {exit_ok, exit_usage, exit_no_contact});
     daemon_options(*devices, options);
     devices->callback([&] {
         chosen = [&] {
@@ -39,6 +39,10 @@ void add_devices_command(CLI::App& app, Options& options, Command& chosen) {
         };
     });
 }
+
+constexpr const char* selftest_footer = R"(Example, while the PC works as it will during a run:
+  axiscal selftest --state-directory /var/lib/axiscal --port /dev/ttyUSB0
+Each figure stands with what it means for a measurement. Works without axiscald.)";
 
 void add_selftest_command(CLI::App& app, Options& options, Command& chosen) {
     auto* command = app.add_subcommand(
@@ -53,6 +57,7 @@ void add_selftest_command(CLI::App& app, Options& options, Command& chosen) {
     command->add_option("--count", options.selftest.count, "trials of each kind")
         ->check(CLI::Range(10, 100000))
         ->capture_default_str();
+    teach(*command, selftest_footer, {exit_ok, exit_failed, exit_usage});
     command->callback(
         [&] { chosen = [&] { return command_selftest(options.selftest, options.json); }; });
 }
@@ -71,9 +76,10 @@ constexpr const char* doctor_footer = R"(What it looks at, and what it means:
 
 Each finding is good, a NOTE (it works; you should know) or BROKEN (mend it: a measurement fails, or is
 lost). The line below says how. Nothing is changed, no instrument is asked.
+Examples:
   axiscal doctor                      the installed station file; sudo, so that the disk is tried, too
   axiscal doctor my-station.toml      another one, before it is installed
-Exit codes: 0 nothing is broken; 9 something is. See also: axiscal devices, selftest, check-config.)";
+See also: axiscal devices, selftest, check-config.)";
 
 void add_doctor_command(CLI::App& app, Options& options, Command& chosen) {
     DoctorRequest& request = options.doctor;
@@ -86,7 +92,7 @@ void add_doctor_command(CLI::App& app, Options& options, Command& chosen) {
         ->group("");
     doctor->add_option("--dev", request.places.kernel.dev, "look there instead of /dev")->group("");
     doctor->add_option("--modules", request.places.modules, "modules of another kernel")->group("");
-    doctor->footer(doctor_footer);
+    teach(*doctor, doctor_footer, {exit_ok, exit_usage, exit_unwell});
     doctor->callback([&] {
         chosen = [&] {
             if (options.door.socket_path != Options{}.door.socket_path)

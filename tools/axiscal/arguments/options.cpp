@@ -1,11 +1,49 @@
 #include "tools/axiscal/arguments/options.hpp"
-#include "tools/axiscal/exit_code.hpp"
 
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 
 namespace axiscal {
+namespace {
+
+constexpr std::size_t columns = 100;
+
+const char* meaning_of(ExitCode code) {
+    switch (code) {
+    case exit_ok: return "done";
+    case exit_failed: return "a file or the disk failed";
+    case exit_usage: return "wrong usage";
+    case exit_refused: return "input refused (case, run file, station file)";
+    case exit_forbidden: return "the station refuses (rights, busy, not armed)";
+    case exit_no_contact: return "axiscald does not answer";
+    case exit_incomplete: return "the run ended incomplete";
+    case exit_disagrees: return "a figure of the conformance kit, or a tape, disagrees";
+    case exit_changed: return "a run file or its certificate is not what was written";
+    case exit_unwell: return "the doctor found something broken";
+    }
+    return "";
+}
+
+} // namespace
+
+std::string exit_codes_text(const std::vector<ExitCode>& codes) {
+    std::string text, line = "Exit codes:";
+    for (const ExitCode code : codes) {
+        const std::string told = " " + std::to_string(code) + " " + meaning_of(code) +
+                                 (code == codes.back() ? "." : ";");
+        if (line.size() + told.size() > columns) {
+            text += line + "\n";
+            line.clear();
+        }
+        line += line.empty() ? told.substr(1) : told;
+    }
+    return text + line;
+}
+
+void teach(CLI::App& command, const std::string& text, const std::vector<ExitCode>& codes) {
+    command.footer(text + "\n" + exit_codes_text(codes));
+}
 
 StationClient client_of(Options& options) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): there is one thread

@@ -7,6 +7,7 @@
 #include "tools/axiscal/devices_command.hpp"
 #include "tools/axiscal/doctor_command.hpp"
 #include "tools/axiscal/drift_command.hpp"
+#include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/probing_command.hpp"
 #include "tools/axiscal/tape_commands.hpp"
@@ -52,6 +53,13 @@ void add_probing_commands(CLI::App& app, Options& options, Command& chosen);
 void add_instrument_commands(CLI::App& app, Options& options, Command& chosen);
 void add_tape_commands(CLI::App& app, Options& options, Command& chosen);
 void add_paper_commands(CLI::App& app, Options& options, Command& chosen);
+
+/// "Exit codes: 0 done; ...", each in the words that every command has for it, in lines of 100
+/// columns.
+std::string exit_codes_text(const std::vector<ExitCode>& codes);
+/// The end of `command --help`: `text`, which begins with an example, then the codes that can
+/// occur.
+void teach(CLI::App& command, const std::string& text, const std::vector<ExitCode>& codes);
 
 /// The daemon that `options` names.
 StationClient client_of(Options& options);

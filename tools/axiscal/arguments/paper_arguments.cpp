@@ -4,11 +4,29 @@
 namespace axiscal {
 namespace {
 
-constexpr const char* verify_footer =
-    R"(Exit codes: 0 every row is as it was written, the figures computed anew are those that were stored, and
-the certificate says the same; 8 something is not, and each row is named with its table and number;
-3 the file is no run file, or its pages are damaged; 1 it cannot be read.
-A run that is still open can be verified as well. See docs/run-file.md for what the chain can show.)";
+constexpr const char* analyze_footer = R"(Examples:
+  axiscal analyze /var/lib/axiscal/runs/RUN.axiscal
+  axiscal analyze - <case.json
+Prints JSON. An array of cases gives an array of results; one that is refused names field and reason.)";
+
+constexpr const char* program_footer = R"(Examples:
+  axiscal program --config station.toml --out .             X-whole.ngc for LinuxCNC
+  axiscal program --config station.toml --dialect marlin    for a 3D printer
+Load and start it; when the axis waits at its datum: axiscal arm --program X-whole.ngc)";
+
+constexpr const char* export_footer = R"(Example:
+  axiscal export RUN.axiscal --out papers
+Writes what the station wrote after the run, with the same figures, bit by bit.)";
+
+constexpr const char* check_config_footer = R"(Example:
+  axiscal check-config station.toml
+Every mistake at once, each with its line and the key that is near; then the passes that are planned.)";
+
+constexpr const char* verify_footer = R"(Example:
+  axiscal verify RUN.axiscal --certificate certificate.json
+Computes the figures anew; each row that is not as it was written is named with its table and number, and
+the certificate must say the same. A run that is still open can be verified as well. See docs/run-file.md
+for what the chain can show.)";
 
 void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* analyze = app.add_subcommand(
@@ -18,6 +36,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         ->add_option("FILE", options.file,
                      "RUN.axiscal or CASE.json; - reads a case from standard input")
         ->required();
+    teach(*analyze, analyze_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
 
     auto* program = app.add_subcommand("program", "Write the part program of the planned cycle");
@@ -33,6 +52,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         ->add_option("--retake", options.program.run_file,
                      "run file: write the program of the points that are to be taken again")
         ->check(CLI::ExistingFile);
+    teach(*program, program_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     program->callback([&] {
         chosen = [&] {
             options.program.station_file = options.config;
@@ -44,6 +64,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         "export", "certificate.json, .csv and .pdf of a closed run file, or of a circular case");
     write->add_option("RUN", options.file, "run file, or the JSON of a circular case")->required();
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
+    teach(*write, export_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     write->callback(
         [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });
 
@@ -53,7 +74,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     verify->add_option("--certificate", options.certificate,
                        "certificate.json to hold against it; default: the one beside it, if it is "
                        "of the same run");
-    verify->footer(verify_footer);
+    teach(*verify, verify_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_changed});
     verify->callback([&] {
         chosen = [&] { return command_verify(options.file, options.certificate, options.json); };
     });
@@ -61,6 +82,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* check = app.add_subcommand("check-config",
                                      "Every refusal of a station file at once, with its line");
     check->add_option("FILE", options.config, "station file")->capture_default_str();
+    teach(*check, check_config_footer, {exit_ok, exit_usage, exit_refused});
     check->callback(
         [&] { chosen = [&] { return command_check_config(options.config, options.json); }; });
 }
@@ -73,7 +95,7 @@ constexpr const char* conformance_footer = R"(Examples:
 Another program reads one case as JSON from standard input, writes the result as JSON to standard output
 and ends with 0. One that crashes, hangs or writes anything else fails that case; the next one is run.
 Figures stand as: digits of agreement, place in the result, value. The last line counts cases by the
-origin of their figures. Exit 7: a figure disagrees. Exit 3: a file is no case. See docs/conformance.md.)";
+origin of their figures. See docs/conformance.md.)";
 
 void add_conformance_command(CLI::App& app, Options& options, Command& chosen) {
     ConformanceOrder& order = options.conformance;
@@ -89,7 +111,8 @@ void add_conformance_command(CLI::App& app, Options& options, Command& chosen) {
         ->check(CLI::Range(0.001, 86400.0))
         ->capture_default_str();
     command->add_flag("--brief", order.brief, "print only what disagrees, and the last line");
-    command->footer(conformance_footer);
+    teach(*command, conformance_footer,
+          {exit_ok, exit_failed, exit_usage, exit_refused, exit_disagrees});
     command->callback(
         [&] { chosen = [&] { return command_conformance(options.conformance, options.json); }; });
 }

@@ -5,7 +5,10 @@ namespace axiscal {
 namespace {
 
 constexpr const char* probing_footer =
-    R"(program: the part program for LinuxCNC. The block lies on the negative side of three faces that meet in its
+    R"(Examples:
+  axiscal probing program --program probing.ngc
+  axiscal probing record --program probing.ngc --log probing.log
+program: the part program for LinuxCNC. The block lies on the negative side of three faces that meet in its
 corner; set a rough zero of G54 there first. One touch of each face sets the true zero; then each of -X, -Y, -Z is
 touched from one distance (references) and from growing ones. The control writes the log.
 record: the log as a run file with its figures. Any control can write such a log, or a person: a line a touch,
@@ -43,7 +46,7 @@ void add_probing_commands(CLI::App& app, Options& options, Command& chosen) {
     probing->add_option("--probe", order.probe, "type of the probe and its stylus, for the record");
     probing->add_option("--signal", order.signal_path, "signal path: skip input, PLC, ...");
     probing->add_option("--operator", order.operator_name, "who made the test");
-    probing->footer(probing_footer);
+    teach(*probing, probing_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     probing->callback(
         [&] { chosen = [&] { return command_probing(options.probing, options.json); }; });
 }

@@ -1,6 +1,5 @@
 // Commands for an axis that is aligned or left at rest.
 #include "tools/axiscal/arguments/options.hpp"
-#include "tools/axiscal/exit_code.hpp"
 
 #include <iostream>
 
@@ -8,7 +7,9 @@ namespace axiscal {
 namespace {
 
 constexpr const char* align_footer =
-    R"(With nothing more: watches the beam until a line is typed. Begin with the axis at its near end, drive to
+    R"(Example:
+  axiscal align --spot-offset 0.5
+With no action: watches the beam until a line is typed. Begin with the axis at its near end, drive to
 the far end, let it stand there and steer the beam through its highest reading and back, with each tilt.
 Then Enter keeps what was seen: it stands in every run file and certificate from then on. q and Enter drops it.)";
 
@@ -24,7 +25,7 @@ void add_align_command(CLI::App& app, Options& options, Command& chosen) {
         ->add_option("--spot-offset", options.align.spot_offset_mm,
                      "walk of the return spot over the travel, in mm, as seen")
         ->check(CLI::Range(-100.0, 100.0));
-    align->footer(align_footer);
+    teach(*align, align_footer, {exit_ok, exit_usage, exit_forbidden, exit_no_contact});
     align->callback([&] {
         chosen = [&] { return command_align(client_of(options), options.align, options.json); };
     });
@@ -32,7 +33,9 @@ void add_align_command(CLI::App& app, Options& options, Command& chosen) {
 }
 
 constexpr const char* drift_footer =
-    R"(Let the axis stand where it will be measured longest from the interferometer, servo on, as for the run, and
+    R"(Example:
+  axiscal drift --duration "1 h" --wait
+Let the axis stand where it will be measured longest from the interferometer, servo on, as for the run, and
 leave it alone. No CNC takes part. The range of what is read, at 20 degC, is E_VE: point [uncertainty] eve_run of
 the station file to the test, and later runs carry it in their budget. 'axiscal abort' ends the test early.)";
 
@@ -48,7 +51,8 @@ void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
                       "far from the interferometer");
     drift->add_flag("--wait", options.drift.wait, "wait for the end and the certificate");
     drift->add_option("--state-that", options.statements, "KEY=TEXT for the certificate");
-    drift->footer(drift_footer);
+    teach(*drift, drift_footer,
+          {exit_ok, exit_failed, exit_usage, exit_forbidden, exit_no_contact, exit_incomplete});
     drift->callback([&] {
         chosen = [&] {
             if (split_at_equals(options.statements, options.drift.statements))

@@ -1,11 +1,52 @@
 // Commands that drive a run.
 #include "tools/axiscal/arguments/options.hpp"
-#include "tools/axiscal/exit_code.hpp"
 
 #include <iostream>
 
 namespace axiscal {
 namespace {
+
+/// Of a command that asks the daemon one thing.
+const std::vector<ExitCode> asking_codes{exit_ok, exit_usage, exit_forbidden, exit_no_contact};
+
+constexpr const char* retake_footer = R"(Examples:
+  axiscal retake --target 3 --direction up --reason "a door was slammed"
+  axiscal program --retake RUN.axiscal            the part program of these points
+What was read before stays in the run file and is drawn; the new readings count. See docs/retake.md.)";
+
+constexpr const char* exclude_footer = R"(Example:
+  axiscal exclude --target 3 --cycle 2 --reason "coolant in the beam"
+Nothing is deleted: the certificate tells which readings are left out, and why. See docs/retake.md.)";
+
+constexpr const char* arm_footer = R"(Examples, while the axis stands at its datum and waits:
+  axiscal arm --program X-whole.ngc --state-that operator="Shift 2"
+  axiscal arm --program X-whole.ngc --override soak="the customer waits"
+The CNC goes on by itself; axiscal watch shows it. A pre-flight check that fails refuses: see docs/preflight.md.)";
+
+constexpr const char* preflight_footer = R"(Example:
+  axiscal preflight --state-that operator="Shift 2"
+Each check that fails says how to mend it; one that fails and is not overridden is a refusal.)";
+
+constexpr const char* status_footer = R"(Examples:
+  axiscal status                      for a person; --json for programs
+  axiscal status --host 10.1.2.3:8470
+From another PC everybody may read; [console] of the station file says where it listens.)";
+
+constexpr const char* watch_footer = R"(Example:
+  axiscal watch --until-published
+Ctrl-C ends the watching, never the run. Into a file it writes a line for each point.)";
+
+constexpr const char* trigger_footer = R"(Example, with the axis at rest on the next target:
+  axiscal trigger
+Held against target, direction and stillness as a trigger of the CNC is; axiscal watch shows what came of it.)";
+
+constexpr const char* reading_footer = R"(Example:
+  axiscal reading --arcsec -1.25
+One reading a face, in the order of the plan; axiscal status shows the next one. See docs/rotary.md.)";
+
+constexpr const char* abort_footer = R"(Example:
+  axiscal abort --reason "the beam is cut by a chip"
+A test of drift is ended the same way. What was measured stays in the run file: axiscal analyze reads it.)";
 
 void arming_options(CLI::App& command, Options& options) {
     command.add_option(
@@ -37,6 +78,7 @@ void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
                   "in the open run, or in the last one while its set-up stands");
     revision_options(*retake, options);
     retake->add_flag("--exclude", options.exclude_instead, "leave them out instead, as 'exclude'");
+    teach(*retake, retake_footer, asking_codes);
     retake->callback([&] {
         chosen = [&] {
             return options.exclude_instead
@@ -49,6 +91,7 @@ void add_revision_commands(CLI::App& app, Options& options, Command& chosen) {
         "Leave readings out of every figure, with a reason; they stay in the run file and "
         "are drawn and counted on the certificate");
     revision_options(*exclude, options);
+    teach(*exclude, exclude_footer, asking_codes);
     exclude->callback([&] {
         chosen = [&] {
             return command_exclude(client_of(options), options.revision, options.json);
@@ -69,6 +112,7 @@ void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");
     arming_options(*arm, options);
+    teach(*arm, arm_footer, {exit_ok, exit_usage, exit_refused, exit_forbidden, exit_no_contact});
     arm->callback([&] {
         chosen = [&] {
             const int usage = split_statements(options);
@@ -78,8 +122,9 @@ void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
     });
 
     auto* preflight = app.add_subcommand(
-        "preflight", "Every check before arming with its verdict, without arming; 4: one fails");
+        "preflight", "Every check before arming with its verdict, without arming");
     arming_options(*preflight, options);
+    teach(*preflight, preflight_footer, asking_codes);
     preflight->callback([&] {
         chosen = [&] {
             const int usage = split_statements(options);
@@ -91,26 +136,32 @@ void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
 }
 
 void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
-    app.add_subcommand("status", "The station now: run, axis, channels, instruments")
-        ->callback(
-            [&] { chosen = [&] { return command_status(client_of(options), options.json); }; });
+    auto* status =
+        app.add_subcommand("status", "The station now: run, axis, channels, instruments");
+    teach(*status, status_footer, asking_codes);
+    status->callback(
+        [&] { chosen = [&] { return command_status(client_of(options), options.json); }; });
     auto* watch = app.add_subcommand(
         "watch",
         "Live: next target, reading, temperatures, strength, time left; ends with the run");
     watch->add_flag("--until-published", options.until_published, "wait for the certificate too");
+    teach(*watch, watch_footer,
+          {exit_ok, exit_failed, exit_usage, exit_forbidden, exit_no_contact, exit_incomplete});
     watch->callback([&] {
         chosen = [&] {
             return command_watch(client_of(options), options.json, options.until_published);
         };
     });
-    app.add_subcommand("trigger",
-                       "Capture the next point now; it is marked manual on the certificate")
-        ->callback(
-            [&] { chosen = [&] { return command_trigger(client_of(options), options.json); }; });
+    auto* trigger = app.add_subcommand(
+        "trigger", "Capture the next point now; it is marked manual on the certificate");
+    teach(*trigger, trigger_footer, asking_codes);
+    trigger->callback(
+        [&] { chosen = [&] { return command_trigger(client_of(options), options.json); }; });
     auto* reading = app.add_subcommand(
         "reading", "Type what the autocollimator shows at the next face of the polygon");
     reading->add_option("--arcsec", options.reading_arcsec, "the reading in seconds of arc")
         ->required();
+    teach(*reading, reading_footer, asking_codes);
     reading->callback([&] {
         chosen = [&] {
             return command_reading(client_of(options), options.reading_arcsec, options.json);
@@ -118,6 +169,7 @@ void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
     });
     auto* abort = app.add_subcommand("abort", "Close the run as incomplete; its file is kept");
     abort->add_option("--reason", options.reason, "stands in the run file");
+    teach(*abort, abort_footer, asking_codes);
     abort->callback([&] {
         chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
     });

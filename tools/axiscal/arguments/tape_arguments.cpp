@@ -16,7 +16,7 @@ Serial, TCP, Modbus, USB, HID and CAN instruments can be recorded; those that th
 counter) have no wire of their own.)";
 
 constexpr const char* replay_footer =
-    R"(On a wire, for the unmodified daemon (serial and TCP instruments):
+    R"(Examples, on a wire for the unmodified daemon (serial and TCP instruments):
   axiscal replay air.tape --link /tmp/air        then: link = "serial:/tmp/air" in a station file
   axiscal replay ids.tape --port 9090            then: link = "tcp:127.0.0.1:9090"
 It waits for what the daemon must write, and answers as late as on the tape (--fast: at once). Exit 7 when
@@ -44,7 +44,7 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
     keep->add_option("--origin", record.origin, "device, or simulator for one that is none")
         ->check(CLI::IsMember({"device", "simulator"}))
         ->capture_default_str();
-    keep->footer(record_footer);
+    teach(*keep, record_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     keep->callback([&] { chosen = [&] { return command_record(options.record, options.json); }; });
 
     ReplayRequest& replay = options.replay;
@@ -61,7 +61,7 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
     play->add_flag("--print", replay.print, "print what the driver makes of it; no wire");
     play->add_option("--expect", replay.expected, "compare that with a file; no wire");
     play->add_option("--rebuild", replay.rebuild, "write that to a file; no wire");
-    play->footer(replay_footer);
+    teach(*play, replay_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_disagrees});
     play->callback([&] { chosen = [&] { return command_replay(options.replay, options.json); }; });
 }
 
