@@ -185,8 +185,12 @@ class Bench:
         expect(found, f"{name} is not in {os.environ['AXISCAL_PATH']}")
         return found
 
+    def log_file(self, name):
+        """Where the next program writes what it says."""
+        return self.folder / f"{name}.{len(self.logs)}.log"
+
     def spawn(self, name, *words):
-        log = self.folder / f"{name}.{len(self.logs)}.log"
+        log = self.log_file(name)
         self.logs.append(log)
         lib = ctypes.CDLL(None)
         with open(log, "wb") as out:

@@ -125,6 +125,16 @@ void CanBus::send(const std::vector<CanMessage>& frames) {
     }
 }
 
+/// As they leave a device whose program is broken: a wire cannot do that, for each frame has a CRC.
+std::vector<CanMessage> CanBus::spoilt(const Device& device, std::vector<CanMessage> frames) {
+    for (CanMessage& frame : frames) {
+        frame.data.resize(std::min(frame.data.size(), device.longest));
+        for (std::uint8_t& byte : frame.data)
+            byte ^= device.mask;
+    }
+    return frames;
+}
+
 /// What the bus brings until then.
 void CanBus::look(double until_s) {
     const double wait_s = std::clamp(until_s - clock_.now_s(), 0.0, longest_look_s);
@@ -139,7 +149,7 @@ void CanBus::look(double until_s) {
         const int bytes = remote ? 0 : std::min<int>(8, raw.can_dlc);
         const CanMessage frame{raw.can_id & CAN_SFF_MASK, {raw.data, raw.data + bytes}, remote};
         for (Device& device : devices_)
-            send(device.node->take(frame, clock_.now_s()));
+            send(spoilt(device, device.node->take(frame, clock_.now_s())));
     }
 }
 
@@ -163,7 +173,7 @@ void CanBus::live(const std::stop_token& stop) {
             const std::lock_guard lock{mutex_};
             const double now_s = clock_.now_s();
             for (Device& device : devices_) {
-                send(device.node->advance(now_s));
+                send(spoilt(device, device.node->advance(now_s)));
                 due_s = std::min(due_s, device.node->next_due_s());
             }
             flood(now_s);
@@ -178,6 +188,20 @@ void CanBus::fault(Device& device, bool begins) {
     *device.faulty = begins;
     const CanNode::Bytes cause{0, 1};
     device.node->tell_emergency(begins ? 0x5030 : 0, begins ? 1 : 0, cause);
+}
+
+Result<void> CanBus::spoil(Device& device, std::istream& arguments) {
+    std::string how;
+    int number = 0;
+    arguments >> how >> number;
+    const bool cuts = how == "cut" && number >= 0 && number < 8;
+    const bool corrupts = how == "corrupt" && number >= 1 && number <= 255;
+    if (!cuts && !corrupts && how != "none")
+        return fail(Fault::bad_request,
+                    "spoil needs cut 0 to 7, corrupt 1 to 255, or none, not \"" + how + "\"");
+    device.longest = cuts ? static_cast<std::size_t>(number) : 8;
+    device.mask = corrupts ? static_cast<std::uint8_t>(number) : std::uint8_t{0};
+    return {};
 }
 
 Result<void> CanBus::obey(const std::string& word, std::istream& arguments) {
@@ -195,6 +219,7 @@ Result<void> CanBus::obey(const std::string& word, std::istream& arguments) {
     if (word == "off") return found->node->power_off(), Result<void>{};
     if (word == "on" || word == "reset")
         return found->node->power_on(clock_.now_s()), Result<void>{};
+    if (word == "spoil") return spoil(*found, arguments);
     if (word == "fault" || word == "mend") return fault(*found, word == "fault"), Result<void>{};
     return fail(Fault::bad_request, "\"" + word + "\" is no command");
 }

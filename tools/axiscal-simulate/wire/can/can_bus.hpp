@@ -24,7 +24,8 @@ public:
     CanBus(const CanBus&) = delete;
     CanBus& operator=(const CanBus&) = delete;
 
-    /// status, off NAME, on NAME, reset NAME, fault NAME, mend NAME, flood HZ, quit.
+    /// status, off NAME, on NAME, reset NAME, fault NAME, mend NAME, spoil NAME cut N|corrupt MASK|
+    /// none, flood HZ, quit.
     nlohmann::json command(const std::string& line);
     [[nodiscard]] nlohmann::json status();
     [[nodiscard]] bool ended() const { return ended_; }
@@ -34,10 +35,14 @@ private:
         std::string called, kind;
         std::unique_ptr<CanNode> node;
         std::shared_ptr<std::atomic<bool>> faulty; ///< of what it measures
+        std::size_t longest = 8;                   ///< its frames lose all beyond
+        std::uint8_t mask = 0;                     ///< each byte that it sends is XORed
     };
     Result<Device> make_device(const UsbWish& wish, const UsbWorld& world);
     Result<void> obey(const std::string& word, std::istream& arguments);
     void fault(Device& device, bool begins);
+    static Result<void> spoil(Device& device, std::istream& arguments);
+    static std::vector<CanMessage> spoilt(const Device& device, std::vector<CanMessage> frames);
     void live(const std::stop_token& stop);
     void look(double until_s);
     void flood(double now_s);
