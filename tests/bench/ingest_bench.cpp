@@ -13,8 +13,10 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include <atomic>
 #include <ctime>
 #include <random>
+#include <thread>
 
 namespace axiscal::bench {
 namespace {
@@ -22,6 +24,8 @@ namespace {
 constexpr std::uint64_t records_a_second = 50'000;
 constexpr std::uint64_t records_a_burst = 64; // as many as a pty hands over in one read
 constexpr std::uint64_t bursts = 64;
+constexpr double most_records_ms = 4096 / 2e6 * 1e3; // two million a second
+constexpr double most_of_a_second_ms = 30;           // 3 % of a processor
 
 double cpu_seconds() {
     timespec spent{};
@@ -35,9 +39,9 @@ class UmdPrinter {
 public:
     /// What a line loses that is just being opened.
     std::string one() { return record(); }
-    std::string burst() {
+    std::string burst(std::uint64_t records = records_a_burst) {
         std::string text;
-        for (std::uint64_t i = 0; i < records_a_burst; ++i)
+        for (std::uint64_t i = 0; i < records; ++i)
             text += record();
         return text;
     }
@@ -68,19 +72,19 @@ public:
     explicit RecordScheduler(boost::asio::io_context& loop)
         : loop_{loop} {}
     [[nodiscard]] MonotonicTime now() const override { return now_; }
-    [[nodiscard]] ClockTie clock_tie() const override { return {now_, 0, now_}; }
+    [[nodiscard]] ClockTie clock_tie() const override { return {now(), 0, now()}; }
     Task<void> sleep_until(MonotonicTime /*when*/) override {
         boost::asio::steady_timer timer{loop_, std::chrono::hours{1}};
         co_await timer.async_wait(boost::asio::use_awaitable);
     }
     [[nodiscard]] boost::asio::any_io_executor executor() override { return loop_.get_executor(); }
-    void pass_burst() {
-        now_ += std::chrono::nanoseconds{records_a_burst * 1'000'000'000 / records_a_second};
+    void pass(std::uint64_t records) {
+        now_ = now() + std::chrono::nanoseconds{records * 1'000'000'000 / records_a_second};
     }
 
 private:
     boost::asio::io_context& loop_;
-    MonotonicTime now_ = monotonic_from_ns(1'000'000'000);
+    std::atomic<MonotonicTime> now_ = monotonic_from_ns(1'000'000'000); ///< passes in the feeder
 };
 
 class History final : public SampleSink {
@@ -124,8 +128,26 @@ public:
     /// Seconds of CPU that reading one burst took.
     double burst() {
         const std::uint64_t wanted = instrument_->counters().frames + records_a_burst;
-        scheduler_.pass_burst();
+        scheduler_.pass(records_a_burst);
         line_.send(printer_.burst());
+        const double begin = cpu_seconds();
+        while (instrument_->counters().frames + 1 < wanted)
+            loop_.run_one();
+        return cpu_seconds() - begin;
+    }
+    /// Seconds of CPU of the reader, its waiting included, while a second of a 50 kHz counter
+    /// arrives as USB hands it over: once a millisecond.
+    double second() {
+        constexpr std::uint64_t frames = 1000, records = records_a_second / frames;
+        const std::uint64_t wanted = instrument_->counters().frames + records_a_second;
+        std::jthread feeder{[this] {
+            auto next = std::chrono::steady_clock::now();
+            for (std::uint64_t frame = 0; frame < frames; ++frame) {
+                std::this_thread::sleep_until(next += std::chrono::milliseconds{1});
+                scheduler_.pass(records);
+                line_.send(printer_.burst(records));
+            }
+        }};
         const double begin = cpu_seconds();
         while (instrument_->counters().frames + 1 < wanted)
             loop_.run_one();
@@ -148,8 +170,13 @@ private:
     std::unique_ptr<Instrument> instrument_;
 };
 
+Ingest& line() {
+    static Ingest one;
+    return one;
+}
+
 double ingest() {
-    static Ingest bench;
+    Ingest& bench = line();
     double seconds = 0;
     for (std::uint64_t i = 0; i < bursts; ++i)
         seconds += bench.burst();
@@ -178,8 +205,11 @@ double read_and_drop() {
     return seconds;
 }
 
-[[maybe_unused]] const bool added = add(TimedRow{"serial ingest, 4096 records of 60 bytes", ingest,
-                                                 read_and_drop, 2.5, "poll, read, drop"});
+[[maybe_unused]] const bool added =
+    add(TimedRow{"serial ingest, 4096 records of 60 bytes", ingest, read_and_drop, 2.5,
+                 "poll, read, drop", most_records_ms}) &&
+    add(TimedRow{"serial ingest, a second of 50 kHz", [] { return line().second(); }, {}, 0, "",
+                 most_of_a_second_ms});
 
 } // namespace
 } // namespace axiscal::bench

@@ -66,7 +66,7 @@ Work asking(int (*start_server)()) {
 [[maybe_unused]] const bool added =
     add(Row{"Modbus, 1000 requests answered, one processor", asking(start_trigger_port),
             asking([] { return start(echo); }), 1.25, 0, "TCP echo of the same bytes", 0,
-            "libmodbus's server", asking([] { return start(libmodbus_server); })});
+            "libmodbus's server", asking([] { return start(libmodbus_server); }), true});
 
 } // namespace
 } // namespace axiscal::bench

@@ -15,6 +15,7 @@ import platform
 import re
 import subprocess
 import sys
+import time
 
 REPETITIONS = 9
 
@@ -45,7 +46,7 @@ def run_ours(program, cpu, seconds, wanted):
         row = rows.setdefault(name, {"peers": [], "parts": []})
         row[kind] = min(row.get(kind, float("inf")), one["real_time"])
         row[kind + " label"] = one["label"]
-        row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy")})
+        row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy", "goal_peer")})
     for row in rows.values():
         if "peer" in row:
             row["peers"].append((row["peer"], row["peer label"]))
@@ -68,6 +69,18 @@ def run_peers(folder, cpu, wanted, rows):
     return told
 
 
+def idle_stall_ns(cpu):
+    """How late a sleep of 1 ms ended at worst in two seconds: what this computer adds to any figure by itself."""
+    affinity = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {int(cpu)})
+    worst, end = 0, time.monotonic_ns() + 2_000_000_000
+    while (before := time.monotonic_ns()) < end:
+        time.sleep(0.001)
+        worst = max(worst, time.monotonic_ns() - before - 1_000_000)
+    os.sched_setaffinity(0, affinity)
+    return worst
+
+
 def time_text(ns):
     for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "us")):
         if ns >= size:
@@ -85,6 +98,8 @@ def goals_of(row):
     if row["goal_numpy"]:
         numpy = min((ns for ns, peer in row["peers"] if peer.startswith("numpy")), default=None)
         yield f">= {row['goal_numpy']:g} x numpy", None if numpy is None else numpy >= row["goal_numpy"] * ours
+    if row["goal_peer"]:
+        yield f"not slower than {row['peer label']}", ours <= row["peer"]
 
 
 def cells(name, row):
@@ -105,10 +120,12 @@ def main():
     program, cpu, seconds, peers = sys.argv[1:5]
     wanted = sys.argv[5] if len(sys.argv) > 5 else "."
     print(f"{machine()}; pinned to processor {cpu}, fastest of {REPETITIONS} interleaved repetitions")
-    begin = os.getloadavg()[0]
+    begin, stalls = os.getloadavg()[0], [idle_stall_ns(cpu)]
     rows = run_ours(program, cpu, seconds, wanted)
     told = run_peers(pathlib.Path(peers), cpu, wanted, rows) if peers != "-" else ["peers did not run: tools/bench --peers"]
-    print(f"load of the computer (1 min): {begin:.1f} before, {os.getloadavg()[0]:.1f} after")
+    stalls.append(idle_stall_ns(cpu))
+    print(f"load of the computer (1 min): {begin:.1f} before, {os.getloadavg()[0]:.1f} after; its own stall: a sleep of 1 ms ended "
+          f"{time_text(stalls[0])} late at worst before, {time_text(stalls[1])} after")
     head = ["name", "this", "limit", "best peer", "ratio", "goal"]
     table = [head, ["---"] * len(head), *(cells(name, row) for name, row in rows.items())]
     widths = [max(map(len, column)) for column in zip(*table)]
