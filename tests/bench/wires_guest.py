@@ -98,6 +98,30 @@ class Lost:
         return self.count()
 
 
+class Witness:
+    """candump beside the daemon, where it is installed: which frames of the transducers it saw."""
+
+    def __init__(self):
+        self.said = FOLDER.parent / "candump.txt"
+        self.process = None
+        if shutil.which("candump"):
+            with open(self.said, "wb") as out:
+                self.process = subprocess.Popen(["candump", BUS], stdout=out)
+
+    def frames(self):
+        said = self.said.read_bytes()
+        return sum(said.count(f" {0x180 + node:03X} ".encode()) for node in BARS.values())
+
+    def end(self):
+        if self.process:
+            self.process.terminate()
+            self.process.wait()
+
+
+def samples():
+    return sum(instrument(name)["samples"] for name in BARS)
+
+
 def measure_can(programs):
     run("ip", "link", "add", BUS, "type", "vcan")
     run("ip", "link", "set", BUS, "up")
@@ -112,19 +136,25 @@ def measure_can(programs):
     text = "".join(f'[[instrument]]\nname = "{name}"\ndriver = "{driver}"\nlink = "can:{BUS}"\nnode = {node}\n'
                    for name, driver, node in drivers)
     daemon = start_daemon(programs, text, [*BARS, *PROBES])
-    lost, pids = Lost(), [daemon]
+    lost, witness = Lost(), Witness()
+    pids = [daemon, *([witness.process.pid] if witness.process else [])]
     with contextlib.ExitStack() as ends:
-        if shutil.which("candump"):
-            pids.append(ends.enter_context(subprocess.Popen(["candump", BUS], stdout=subprocess.DEVNULL)).pid)
-            ends.callback(run, "pkill", "candump")
+        ends.callback(witness.end)
         for name, flood in (("CAN: 2 transducers at 1 kHz, 8 sensors", 0), ("the same at 90 % of the bus", FLOOD_HZ)):
             Commands(FOLDER.parent / "can.sock").do(f"flood {flood}")
-            lost_before, passed_before, began = lost.now(), passed(), time.monotonic()
+            # The daemon is looked at around candump: what candump saw in between, it must have seen.
+            lost_before, samples_before = lost.now(), samples()
+            frames_before = witness.frames() if witness.process else 0
+            passed_before, began = passed(), time.monotonic()
             found = percent_of(pids)
             load = (passed() - passed_before) / (time.monotonic() - began) * FRAME_BITS / BITS_A_SECOND
+            row = {"row": name, "percent": found[0], "candump": found[1] if len(found) > 1 else None, "goal": 2.0,
+                   "load": 100 * load}
+            if witness.process:
+                row["candump_frames"] = witness.frames() - frames_before
+                row["frames"] = samples() - samples_before
             Commands(FOLDER.parent / "can.sock").do("flood 0")
-            yield {"row": name, "percent": found[0], "candump": found[1] if len(found) > 1 else None, "goal": 2.0,
-                   "lost": lost.now() - lost_before, "load": 100 * load}
+            yield {**row, "lost": lost.now() - lost_before}
     programs.end("axiscald")
 
 
