@@ -373,7 +373,7 @@ def silent(station):
 @check("AdapterWithBrokenDescriptorsIsNoBus")
 def broken_descriptors(station):
     def plug():
-        station.usb("unplug adapter")
+        station.unplug_for_good("adapter")
         station.usb("fault adapter none")
         station.usb("plug adapter")
         set_up_adapter()

@@ -20,6 +20,11 @@ LINKS = {"laser": "/dev/axiscal/umd-7391230-00", "air": "/dev/axiscal/dracal-E24
          "material": "/dev/axiscal/ftdi-A600AXIS-00"}
 
 
+def usb_devices():
+    """How many the kernel has, its root hubs not counted."""
+    return sum(":" not in one.name for one in Path("/sys/bus/usb/devices").glob("*-*"))
+
+
 class UsbStation(bench.Bench):
     """As Bench; `wires` says which kind of adapter each instrument sits behind."""
 
@@ -62,6 +67,14 @@ class UsbStation(bench.Bench):
 
     def usb(self, command):
         Commands(self.folder / "usb.sock").do(command)
+
+    def unplug_for_good(self, *names):
+        """Until the kernel has let go of them: what comes back within milliseconds it may take for the same
+        device and keep what that one said of itself."""
+        before = usb_devices()
+        for name in names:
+            self.usb(f"unplug {name}")
+        wait_until(f"the kernel has let go of {', '.join(names)}", lambda: usb_devices() == before - len(names))
 
     def ask_usb(self, command):
         return Commands(self.folder / "usb.sock").ask(command)
