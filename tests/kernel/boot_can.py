@@ -95,10 +95,6 @@ class CanStation(UsbStation):
     def can_status(self):
         return Commands(self.folder / "can.sock").ask("status")
 
-    def value(self, instrument, channel):
-        return next(c["value"] for c in self.status()["channels"]
-                    if c["instrument"] == instrument and c["channel"] == channel)
-
     def good(self, name):
         if name in ("laser", "air", *NETWORK):
             return super().good(name)

@@ -1,4 +1,5 @@
-"""The whole station as its systemd unit, with systemd as PID 1 and instruments on USB."""
+"""The whole station as its systemd unit, with systemd as PID 1, instruments on USB (serial, usbfs, hidraw)
+and a CAN bus."""
 
 import json
 import os
@@ -8,9 +9,15 @@ import sys
 from pathlib import Path
 
 from guest import check, expect, load_modules, run, run_checks, wait_until
-from usb_station import LINKS, RECOVERY_S, UsbStation, bench
+from usb_station import LINKS, UsbStation, bench
 
 PUBLISHED = Path("/mnt/quality")
+BUS = "vcan0"
+DIRECT = {  # without a terminal: usbfs, hidraw, AF_CAN
+    "tenki": {"driver": "dracal-usbtenki", "link": "usb:A10234"},
+    "stick": {"driver": "temper", "link": "usb:any"},
+    "contact": {"driver": "canopen-404", "link": f"can:{BUS}", "node": 11},
+}
 MOST_EXPOSED = 2.0  # systemd-analyze's own scale, 0 best to 10 worst
 WATCHDOG_S = 30.0  # 10 s of the unit, its end by a signal, its restart
 
@@ -37,11 +44,28 @@ class ServiceStation(UsbStation):
         for instrument in self.station["instrument"]:
             if "profile" in instrument:
                 instrument["profile"] = Path(instrument["profile"]).stem
+        self.station["instrument"] += [{"name": name, **keys} for name, keys in DIRECT.items()]
+        self.wires["tenki"] = ("usbtenki", {"called": "tenki", "serial": "A10234"})
+        self.wires["stick"] = ("temper", {"called": "stick"})
+
+    def good(self, name):
+        """Of the stick its probe, the one sensor that it has."""
+        return self.value(name, "probe temperature") is not None if name == "stick" else super().good(name)
 
     def program(self, name):
         """The installed one, where there is one."""
         installed = Path("/usr/bin") / name
         return str(installed) if installed.exists() else super().program(name)
+
+    def start_usb(self):
+        super().start_usb()
+        run("ip", "link", "add", BUS, "type", "vcan")
+        run("ip", "link", "set", BUS, "up")
+        others = {name: self.processes.pop(name) for name in ("axiscal-simulate", "usb")}
+        log = self.spawn("axiscal-simulate", "can", "--scenario", self.folder / "scenario.json", "--interface", BUS,
+                         "--control", self.folder / "can.sock", "--device", "cantrans,called=contact,node=11")
+        self.wait_for_line("axiscal-simulate", log, '"ready":true')
+        self.processes = {**self.processes, "can": self.processes.pop("axiscal-simulate"), **others}
 
     def install(self):
         """What docs/install.md says after laying out the files."""
@@ -102,7 +126,7 @@ def plugged_in(station):
         expect(node.group() == "axiscal", f"{node} belongs to {node.group()}")
         expect(node.stat().st_mode & 0o777 == 0o660, f"{node} has mode {node.stat().st_mode:o}")
     try:
-        station.wait_until_good(*LINKS, limit_s=30)
+        station.wait_until_good(*LINKS, *DIRECT, limit_s=30)
     finally:
         print(journal())
 
@@ -179,6 +203,7 @@ def watchdog(station):
     expect("Watchdog timeout" in run("journalctl", "--no-pager", "-o", "cat"), "the journal does not name the watchdog")
     wait_until("the open run goes on", station.run)
     expect(station.run()["id"] == run_id, "another run goes on")
+    station.wait_until_good(*DIRECT)  # the unit lets the new process to them, too, while the run is made
     station.axiscal("watch", "--until-published")
     # File by file, each whole at once under its name.
     published = wait_until("the certificate is on the share",
@@ -196,7 +221,7 @@ def killed(station):
     run("systemctl", "kill", "-s", "KILL", "axiscald")
     wait_until("systemd restarts the daemon", lambda: int(shown("axiscald", "NRestarts")["NRestarts"]) == before + 1)
     wait_until("the daemon is ready again", lambda: shown("axiscald", "SubState")["SubState"] == "running")
-    station.wait_until_good(*LINKS, limit_s=RECOVERY_S)
+    station.wait_until_good(*LINKS, *DIRECT)
 
 
 @check("ServiceStopsInOrderWhileAnInstrumentHangs")

@@ -61,10 +61,6 @@ class DirectStation(UsbStation):
             self.station["axis"]["air"]["oldest"] = "5 s"  # what grows old is seen to be no number
         self.station["instrument"] = list(instruments.values())
 
-    def value(self, instrument, channel):
-        return next(c["value"] for c in self.status()["channels"]
-                    if c["instrument"] == instrument and c["channel"] == channel)
-
     def lines_of(self, name, since):
         """What the log says of one instrument since that line, without its changes of state."""
         lines = [line for line in self.logged()[since:] if f"{name}:" in line or f"{name} is " in line]
@@ -260,6 +256,27 @@ def shorted(station):
     """Zeros, whose checksum is right."""
     shown = no_number(station, "shorted", [1, 2], "all bytes are zero")
     expect(" YES\n" in shown and shown.endswith("t=0\n"), f"the kernel showed {shown!r}")
+
+
+@check("OneWireAdapterThatSaysNakOrCutsItsAnswersIsGivenUpAndComesBack")
+def adapter_spoilt(station):
+    """ds2490 waits a second for each transfer and w1_therm tries five times: the file is read for as long."""
+    for fault in ("mute", "cut 1"):
+        since = len(station.logged())
+        with undisturbed(station, [CONTACTS]):
+            station.usb(f"fault {CONTACTS} {fault}")
+            try:
+                station.wait_for_state(CONTACTS, GONE)
+                expect([station.value(CONTACTS, f"contact {n}") for n in (1, 2)] == [None, None], "a value outlived its sensor")
+            finally:
+                station.usb(f"fault {CONTACTS} none")
+            mended = time.monotonic()
+            station.wait_until_good(CONTACTS)
+            print(f"{fault}: back after {time.monotonic() - mended:.1f} s")
+        told, changes = station.lines_of(CONTACTS, since), station.changes_of(CONTACTS, since)
+        # Two contacts go and come one after the other: one, both, one.
+        expect(len(told) <= 3, f"why it is gone is told {len(told)} times: {told}")
+        expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{changes}")
 
 
 @check("UnpluggedOneWireAdapterIsUnavailableAndComesBack")

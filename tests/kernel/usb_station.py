@@ -71,10 +71,11 @@ class UsbStation(bench.Bench):
     def unplug_for_good(self, *names):
         """Until the kernel has let go of them: what comes back within milliseconds it may take for the same
         device and keep what that one said of itself."""
-        before = usb_devices()
+        devices = self.ask_usb("status")["devices"]
+        left = usb_devices() - sum(devices[name]["plugged"] for name in names)
         for name in names:
             self.usb(f"unplug {name}")
-        wait_until(f"the kernel has let go of {', '.join(names)}", lambda: usb_devices() == before - len(names))
+        wait_until(f"the kernel has let go of {', '.join(names)}", lambda: usb_devices() <= left)
 
     def ask_usb(self, command):
         return Commands(self.folder / "usb.sock").ask(command)
@@ -84,6 +85,10 @@ class UsbStation(bench.Bench):
 
     def wait_for_state(self, name, states, limit_s=GIVEN_UP_S):
         return wait_until(f"{name} is {' or '.join(states)}", lambda: self.state(name) in states, limit_s)
+
+    def value(self, instrument, channel):
+        return next(c["value"] for c in self.status()["channels"]
+                    if c["instrument"] == instrument and c["channel"] == channel)
 
     def good(self, name):
         """Every channel of the instrument that a role uses has a value now; each it has where none does."""
