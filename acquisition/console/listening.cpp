@@ -22,14 +22,21 @@ std::optional<gid_t> group_id(const std::string& name) {
     return found != nullptr ? std::optional{entry.gr_gid} : std::nullopt;
 }
 
-/// -1 (chown: as it is) where the station file names none.
+/// The service's own where the station file names none.
 Result<gid_t> group_of_socket(const ConsoleConfig& config) {
-    if (config.group.empty()) return static_cast<gid_t>(-1);
+    if (config.group.empty()) return ::getegid();
     if (const auto known = group_id(config.group)) return *known;
     return fail(Fault::io,
                 "[console] group: this PC has no group '" + config.group +
                     "', which is to own the socket " + config.socket_path +
                     "; make it (sudo systemd-sysusers axiscal.conf), or name another one");
+}
+
+/// What has it already is left alone: the unit of systemd forbids chown(2).
+bool give_to_group(const std::string& path, gid_t wanted) {
+    struct stat now {};
+    if (::stat(path.c_str(), &now) == 0 && now.st_gid == wanted) return true;
+    return ::chown(path.c_str(), static_cast<uid_t>(-1), wanted) == 0;
 }
 
 /// 0660 from the first moment. Removes what a killed daemon left at this path; a running one is
@@ -55,7 +62,7 @@ Result<void> listen(asio::local::stream_protocol::acceptor& local, const Console
     if (config.socket_path.empty()) return {};
     AXISCAL_TRY(const gid_t wanted, group_of_socket(config));
     AXISCAL_CHECK(bind_socket(local, config.socket_path));
-    if (::chown(config.socket_path.c_str(), static_cast<uid_t>(-1), wanted) == 0) return {};
+    if (give_to_group(config.socket_path, wanted)) return {};
     const std::error_code refused{errno, std::generic_category()};
     ::unlink(config.socket_path.c_str());
     return fail(Fault::io,

@@ -40,6 +40,7 @@ class ServiceStation(UsbStation):
         super().__init__()
         self.station["station"]["state_directory"] = "/var/lib/axiscal"
         self.station["console"].pop("socket")
+        self.station["console"].pop("group")  # as a station file that names none: axiscal
         self.station["publish"]["destination"] = str(PUBLISHED)
         for instrument in self.station["instrument"]:
             if "profile" in instrument:
