@@ -42,10 +42,10 @@ def run_ours(program, cpu, seconds, wanted):
     for one in sorted(json.loads(ran.stdout)["benchmarks"], key=lambda one: one["family_index"]):
         if one["run_type"] != "iteration":
             continue
-        name, kind = one["run_name"].rsplit("/", 1)
+        name, kind = one["run_name"].removesuffix("/manual_time").rsplit("/", 1)
         row = rows.setdefault(name, {"peers": [], "parts": []})
         row[kind] = min(row.get(kind, float("inf")), one["real_time"])
-        row[kind + " label"] = one["label"]
+        row[kind + " label"] = one.get("label", "")
         row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy", "goal_peer")})
     for row in rows.values():
         if "peer" in row:
