@@ -1,6 +1,7 @@
 #include "acquisition/publish/certificate_json.hpp"
 
 #include "acquisition/publish/alignment_json.hpp"
+#include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
 #include "acquisition/publish/result_json.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
@@ -10,10 +11,6 @@ namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T> Json stated(const std::optional<T>& value) {
-    return value ? Json(*value) : Json{};
-}
 
 Json plan_of(const Certificate& certificate) {
     const RunPlan& plan = certificate.run.plan;
@@ -25,7 +22,7 @@ Json plan_of(const Certificate& certificate) {
     object["targets"] = certificate.deviations.targets();
     object["target_rule"] = plan.seed ? "P_i = (i-1) p + r" : "given list";
     object["interval_mm"] = plan.interval.in(mm);
-    object["seed"] = stated(plan.seed);
+    object["seed"] = stated_json(plan.seed);
     object["approaches"] = plan.approaches;
     object["bidirectional"] = plan.bidirectional;
     object["overrun_mm"] = plan.overrun.in(mm);
@@ -252,7 +249,7 @@ Json compensation_of(const Certificate& certificate) {
     object["expansion_form"] = done.expansion_form;
     object["expansion_per_K"] = done.expansion_per_K;
     object["expansion_standard_uncertainty_per_K"] =
-        stated(done.expansion_standard_uncertainty_per_K);
+        stated_json(done.expansion_standard_uncertainty_per_K);
     object["material_first_degC"] = done.material_first_degC;
     object["material_last_degC"] = done.material_last_degC;
     object["dead_path_mm"] = done.dead_path_mm;
@@ -305,10 +302,7 @@ Json certificate_to_json(const Certificate& certificate) {
 }
 
 std::string certificate_json_text(const Certificate& certificate) {
-    constexpr int indent = 1;
-    return certificate_to_json(certificate)
-               .dump(indent, ' ', false, Json::error_handler_t::replace) +
-           "\n";
+    return document_text(certificate_to_json(certificate));
 }
 
 } // namespace axiscal

@@ -1,6 +1,7 @@
 #include "acquisition/publish/circular_certificate_json.hpp"
 
 #include "acquisition/publish/circular_json.hpp"
+#include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
 #include "analysis/circular/circular_trials.hpp"
 
@@ -12,10 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double per_degree = 180 / std::numbers::pi;
-
-template <class T> Json number_or_null(const std::optional<T>& value) {
-    return value ? Json(*value) : Json{};
-}
 
 std::string label_of(const CircularCertificate& certificate, const std::string& key) {
     return circular_label(key, certificate.measured.test.source);
@@ -74,7 +71,7 @@ Json compensation_of(const CircularCertificate& certificate) {
     const auto& bar = certificate.measured.expansion;
     Json object;
     object["state"] = certificate.parameters.correction_mm ? "F_and_D_at_20C" : "as_measured";
-    object["correction_to_20C_mm"] = number_or_null(certificate.parameters.correction_mm);
+    object["correction_to_20C_mm"] = stated_json(certificate.parameters.correction_mm);
     if (!bar) return object;
     object["bar_degC"] = bar->bar_degC;
     object["machine_degC"] = bar->machine_degC;
@@ -86,7 +83,7 @@ Json compensation_of(const CircularCertificate& certificate) {
 
 Json temperature_json(const CircularTemperature& from) {
     Json object;
-    object["mean_degC"] = number_or_null(from.mean_degC);
+    object["mean_degC"] = stated_json(from.mean_degC);
     object["minimum_degC"] = from.mean_degC ? Json(from.low_degC) : Json{};
     object["maximum_degC"] = from.mean_degC ? Json(from.high_degC) : Json{};
     object["channel"] = stated_json(from.channel);
@@ -109,12 +106,12 @@ Json plan_of(const CircularMeasurement& measured) {
     object["nominal_diameter_mm"] = 2 * measured.test.nominal_radius_mm;
     object["nominal_radius_mm"] = measured.test.nominal_radius_mm;
     object["feed_mm_per_s"] = measured.test.feed_mm_per_s;
-    object["centre_mm"] = number_or_null(told.centre_mm);
+    object["centre_mm"] = stated_json(told.centre_mm);
     object["tool_offset"] = stated_json(told.tool_offset);
     object["work_offset"] = stated_json(told.work_offset);
-    object["repeats"] = number_or_null(told.repeats);
-    object["warm_up_circles"] = number_or_null(told.warm_up);
-    object["overshoot_deg"] = number_or_null(told.overshoot_deg);
+    object["repeats"] = stated_json(told.repeats);
+    object["warm_up_circles"] = stated_json(told.warm_up);
+    object["overshoot_deg"] = stated_json(told.overshoot_deg);
     object["feed_in"] = stated_json(told.feed_in);
     return object;
 }
@@ -124,7 +121,7 @@ Json capture_of(const CircularMeasurement& measured) {
     Json object;
     object["source"] = measured.test.source == SignalSource::feedback ? "feedback" : "external";
     object["taken_elsewhere"] = measured.taken_elsewhere;
-    object["sample_rate_hz"] = number_or_null(told.sample_rate_hz);
+    object["sample_rate_hz"] = stated_json(told.sample_rate_hz);
     object["filter"] = stated_json(told.filter);
     object["angle_origin"] = stated_json(told.angle_origin);
     object["missing_readings"] = measured.taken_elsewhere ? Json{} : Json(measured.run.missing);
@@ -164,9 +161,9 @@ Json circles_of(const CircularRun& run) {
 Json bar_of(const CircularBar& bar) {
     Json object;
     object["length_mm"] = bar.length_mm > 0 ? Json(bar.length_mm) : Json{};
-    object["expansion_per_K"] = number_or_null(bar.alpha_per_K);
-    object["calibration_U_um"] = number_or_null(bar.calibration_U_um);
-    object["calibration_k"] = number_or_null(bar.calibration_k);
+    object["expansion_per_K"] = stated_json(bar.alpha_per_K);
+    object["calibration_U_um"] = stated_json(bar.calibration_U_um);
+    object["calibration_k"] = stated_json(bar.calibration_k);
     object["sign"] = bar.sign;
     return object;
 }
@@ -222,10 +219,7 @@ Json circular_certificate_to_json(const CircularCertificate& certificate) {
 }
 
 std::string circular_certificate_json_text(const CircularCertificate& certificate) {
-    constexpr int indent = 1;
-    return circular_certificate_to_json(certificate)
-               .dump(indent, ' ', false, Json::error_handler_t::replace) +
-           "\n";
+    return document_text(circular_certificate_to_json(certificate));
 }
 
 } // namespace axiscal

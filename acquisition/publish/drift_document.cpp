@@ -1,31 +1,28 @@
 #include "acquisition/publish/drift_document.hpp"
 
 #include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/row.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/alignment_json.hpp"
+#include "acquisition/publish/csv_text.hpp"
+#include "acquisition/publish/document_parts.hpp"
+#include "acquisition/publish/record_json.hpp"
 
 #include <array>
-#include <bit>
-#include <charconv>
 
 namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json stated_or_null(const std::string& text) {
-    return text.empty() ? Json{} : Json(text);
-}
-
-/// SHA-256 of the figures, bit for bit.
 std::string digest_of(const RunDrift& drift) {
-    std::string bytes = "axiscal.drift/1";
-    for (const double figure :
-         {drift.eve.range, drift.eve.u_eve, drift.window.range, drift.window_min,
-          drift.as_read.range, drift.end_change, static_cast<double>(drift.axis.times.size())})
-        put_u64(bytes, std::bit_cast<std::uint64_t>(figure));
-    return sha256_hex(bytes);
+    const std::array figures{drift.eve.range,
+                             drift.eve.u_eve,
+                             drift.window.range,
+                             drift.window_min,
+                             drift.as_read.range,
+                             drift.end_change,
+                             static_cast<double>(drift.axis.times.size())};
+    return digest_of_figures("axiscal.drift/1", figures);
 }
 
 Json range_of(const DriftSeries& series, const DriftRange& found) {
@@ -50,7 +47,7 @@ Json parameters_of(const RunDrift& drift) {
 Json channel_of(const ChannelDrift& channel) {
     Json object;
     object["channel"] = channel.name;
-    object["place"] = stated_or_null(channel.place);
+    object["place"] = stated_json(channel.place);
     object["quantity"] = name_of(channel.kind);
     object["unit"] = channel.unit;
     const DriftSeries& series = channel.series;
@@ -66,37 +63,23 @@ Json channel_of(const ChannelDrift& channel) {
 Json run_of(const DriftDocument& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
-    Json object;
-    object["id"] = run.run_id;
-    object["station"] = run.station;
-    object["started"] = iso8601_utc(run.opened.utc_ns);
-    object["finished"] = iso8601_utc(run.closed.utc_ns);
-    object["software_version"] = run.software_version;
-    object["run_file_sha256"] = document.run_file_sha256;
-    object["config_sha256"] = run.config_hash;
-    object["result_digest"] = document.result_digest;
+    Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
     Json& statements = object["statements"];
-    statements["certificate_number"] = stated_or_null(said.certificate_number);
-    statements["laboratory"] = stated_or_null(said.laboratory);
-    statements["place"] = stated_or_null(said.place);
-    statements["machine"] = stated_or_null(said.machine);
-    statements["machine_serial"] = stated_or_null(said.machine_serial);
-    statements["axis"] = stated_or_null(said.axis);
-    statements["operator"] = stated_or_null(said.operator_name);
-    statements["state"] = stated_or_null(said.state);
-    statements["warm_up"] = stated_or_null(said.warm_up);
-    statements["idle_axes"] = stated_or_null(said.idle_axes);
+    statements["certificate_number"] = stated_json(said.certificate_number);
+    statements["laboratory"] = stated_json(said.laboratory);
+    statements["place"] = stated_json(said.place);
+    statements["machine"] = stated_json(said.machine);
+    statements["machine_serial"] = stated_json(said.machine_serial);
+    statements["axis"] = stated_json(said.axis);
+    statements["operator"] = stated_json(said.operator_name);
+    statements["state"] = stated_json(said.state);
+    statements["warm_up"] = stated_json(said.warm_up);
+    statements["idle_axes"] = stated_json(said.idle_axes);
     object["laser"] = run.laser.instrument;
     object["dead_path_mm"] = run.laser.dead_path.in(mm);
     object["datum_mm"] = run.plan.datum.in(mm);
     object["alignment"] = alignment_to_json(document.attachments.alignment);
     return object;
-}
-
-void put_number(std::string& text, double value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    text.append(digits.data(), end);
 }
 
 void put_series(std::string& text,
@@ -109,9 +92,9 @@ void put_series(std::string& text,
     head += "\"," + unit + ",";
     for (std::size_t i = 0; i < series.times.size(); ++i) {
         text += head;
-        put_number(text, series.times[i]);
+        text += csv_number(series.times[i]);
         text += ',';
-        put_number(text, series.readings[i]);
+        text += csv_number(series.readings[i]);
         text += "\r\n";
     }
 }
@@ -129,12 +112,7 @@ Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
     document.run = std::move(contents.run);
     document.attachments = std::move(contents.attachments);
     document.result_digest = digest_of(document.drift);
-    const auto kept = read_stored_result(run_file);
-    if (!kept && kept.error().fault != Fault::not_found) return tl::unexpected<Error>(kept.error());
-    if (kept && kept->digest != document.result_digest)
-        return fail(Fault::bad_run_file,
-                    run_file + ": the figures recomputed now (" + document.result_digest +
-                        ") are not those of its first evaluation (" + kept->digest + ")");
+    AXISCAL_CHECK(check_stored_result(run_file, document.result_digest));
     return document;
 }
 
@@ -169,7 +147,7 @@ Json drift_to_json(const DriftDocument& document) {
 }
 
 std::string drift_json_text(const DriftDocument& document) {
-    return drift_to_json(document).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return document_text(drift_to_json(document));
 }
 
 std::string drift_csv(const DriftDocument& document) {

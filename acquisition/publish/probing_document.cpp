@@ -1,10 +1,10 @@
 #include "acquisition/publish/probing_document.hpp"
 
 #include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/row.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/document_parts.hpp"
+#include "acquisition/publish/record_json.hpp"
 
-#include <bit>
 #include <cstdio>
 
 namespace axiscal {
@@ -12,19 +12,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class T> Json or_null(const std::optional<T>& value) {
-    return value ? Json(*value) : Json{};
-}
-
-/// SHA-256 of the figures, bit for bit.
 std::string digest_of(const std::vector<ProbingDelay>& results) {
-    std::string bytes = "axiscal.probing/1";
+    std::vector<double> figures;
     for (const ProbingDelay& result : results)
-        for (const double figure :
-             {result.variation_mm, result.variation_ms, static_cast<double>(result.touches),
-              result.period_ms.value_or(-1), result.reference_repeatability_mm.value_or(-1)})
-            put_u64(bytes, std::bit_cast<std::uint64_t>(figure));
-    return sha256_hex(bytes);
+        figures.insert(figures.end(),
+                       {result.variation_mm, result.variation_ms,
+                        static_cast<double>(result.touches), result.period_ms.value_or(-1),
+                        result.reference_repeatability_mm.value_or(-1)});
+    return digest_of_figures("axiscal.probing/1", figures);
 }
 
 Json series_of(const ProbingDelay& result) {
@@ -35,12 +30,12 @@ Json series_of(const ProbingDelay& result) {
     object["reference"] = result.reference;
     object["variation_mm"] = result.variation_mm;
     object["variation_ms"] = result.variation_ms;
-    object["standard_deviation_mm"] = or_null(result.standard_deviation_mm);
-    object["period_ms"] = or_null(result.period_ms);
-    object["period_standard_uncertainty_ms"] = or_null(result.period_standard_uncertainty_ms);
+    object["standard_deviation_mm"] = stated_json(result.standard_deviation_mm);
+    object["period_ms"] = stated_json(result.period_ms);
+    object["period_standard_uncertainty_ms"] = stated_json(result.period_standard_uncertainty_ms);
     object["no_period"] = result.period_ms ? Json{} : Json(result.no_period);
-    object["reference_repeatability_mm"] = or_null(result.reference_repeatability_mm);
-    object["net_variation_mm"] = or_null(result.net_variation_mm);
+    object["reference_repeatability_mm"] = stated_json(result.reference_repeatability_mm);
+    object["net_variation_mm"] = stated_json(result.net_variation_mm);
     return object;
 }
 
@@ -53,15 +48,7 @@ Json series_list(const std::vector<ProbingDelay>& results) {
 
 Json run_of(const ProbingDocument& document) {
     const RunRecord& run = document.run;
-    Json object;
-    object["id"] = run.run_id;
-    object["station"] = run.station;
-    object["started"] = iso8601_utc(run.opened.utc_ns);
-    object["finished"] = iso8601_utc(run.closed.utc_ns);
-    object["software_version"] = run.software_version;
-    object["run_file_sha256"] = document.run_file_sha256;
-    object["config_sha256"] = run.config_hash;
-    object["result_digest"] = document.result_digest;
+    Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
     object["machine"] = run.statements.machine;
     object["machine_serial"] = run.statements.machine_serial;
     object["operator"] = run.statements.operator_name;
@@ -84,12 +71,7 @@ Result<ProbingDocument> probing_of_run_file(const std::string& run_file) {
     AXISCAL_TRY(document.results, evaluate_probing_delay(case_of(document.record)));
     document.run = std::move(contents.run);
     document.result_digest = digest_of(document.results);
-    const auto kept = read_stored_result(run_file);
-    if (!kept && kept.error().fault != Fault::not_found) return tl::unexpected<Error>(kept.error());
-    if (kept && kept->digest != document.result_digest)
-        return fail(Fault::bad_run_file,
-                    run_file + ": the figures recomputed now (" + document.result_digest +
-                        ") are not those of its first evaluation (" + kept->digest + ")");
+    AXISCAL_CHECK(check_stored_result(run_file, document.result_digest));
     return document;
 }
 
@@ -115,7 +97,7 @@ Json probing_to_json(const ProbingDocument& document) {
 }
 
 std::string probing_json_text(const ProbingDocument& document) {
-    return probing_to_json(document).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return document_text(probing_to_json(document));
 }
 
 std::string probing_csv(const ProbingDocument& document) {

@@ -8,14 +8,6 @@ namespace axiscal {
 
 using Json = nlohmann::ordered_json;
 
-namespace {
-
-Json number_or_null(const std::optional<double>& value) {
-    return value ? Json(*value) : Json{};
-}
-
-} // namespace
-
 /// Json(x), not Json{x}: braces make an array of one.
 Json stated_json(const std::string& text) {
     return text.empty() ? Json{} : Json(text);
@@ -76,9 +68,8 @@ Json calibrations_json(const std::vector<ChannelCalibration>& calibrations,
         object["calibrated_on"] = stated_json(calibration.calibrated_on);
         object["due_on"] = stated_json(calibration.due_on);
         object["expired"] = has_expired(calibration.due_on, date);
-        object["expanded_uncertainty"] = number_or_null(calibration.expanded_uncertainty);
-        object["expanded_uncertainty_per_m"] =
-            number_or_null(calibration.expanded_uncertainty_per_m);
+        object["expanded_uncertainty"] = stated_json(calibration.expanded_uncertainty);
+        object["expanded_uncertainty_per_m"] = stated_json(calibration.expanded_uncertainty_per_m);
         object["k"] = calibration.coverage;
         object["corrections"] = Json::array();
         for (const auto& [reading, correction] : calibration.corrections)

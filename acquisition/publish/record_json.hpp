@@ -5,6 +5,7 @@
 #include "analysis/run_revisions.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,11 @@ namespace axiscal {
 
 /// The text; null when nobody said it.
 nlohmann::ordered_json stated_json(const std::string& text);
+
+/// The value; null where there is none.
+template <class T> nlohmann::ordered_json stated_json(const std::optional<T>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json{};
+}
 
 nlohmann::ordered_json statements_json(const Statements& said);
 

@@ -4,6 +4,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/circular_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
+#include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/result_digest.hpp"
 #include "acquisition/publish/result_json.hpp"
 
@@ -16,18 +17,9 @@ tl::unexpected<Error> still_open(const std::string& run_file) {
     return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
 }
 
-/// Figures that differ from those of the first evaluation are refused.
-Result<void> check_stored_result(const std::string& run_file,
-                                 const std::string& digest,
-                                 const std::string& software_version) {
-    const auto stored = read_stored_result(run_file);
-    if (!stored && stored.error().fault == Fault::not_found) return {};
-    if (!stored) return tl::unexpected<Error>(stored.error());
-    if (stored->digest == digest) return {};
-    return fail(Fault::bad_run_file,
-                run_file + ": the figures recomputed now (" + digest +
-                    ") are not those of its first evaluation (" + stored->digest +
-                    "); this program computes differently from version " + software_version);
+/// Why figures are no longer those of the first evaluation.
+std::string differs_from(const std::string& software_version) {
+    return "; this program computes differently from version " + software_version;
 }
 
 /// Digest and result document of what was evaluated just now.
@@ -65,8 +57,8 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     certificate.result_digest = result_digest(certificate.result);
     // A run that was added to is evaluated anew: the stored result is of what it held before.
     if (contents.results < certificate.revisions.closings) return certificate;
-    AXISCAL_CHECK(
-        check_stored_result(run_file, certificate.result_digest, certificate.run.software_version));
+    AXISCAL_CHECK(check_stored_result(run_file, certificate.result_digest,
+                                      differs_from(certificate.run.software_version)));
     return certificate;
 }
 
@@ -81,7 +73,7 @@ Result<CircularCertificate> circular_certificate_of_run_file(const std::string& 
     certificate.result_digest = result_digest(certificate.parameters);
     if (contents.results < contents.revisions.closings) return certificate;
     AXISCAL_CHECK(check_stored_result(run_file, certificate.result_digest,
-                                      certificate.measured.run.software_version));
+                                      differs_from(certificate.measured.run.software_version)));
     return certificate;
 }
 

@@ -1,0 +1,51 @@
+#include "acquisition/publish/document_parts.hpp"
+
+#include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/row.hpp"
+#include "acquisition/journal/run_file.hpp"
+
+#include <bit>
+
+namespace axiscal {
+
+using Json = nlohmann::ordered_json;
+
+std::string digest_of_figures(std::string format, std::span<const double> figures) {
+    for (const double figure : figures)
+        put_u64(format, std::bit_cast<std::uint64_t>(figure));
+    return sha256_hex(format);
+}
+
+Result<void> check_stored_result(const std::string& run_file,
+                                 const std::string& digest,
+                                 const std::string& besides) {
+    const auto stored = read_stored_result(run_file);
+    if (!stored && stored.error().fault == Fault::not_found) return {};
+    if (!stored) return tl::unexpected<Error>(stored.error());
+    if (stored->digest == digest) return {};
+    return fail(Fault::bad_run_file, run_file + ": the figures recomputed now (" + digest +
+                                         ") are not those of its first evaluation (" +
+                                         stored->digest + ")" + besides);
+}
+
+Json test_run_json(const RunRecord& run,
+                   const std::string& run_file_sha256,
+                   const std::string& result_digest) {
+    Json object;
+    object["id"] = run.run_id;
+    object["station"] = run.station;
+    object["started"] = iso8601_utc(run.opened.utc_ns);
+    object["finished"] = iso8601_utc(run.closed.utc_ns);
+    object["software_version"] = run.software_version;
+    object["run_file_sha256"] = run_file_sha256;
+    object["config_sha256"] = run.config_hash;
+    object["result_digest"] = result_digest;
+    return object;
+}
+
+std::string document_text(const Json& document) {
+    constexpr int indent = 1;
+    return document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace axiscal
