@@ -42,11 +42,7 @@ void read_certificate(Settings& angle, RotarySetup& setup, InstrumentRecord& art
     artefact.maker = angle.text("maker", "");
     artefact.model = angle.text("model", "");
     artefact.serial = angle.text("serial", "");
-    artefact.certificate_number = angle.text("certificate_number", "");
-    artefact.calibrated_on = angle.date("calibrated_on", "");
-    artefact.due_on = angle.date("due_on", "");
-    if (!artefact.due_on.empty() && artefact.due_on < artefact.calibrated_on)
-        angle.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
+    read_certificate_dates(angle, artefact);
     const std::vector<Length> stated =
         angle.rotary_lengths("deviations", mm(-1), mm(1), std::vector<Length>{});
     setup.certificate_with_axis = angle.choice("certificate_sense", {"with_axis", "against_axis"},

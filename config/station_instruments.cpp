@@ -51,11 +51,7 @@ void read_table(Settings& channel, ChannelConfig& config) {
 void read_calibration(Settings& channel, ChannelConfig& config) {
     constexpr double least_k = 1, largest_k = 5, usual_k = 2;
     ChannelCalibration& stated = config.calibration;
-    stated.certificate_number = channel.text("certificate_number", "");
-    stated.calibrated_on = channel.date("calibrated_on", "");
-    stated.due_on = channel.date("due_on", "");
-    if (!stated.due_on.empty() && stated.due_on < stated.calibrated_on)
-        channel.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
+    read_certificate_dates(channel, stated);
     const ChannelUncertainty expanded = channel.channel_uncertainty("uncertainty");
     if (expanded.amount == 0.0 || expanded.per_metre == 0.0)
         channel.refuse("uncertainty", "is 0: state the certificate's, or leave the line out");
@@ -119,11 +115,7 @@ void read_instruments(Settings root, StationConfig& config) {
         instrument.name = table.text("name");
         instrument.driver = table.text("driver");
         instrument.serial = table.text("serial", "");
-        instrument.certificate_number = table.text("certificate_number", "");
-        instrument.calibrated_on = table.date("calibrated_on", "");
-        instrument.due_on = table.date("due_on", "");
-        if (!instrument.due_on.empty() && instrument.due_on < instrument.calibrated_on)
-            table.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
+        read_certificate_dates(table, instrument);
         read_channels(table, instrument);
         check_name(table, instrument, config);
         config.instruments.push_back(std::move(instrument));

@@ -38,6 +38,16 @@ private:
 /// Beyond any axis: 100 m, or 100 000 degrees.
 inline constexpr Length farthest = metre(100);
 
+/// Which certificate an instrument, a channel or an artefact has and from when to when it holds;
+/// refuses one that ends before it begins. `Certified`: certificate_number, calibrated_on, due_on.
+template <class Certified> void read_certificate_dates(Settings& table, Certified& stated) {
+    stated.certificate_number = table.text("certificate_number", "");
+    stated.calibrated_on = table.date("calibrated_on", "");
+    stated.due_on = table.date("due_on", "");
+    if (!stated.due_on.empty() && stated.due_on < stated.calibrated_on)
+        table.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
+}
+
 /// Fills config.instruments and config.instrument_options.
 void read_instruments(Settings root, StationConfig& config);
 /// After the instruments, which its roles name. Travel and kind go to config.cycle.
