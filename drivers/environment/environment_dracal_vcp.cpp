@@ -148,9 +148,10 @@ Task<Result<void>> DracalVcp::run(InstrumentContext context) {
             const auto arrived = co_await link->read_some(heard_at_ + silence);
             if (!arrived && arrived.error().fault == Fault::link_timeout) break;
             if (!arrived) co_return tl::unexpected<Error>(arrived.error());
-            framer.feed(arrived->bytes, [&](std::string_view line) {
+            const auto oversized = framer.feed(arrived->bytes, [&](std::string_view line) {
                 take_line(line, arrived->read_at, *context.sink);
             });
+            counters_.bad_frames += oversized;
         }
         if (heard_at_ > asked_at) asked = 0;
     }

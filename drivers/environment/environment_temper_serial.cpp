@@ -122,7 +122,7 @@ Task<Result<void>> TemperSerial::ask_calibration(ByteLink& link, InstrumentConte
     const auto answer = co_await ask(link, *context.scheduler, "ReadCalib", 2);
     if (!answer) co_return tl::unexpected<Error>(answer.error());
     LineFramer framer{longest_line};
-    framer.feed(command(*answer), [&](std::string_view line) {
+    const auto oversized = framer.feed(command(*answer), [&](std::string_view line) {
         const auto own = parse_temper_calibration(line);
         if (!own || (own->temperature_K == 0 && own->humidity_percent == 0)) return;
         char text[128];
@@ -132,6 +132,7 @@ Task<Result<void>> TemperSerial::ask_calibration(ByteLink& link, InstrumentConte
                       own->temperature_K, own->humidity_percent, own->probe ? "probe" : "sensor");
         context.sink->note(Fault::none, text);
     });
+    counters_.bad_frames += oversized;
     co_return Result<void>{};
 }
 
@@ -177,11 +178,10 @@ TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer
         const auto arrived = co_await link.read_some(next);
         if (!arrived && arrived.error().fault == Fault::link_timeout) break;
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
-        const auto oversized = framer.oversized();
-        framer.feed(arrived->bytes, [&](std::string_view line) {
+        const auto oversized = framer.feed(arrived->bytes, [&](std::string_view line) {
             take_line(line, arrived->read_at, *context.sink);
         });
-        counters_.bad_frames += framer.oversized() - oversized;
+        counters_.bad_frames += oversized;
     }
     if (heard_at_ && !probe_heard_)
         hand_up(probe_temperature, *heard_at_, std::nullopt, *context.sink);

@@ -157,9 +157,10 @@ Task<Result<void>> Vaisala::hear_until(ByteLink& link,
         if (!arrived && arrived.error().fault == Fault::link_timeout) break;
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
         spoke_ = true;
-        framer.feed(arrived->bytes, [&](std::string_view line) {
+        const auto oversized = framer.feed(arrived->bytes, [&](std::string_view line) {
             take_line(line, arrived->read_at, *context.sink);
         });
+        counters_.bad_frames += oversized;
     }
     co_return Result<void>{};
 }

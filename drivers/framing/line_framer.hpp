@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace axiscal {
 
@@ -21,7 +22,9 @@ public:
         , skipping_{skip_first} {}
 
     /// Calls `on_line(std::string_view)` for each complete line; the view ends with the call.
-    template <class OnLine> void feed(std::span<const std::byte> bytes, OnLine&& on_line) {
+    /// @returns how many lines these bytes made longer than the bound: bad frames to be counted.
+    template <class OnLine>
+    [[nodiscard]] std::uint64_t feed(std::span<const std::byte> bytes, OnLine&& on_line) {
         std::string_view rest{reinterpret_cast<const char*>(bytes.data()), bytes.size()};
         for (auto end = rest.find(line_end_); end != std::string_view::npos;
              end = rest.find(line_end_)) {
@@ -29,8 +32,8 @@ public:
             rest.remove_prefix(end + 1);
         }
         keep(rest);
+        return std::exchange(oversized_, 0);
     }
-    [[nodiscard]] std::uint64_t oversized() const { return oversized_; }
 
 private:
     template <class OnLine> void finish(std::string_view tail, OnLine& on_line) {
@@ -58,7 +61,7 @@ private:
 
     std::string partial_;
     std::size_t longest_;
-    std::uint64_t oversized_ = 0;
+    std::uint64_t oversized_ = 0; ///< in this call of feed()
     char line_end_;
     bool skipping_;
 };

@@ -150,11 +150,10 @@ Task<Result<void>> AsciiGauge::hear_until(ByteLink& link,
         const auto arrived = co_await link.read_some(end);
         if (!arrived && arrived.error().fault == Fault::link_timeout) break;
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
-        const auto oversized = framer.oversized();
-        framer.feed(arrived->bytes, [&](std::string_view line) {
+        const auto oversized = framer.feed(arrived->bytes, [&](std::string_view line) {
             take_line(line, arrived->read_at, *context.sink);
         });
-        counters_.bad_frames += framer.oversized() - oversized;
+        counters_.bad_frames += oversized;
     }
     if (contradiction_) co_return tl::unexpected<Error>(*contradiction_);
     co_return Result<void>{};

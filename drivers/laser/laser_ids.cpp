@@ -163,9 +163,8 @@ Task<Result<Ids::Timed>> Ids::await_reply(std::int64_t id, MonotonicTime sent) {
             if (arrived.error().fault == Fault::link_timeout) ++counters_.timeouts;
             co_return tl::unexpected<Error>(arrived.error());
         }
-        const auto oversized = framer_->oversized();
-        framer_->feed(arrived->bytes, [&](std::string_view line) { lines_.emplace_back(line); });
-        counters_.bad_frames += framer_->oversized() - oversized;
+        counters_.bad_frames += framer_->feed(
+            arrived->bytes, [&](std::string_view line) { lines_.emplace_back(line); });
     }
 }
 

@@ -91,10 +91,9 @@ void UmdInstrument::take_line(std::string_view line, MonotonicTime read_at, Samp
 }
 
 void UmdInstrument::digest(const TimedBytes& arrived, LineFramer& framer, SampleSink& sink) {
-    const auto oversized = framer.oversized();
-    framer.feed(arrived.bytes,
-                [&](std::string_view line) { take_line(line, arrived.read_at, sink); });
-    counters_.bad_frames += framer.oversized() - oversized;
+    const auto oversized = framer.feed(
+        arrived.bytes, [&](std::string_view line) { take_line(line, arrived.read_at, sink); });
+    counters_.bad_frames += oversized;
     take_burst(arrived.read_at, sink);
 }
 

@@ -31,10 +31,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const GaugeModel& model : gauge_models()) {
         judge(fuzz::as_text(data, size), model);
         LineFramer framer{100, false, model.line_end};
-        framer.feed(bytes, [&](std::string_view line) {
+        const auto oversized = framer.feed(bytes, [&](std::string_view line) {
             judge(line, model);
             (void)unit_in_settings(line);
         });
+        fuzz::require(oversized <= size / 100, "a line that is too long has over 100 bytes");
     }
     return 0;
 }

@@ -47,10 +47,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(std::all_of(line.begin(), line.end(), plain), "only numbers make a record");
     };
     LineFramer at_once{200}, byte_by_byte{200};
-    at_once.feed(bytes, [&](std::string_view line) { judge(line, whole); });
+    const auto oversized = at_once.feed(bytes, [&](std::string_view line) { judge(line, whole); });
+    std::uint64_t oversized_split = 0;
     for (const auto& byte : bytes)
-        byte_by_byte.feed({&byte, 1}, [&](std::string_view line) { judge(line, split); });
+        oversized_split +=
+            byte_by_byte.feed({&byte, 1}, [&](std::string_view line) { judge(line, split); });
     fuzz::require(whole == split, "reads that split a line change nothing");
-    fuzz::require(at_once.oversized() == byte_by_byte.oversized(), "oversized lines are counted");
+    fuzz::require(oversized == oversized_split, "oversized lines are counted");
     return 0;
 }

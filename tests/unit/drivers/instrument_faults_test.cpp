@@ -100,6 +100,16 @@ TEST(InstrumentFaults, GarbageIsCountedAndTheNextRecordCounts) {
     EXPECT_EQ(laser.sink.samples.back().epoch, 0u);
 }
 
+TEST(InstrumentFaults, ALineWithoutEndOfAnAirSensorIsOneBadFrame) {
+    boost::asio::io_context loop;
+    Running air{loop, "dracal-vcp", "poll_period = \"10 s\"\n"};
+    air.pty->send(std::string(600, 'x') + "\r\n" +
+                  "D,VCP-PTH450,E18890,,101182,Pa,24.8344,C,59.8779,%,*3FB5\r\n");
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return air.sink.samples.size() == 3; }));
+    EXPECT_EQ(air.counters().bad_frames, 1u);
+    EXPECT_EQ(air.counters().checksum_errors, 0u);
+}
+
 TEST(InstrumentFaults, UnpluggedIsToldAndTheInstrumentComesBackWithANewEpoch) {
     boost::asio::io_context loop;
     Running laser{loop, "umd", umd_keys};

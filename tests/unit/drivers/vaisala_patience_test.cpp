@@ -69,6 +69,18 @@ TEST_F(VaisalaPatience, ThatFallsSilentIsOpenedAnewBeforeItsLastValueIsTenSecond
     EXPECT_LT(ended_at - begin, 1.1s + 10s);
 }
 
+TEST_F(VaisalaPatience, CountsALineWithoutEndAsOneBadFrame) {
+    std::string endless; // 200 characters, none of them an end of line
+    for (int i = 0; i < 200; ++i)
+        endless += "78";
+    play(written("0", {stop, form, send}) + "< 1100000000 " + endless + "\n" +
+         written("1100000000", {send, send}));
+    ASSERT_TRUE(ended);
+    EXPECT_EQ(*ended, Fault::link_timeout);
+    EXPECT_EQ(vaisala->counters().bad_frames, 1u);
+    EXPECT_TRUE(sink.samples.empty());
+}
+
 TEST_F(VaisalaPatience, OnALineWithoutAByteIsOpenedAnewAfterOneRequest) {
     play(written("0", {stop, form, send}));
     ASSERT_TRUE(ended);
