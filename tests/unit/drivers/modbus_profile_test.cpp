@@ -23,6 +23,35 @@ std::optional<double> decode(std::vector<std::uint16_t> words, const ModbusField
     return decode_words(words, as);
 }
 
+using Bytes = std::vector<std::uint8_t>;
+
+/// Function, first address and number of registers: a request without unit number and checksum.
+Bytes request_of(const RegisterBlock& block) {
+    const auto high = [](int number) { return static_cast<std::uint8_t>(number >> 8); };
+    const auto low = [](int number) { return static_cast<std::uint8_t>(number & 255); };
+    return {low(block.function), high(block.address), low(block.address), high(block.count),
+            low(block.count)};
+}
+/// The registers of a reply: function, number of bytes, then each register, its high byte first.
+std::vector<std::uint16_t> words_of(const Bytes& reply) {
+    std::vector<std::uint16_t> words;
+    for (std::size_t at = 2; at + 1 < reply.size(); at += 2)
+        words.push_back(static_cast<std::uint16_t>(reply[at] * 256 + reply[at + 1]));
+    return words;
+}
+/// What the channels of a profile with one block make of a reply.
+std::vector<std::optional<double>> values_of(const ModbusProfile& profile, const Bytes& reply) {
+    const std::vector<std::uint16_t> words = words_of(reply);
+    std::vector<std::optional<double>> values;
+    for (const ModbusChannel& channel : profile.channels) {
+        const auto begin =
+            static_cast<std::size_t>(channel.field.address - profile.channels[0].field.address);
+        const auto count = static_cast<std::size_t>(channel.field.count);
+        values.push_back(channel_value(std::span{words}.subspan(begin, count), channel));
+    }
+    return values;
+}
+
 TEST(ModbusWords, AreReadAsTheirType) {
     EXPECT_EQ(decode({0x0131}, field(WordType::u16)), 305);
     EXPECT_EQ(decode({0xFF33}, field(WordType::s16)), -205);
@@ -88,6 +117,68 @@ TEST(ModbusProfile, GivesTheContactChannelsAsMaterial) {
     for (const auto& channel : profile.channels)
         EXPECT_EQ(channel.channel.medium, Medium::material);
     EXPECT_FALSE(channel_value(std::vector<std::uint16_t>{0x7FFF}, profile.channels[0]));
+}
+
+/// The maker's tM-TH8 manual, 3.7: 30001 on are the inputs (wire 0 on), read by function 04;
+/// engineering format: 00E1 = 225 is 22.5 degC, FFF3 = -13 is -1.3, 04B0 = 1200 is 120.0; 8000 =
+/// -32768 is under and 7FFF = 32767 over the range.
+TEST(ModbusProfile, ReadsSixInputsOfTheM7015AtOnce) {
+    const auto profile = load_profile(shipped + "/m-7015.toml").value();
+    const auto blocks = register_blocks(profile);
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_EQ(request_of(blocks[0]), (Bytes{0x04, 0x00, 0x00, 0x00, 0x06}));
+    const auto values = values_of(profile, {0x04, 0x0C, 0x00, 0xE1, 0xFF, 0xF3, 0x00, 0x00, 0x80,
+                                            0x00, 0x7F, 0xFF, 0x04, 0xB0});
+    ASSERT_EQ(values.size(), 6u);
+    EXPECT_DOUBLE_EQ(values[0].value(), 22.5);
+    EXPECT_DOUBLE_EQ(values[1].value(), -1.3);
+    EXPECT_DOUBLE_EQ(values[2].value(), 0.0);
+    EXPECT_FALSE(values[3]);
+    EXPECT_FALSE(values[4]);
+    EXPECT_DOUBLE_EQ(values[5].value(), 120.0);
+}
+
+/// The maker's map: AIN#_EF_READ_A at 7000 + 2 n = 1B58 hex, FLOAT32. 41BA0000: exponent 131 - 127
+/// = 4, fraction 3A0000 / 800000 = 0.453125, 1.453125 x 16 = 23.25. C61C3C00 is -9999 in the map's
+/// own words (TEST_FLOAT32).
+TEST(ModbusProfile, ReadsTwoThermocouplesOfTheT7AtOnce) {
+    const auto profile = load_profile(shipped + "/labjack-t7-thermocouple.toml").value();
+    const auto blocks = register_blocks(profile);
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_EQ(request_of(blocks[0]), (Bytes{0x03, 0x1B, 0x58, 0x00, 0x04}));
+    const auto values =
+        values_of(profile, {0x03, 0x08, 0x41, 0xBA, 0x00, 0x00, 0xC6, 0x1C, 0x3C, 0x00});
+    ASSERT_EQ(values.size(), 2u);
+    EXPECT_DOUBLE_EQ(values[0].value(), 23.25);
+    EXPECT_FALSE(values[1]);
+}
+
+/// The maker's map: SERIAL_NUMBER at 60028 = EA7C hex, UINT32 as its TEST register, whose 0011 2233
+/// is 1122867: 17 x 65536 + 8755.
+TEST(ModbusProfile, ReadsTheSerialNumberOfTheT7) {
+    for (const char* name : {"/labjack-t7-thermocouple.toml", "/labjack-t7-lvdt.toml"}) {
+        const auto profile = load_profile(shipped + name).value();
+        ASSERT_TRUE(profile.serial_number) << name;
+        const ModbusField& place = profile.serial_number.value();
+        EXPECT_EQ(request_of({place.function, place.address, place.count, {}}),
+                  (Bytes{0x03, 0xEA, 0x7C, 0x00, 0x02}));
+        EXPECT_EQ(decode(words_of({0x03, 0x04, 0x00, 0x11, 0x22, 0x33}), place), 1122867);
+    }
+}
+
+/// The maker's map: AIN# at 2 n, FLOAT32, volts. 40200000: 1.25 x 2 = 2.5 V are 0.25 mm; C1200000:
+/// -1.25 x 8 = -10 V are -1 mm; C1280000: -1.3125 x 8 = -10.5 V are beyond the conditioner's range.
+TEST(ModbusProfile, ReadsVoltsOfTheT7AsALength) {
+    const auto profile = load_profile(shipped + "/labjack-t7-lvdt.toml").value();
+    const auto blocks = register_blocks(profile);
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_EQ(request_of(blocks[0]), (Bytes{0x03, 0x00, 0x00, 0x00, 0x02}));
+    const auto length_m = [&](std::uint8_t high, std::uint8_t low) {
+        return values_of(profile, {0x03, 0x04, high, low, 0x00, 0x00})[0];
+    };
+    EXPECT_NEAR(length_m(0x40, 0x20).value(), 0.25e-3, 1e-15);
+    EXPECT_NEAR(length_m(0xC1, 0x20).value(), -1e-3, 1e-15);
+    EXPECT_FALSE(length_m(0xC1, 0x28));
 }
 
 TEST(ModbusProfile, JoinsNeighboursAndNeverReadsAcrossAGap) {
