@@ -1,6 +1,7 @@
 // Vaisala PTU300 (pressure, temperature, humidity) and PTB330 (pressure) on RS-232.
 //
-// Documents: Vaisala, PTU300 user's guide and PTB330 user's guide, chapters on the serial line.
+// Documents: Vaisala, PTU300 user's guide and PTB330 user's guide, chapters on the serial line,
+// revision not stated of both.
 // "[FORM]" cites the table of format modifiers, "[modes]" SMODE, OPEN and CLOSE, "[SEND]" one
 // reading. Nothing here was seen on a real device yet. Not in them, and therefore a key of the
 // station file or told on the page: the port settings of one unit (4800 7E1 is the family's

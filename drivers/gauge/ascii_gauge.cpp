@@ -10,7 +10,7 @@
 //   sylvac    Sylvac and Bowers, manuals of the opto RS duplex interface (commands ?, SET?, MM,
 //   IN).
 //             The frame 7E2 is common knowledge and not in them.
-// Nothing here was seen on a real device yet.
+// Of all of them: revision not stated. Nothing here was seen on a real device yet.
 //
 // A gauge is asked each period and heard all the time: a value that a person sends with the DATA
 // key counts as well. A value belongs to the arrival of its last byte less the time that its line
