@@ -1,38 +1,25 @@
-#include "config/station_config.hpp"
-#include "tests/support/source_dir.hpp"
+#include "tests/unit/config/station_text.hpp"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace axiscal {
 namespace {
 
-struct Reading {
-    StationConfig config;
-    std::string told;
-};
+using test::example_text;
+using test::read_text;
+using Reading = test::StationReading;
 
 /// The example with `bar` below [ballbar] and `circle` below [circular].
 Reading read_with(const std::string& bar, const std::string& circle) {
-    std::ifstream file{test::source_dir() + "/config/station.example.toml"};
-    std::ostringstream example;
-    example << file.rdbuf();
-    std::string text = example.str();
+    std::string text = example_text();
     for (const auto& [table, lines] : {std::pair{"[ballbar]\n", bar}, {"[circular]\n", circle}}) {
         const std::string header = table;
         text.insert(text.find("\n" + header) + 1 + header.size(), lines);
     }
-    auto document = SettingsDocument::parse(text, "station.toml");
-    EXPECT_TRUE(document) << (document ? "" : document.error().detail);
-    Reading reading;
-    if (!document) return reading;
-    reading.config = read_station(*document);
-    for (Settings& options : reading.config.instrument_options)
-        options.accept_rest();
-    for (const Refusal& refusal : document->finish())
-        reading.told += refusal.describe() + "\n";
-    return reading;
+    return read_text(text);
 }
 
 const std::string sensor = "sensor = \"laser/axis 1\"\n";
@@ -112,16 +99,7 @@ Reading read_alone(const std::string& circle) {
                              "[certificate]\nmachine = \"M\"\n"
                              "[[instrument]]\nname = \"bar\"\ndriver = \"made\"\n"
                              "[[instrument]]\nname = \"material\"\ndriver = \"made\"\n";
-    auto document = SettingsDocument::parse(text, "station.toml");
-    EXPECT_TRUE(document) << (document ? "" : document.error().detail);
-    Reading reading;
-    if (!document) return reading;
-    reading.config = read_station(*document);
-    for (Settings& options : reading.config.instrument_options)
-        options.accept_rest();
-    for (const Refusal& refusal : document->finish())
-        reading.told += refusal.describe() + "\n";
-    return reading;
+    return read_text(text);
 }
 
 TEST(CircularConfig, AStationMayHaveABallbarAndNoLaser) {

@@ -1,4 +1,5 @@
 #include "config/settings.hpp"
+#include "tests/unit/config/station_text.hpp"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -6,19 +7,8 @@
 namespace axiscal {
 namespace {
 
-SettingsDocument document_of(const std::string& text) {
-    auto document = SettingsDocument::parse(text, "station.toml");
-    EXPECT_TRUE(document) << (document ? "" : document.error().detail);
-    return std::move(document).value();
-}
-
-/// All refusals, one a line, as the technician sees them.
-std::string told(SettingsDocument& document) {
-    std::string lines;
-    for (const Refusal& refusal : document.finish())
-        lines += refusal.describe() + "\n";
-    return lines;
-}
+using test::document_of;
+using test::told;
 
 bool contains(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;
