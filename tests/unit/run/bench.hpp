@@ -4,6 +4,7 @@
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/run_machine.hpp"
 
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -135,5 +136,14 @@ private:
             acknowledged.push_back(done->sequence);
     }
 };
+
+/// The last input was refused for `fault`, with `words` in the sentence, and nothing acknowledged.
+inline void expect_refused(const Bench& bench, Fault fault, const std::string& words = {}) {
+    ASSERT_TRUE(bench.saw<Refuse>());
+    const auto refusal = bench.the<Refuse>();
+    EXPECT_EQ(refusal.fault, fault) << refusal.sentence;
+    EXPECT_NE(refusal.sentence.find(words), std::string::npos) << refusal.sentence;
+    EXPECT_FALSE(bench.saw<Acknowledge>());
+}
 
 } // namespace axiscal::testing
