@@ -45,6 +45,23 @@ Error datum_lost_error(const std::string& why) {
     return {Fault::datum_lost, why, {}, {}};
 }
 
+/// Where the CNC says a position, and another one than `planned`; `instead` ends the sentence.
+std::optional<Error> objection_to_position(const TriggerEvent& event,
+                                           AxisKind kind,
+                                           Length planned,
+                                           const std::string& instead) {
+    if (!event.nominal_counts) return std::nullopt;
+    const double counts = counts_per_mm(kind);
+    // One step of the plan (1 um, 0.001 degree) allows for a control that rounds.
+    if (std::abs(*event.nominal_counts - planned.in(mm)*counts) <= 1e-3 * counts)
+        return std::nullopt;
+    return Error{Fault::wrong_target,
+                 "The CNC claims the position " +
+                     in_axis_unit(kind, mm(*event.nominal_counts / counts)) + instead,
+                 {},
+                 {}};
+}
+
 } // namespace
 
 bool breaks_counting(Fault fault) {
@@ -74,6 +91,11 @@ void RunMachine::start_datum(const TriggerEvent& event, RunActions& out) {
                        {},
                        {}},
                       out);
+    const RunPlan& plan = setup_.plan;
+    if (const auto objection = objection_to_position(
+            event, plan.axis_kind, plan.datum,
+            "; the plan's datum is at " + in_axis_unit(plan.axis_kind, plan.datum) + "."))
+        return refuse(event, *objection, out);
     if (!scale_minus_1_) return refuse(event, scale_minus_1_.error(), out);
     Pending pending;
     pending.purpose = Purpose::datum;
@@ -100,17 +122,8 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
                          next,
                      {},
                      {}};
-    if (!event.nominal_counts) return std::nullopt;
     const auto target = plan.targets[static_cast<std::size_t>(point.target_index)];
-    const double counts = counts_per_mm(plan.axis_kind);
-    // One step of the plan (1 um, 0.001 degree) allows for a control that rounds.
-    if (std::abs(*event.nominal_counts - target.in(mm)*counts) <= 1e-3 * counts)
-        return std::nullopt;
-    return Error{Fault::wrong_target,
-                 "The CNC claims the position " +
-                     in_axis_unit(plan.axis_kind, mm(*event.nominal_counts / counts)) + next,
-                 {},
-                 {}};
+    return objection_to_position(event, plan.axis_kind, target, next);
 }
 
 void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {

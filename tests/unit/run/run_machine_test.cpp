@@ -47,6 +47,18 @@ TEST(Arming, ByTheCncsPrepareIsAcknowledgedWhenDurable) {
     EXPECT_EQ(bench.points.front().step, 0);
 }
 
+TEST(Arming, RefusesAPrepareThatClaimsAnotherPlaceThanTheDatum) {
+    Bench bench; // its datum lies at 0 mm
+    bench.give(Arm{bench.tick(), false});
+    auto event = Bench::request(1, TriggerCommand::prepare);
+    event.nominal_counts = 20'000; // 2 mm: counts of 0.1 um
+    expect_refused(bench.trigger(event), Fault::wrong_target, "the plan's datum is at");
+    EXPECT_FALSE(bench.saw<OpenWindow>());
+    event.nominal_counts = 0;
+    bench.trigger(event).window_here().commit();
+    EXPECT_EQ(bench.acknowledged, std::vector<std::uint16_t>{1});
+}
+
 TEST(Arming, RefusesTriggersBeforeTheDatumIsDurable) {
     Bench bench;
     expect_refused(bench.trigger(1), Fault::no_run_armed);
