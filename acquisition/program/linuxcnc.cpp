@@ -2,7 +2,8 @@
 // Wiring in HAL (docs/trigger.md): analog-out-00 = sequence; digital-in-00 = answered (the echo
 // equals the sequence, or the acknowledge bit); coil-and-index also digital-out-00 = trigger coil
 // and digital-in-01 = "register equals sequence". sequence-block reads analog-out-01..05 as well;
-// an indexing table is told its position by analog-out-06.
+// an indexing table is told its position by analog-out-06; analog-out-07 is CMD, where the program
+// begins with prepare.
 #include "acquisition/program/part_program.hpp"
 
 #include <cstdio>
@@ -30,8 +31,10 @@ public:
             if (move.table_position) turn_table(*move.table_position);
             if (move.point)
                 capture(sequence, move);
-            else if (!std::exchange(begun, true))
+            else if (!std::exchange(begun, true)) {
                 begin();
+                if (order_.datum_by_cnc && !order_.retakes) prepare(++sequence, move);
+            }
         }
         line("(end of cycle)");
         line("M2");
@@ -70,6 +73,9 @@ private:
         if (order_.retakes)
             line("(points taken again: the station is armed; requests count on from " +
                  std::to_string(order_.last_request) + ")");
+        else if (order_.datum_by_cnc)
+            line("(first the axis goes to its datum and waits for 'axiscal arm --datum-by-cnc', "
+                 "then request 1 ties the reading there)");
         else
             line("(first the axis goes to its datum and waits there: run 'axiscal arm' then)");
         line("G21 G90 G94 G17 G61 G40 G49 G80");
@@ -85,6 +91,28 @@ private:
         wait(coil() ? "P1 L3" : "P0 L3", arming_limit_s,
              order_.retakes ? "the station's last request is another one"
                             : "the station was not armed");
+    }
+    /// Ties the reading to the datum. Where the station withholds, because the axis was not at
+    /// rest or a reading was missing, asks once more.
+    void prepare(std::uint16_t sequence, const ProgramMove& datum) {
+        const std::string complaint =
+            "the datum was not tied by request " + std::to_string(sequence);
+        line("(datum)");
+        for (const char* unsaid : {"M68 E1 Q0", "M68 E2 Q0", "M68 E4 Q0"})
+            line(unsaid);
+        line(format("M68 E3 Q%.4f", datum.coordinate_mm));
+        line("M68 E7 Q1");
+        dwell(seconds_of(order_.dwell));
+        ask(sequence);
+        const std::string again = next_label();
+        line(again + " if [#5399 EQ -1]");
+        line("(MSG,axiscal: " + complaint + ", it is asked for again)");
+        line("M68 E0 Q0");
+        dwell(seconds_of(order_.dwell));
+        ask(sequence);
+        abort_unless_answered(complaint);
+        line(again + " endif");
+        line("M68 E7 Q2");
     }
     /// Words that the station may check against its plan; all before the sequence number.
     void announce(std::uint16_t sequence, const ProgramMove& move) {
@@ -156,6 +184,7 @@ private:
 } // namespace
 
 Result<std::string> write_linuxcnc(const ProgramOrder& order) {
+    if (auto fits = check_prepare(order); !fits) return tl::unexpected<Error>(fits.error());
     if (order.shape == TriggerShape::dwell && order.dwell < order.least_halt)
         return fail(Fault::bad_request,
                     "a dwell of " + std::to_string(seconds_of(order.dwell)) +

@@ -9,6 +9,7 @@
 namespace axiscal {
 
 Result<std::string> write_marlin(const ProgramOrder& order) {
+    if (auto fits = check_prepare(order); !fits) return tl::unexpected<Error>(fits.error());
     if (order.shape != TriggerShape::dwell)
         return fail(Fault::bad_request,
                     "Marlin cannot wait for the station's answer: set trigger.shape = \"dwell\"");

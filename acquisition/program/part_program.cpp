@@ -22,6 +22,14 @@ constexpr std::array dialects{
 
 } // namespace
 
+Result<void> check_prepare(const ProgramOrder& order) {
+    if (!order.datum_by_cnc || order.shape == TriggerShape::sequence_block) return {};
+    return fail(
+        Fault::bad_request,
+        "only trigger.shape = \"sequence-block\" can send prepare: leave --datum-by-cnc out "
+        "and give 'axiscal arm' when the axis waits at its datum");
+}
+
 std::vector<ProgramMove> moves_of(const RunPlan& plan) {
     // 0.1 nm of slack: "at least the overrun" must not fail by the rounding of mm arithmetic.
     constexpr double slack_mm = 1e-7;

@@ -25,7 +25,12 @@ struct ProgramOrder {
     std::uint16_t last_request = 0;
     std::optional<RotarySetup> rotary{}; ///< of a rotary axis
     Duration least_halt{}; ///< dwell trigger: minimum halt + window; a shorter dwell is refused
+    /// Request 1 is `prepare` at the datum, the points count from 2; sequence-block alone has it.
+    bool datum_by_cnc = false;
 };
+
+/// @errors Fault::bad_request where the CNC is to tie the datum by a shape that has no `prepare`.
+Result<void> check_prepare(const ProgramOrder& order);
 
 /// One move of the cycle, before any dialect: where to, and whether a point is taken there.
 struct ProgramMove {

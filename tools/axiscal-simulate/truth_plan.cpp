@@ -26,7 +26,9 @@ public:
     }
     void dwell(double) override { note(dwelled_); }
     void set_analog(int output, double value) override {
-        if (output == 0 && value != 0 && value != sequence_) note(sequenced_);
+        if (output == command_output) command_ = value;
+        const bool ties_datum = command_ == command_prepare; // no point is taken
+        if (output == 0 && value != 0 && value != sequence_ && !ties_datum) note(sequenced_);
         if (output == 0) sequence_ = value;
     }
     void set_digital(int output, bool on) override {
@@ -59,7 +61,7 @@ private:
         ++(up_ ? visits.up : visits.down);
     }
     Points pulsed_, sequenced_, dwelled_;
-    double position_mm_ = 0, sequence_ = -1;
+    double position_mm_ = 0, sequence_ = -1, command_ = 0;
     bool up_ = true, input_ = false;
     int lines_ = 0;
 };

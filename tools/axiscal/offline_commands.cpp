@@ -121,10 +121,12 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
 Result<std::string> write_program(const StationConfig& config,
                                   const RunPlan& plan,
                                   const ProgramDialect& dialect,
-                                  const std::string& folder) {
-    AXISCAL_TRY(const std::string text, dialect.write(order_of(config, plan)));
-    const std::string path =
-        folder + "/" + config.axis.program_axis + "-" + plan.pass + std::string{dialect.extension};
+                                  const ProgramRequest& request) {
+    ProgramOrder order = order_of(config, plan);
+    order.datum_by_cnc = request.datum_by_cnc;
+    AXISCAL_TRY(const std::string text, dialect.write(order));
+    const std::string path = request.out_directory + "/" + config.axis.program_axis + "-" +
+                             plan.pass + std::string{dialect.extension};
     std::ofstream file{path, std::ios::binary | std::ios::trunc};
     if (!(file << text << std::flush)) return fail(Fault::io, "cannot write " + path);
     return path;
@@ -223,15 +225,17 @@ int command_program(const ProgramRequest& request, bool json) {
                exit_refused;
     Json list = Json::array();
     for (const RunPlan& plan : passes) {
-        const auto path = write_program(config, plan, *dialect, request.out_directory);
+        const auto path = write_program(config, plan, *dialect, request);
         if (!path) return complain(path.error());
         list.push_back(plan_json(plan, *path));
         if (json) continue;
         std::cout << *path << ": " << plan.points.size() << " points on " << plan.targets.size()
                   << " targets, datum at " << plan.datum.in(mm) << "\n";
         if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
-        std::cout << "  load and start it; when the axis waits at its datum: axiscal arm --program "
-                  << *path << "\n";
+        std::cout << (request.datum_by_cnc
+                          ? "  load and start it; before or after: axiscal arm --datum-by-cnc "
+                          : "  load and start it; when the axis waits at its datum: axiscal arm ")
+                  << "--program " << *path << "\n";
     }
     if (config.circular && dialect->name == "linuxcnc") {
         const auto path = write_circles(config, request.out_directory);

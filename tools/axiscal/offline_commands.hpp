@@ -16,7 +16,8 @@ struct ProgramRequest {
     std::string station_file, dialect,
         out_directory; ///< dialect empty: linuxcnc, or marlin is named
     std::optional<std::uint64_t> seed;
-    std::string run_file; ///< not empty: the points of it that are to be taken again
+    std::string run_file;      ///< not empty: the points of it that are to be taken again
+    bool datum_by_cnc = false; ///< the program begins with prepare
 };
 /// Writes one file a pass and says how to arm it.
 int command_program(const ProgramRequest& request, bool json);

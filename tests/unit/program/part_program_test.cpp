@@ -11,6 +11,7 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -170,6 +171,62 @@ TEST(PartProgram, SequencesCountFromOneAfterAZero) {
     ASSERT_EQ(written.size(), 21U);
     for (int i = 0; i < 21; ++i)
         EXPECT_EQ(written[static_cast<std::size_t>(i)], i);
+}
+
+ProgramOrder order_with_prepare(TriggerShape shape) {
+    ProgramOrder order = order_of(plan_of({10, 60, 110, 160, 210}, 1), shape);
+    order.datum_by_cnc = true;
+    return order;
+}
+
+TEST(PartProgram, RequestOneIsPrepareAtTheDatumAndThePointsCountFromTwo) {
+    const auto text = write_linuxcnc(order_with_prepare(TriggerShape::sequence_block));
+    ASSERT_TRUE(text) << describe(text.error());
+    std::vector<std::pair<int, int>> asked; // sequence and command
+    std::istringstream lines{executed(*text)};
+    int command = 0, value = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (std::sscanf(line.c_str(), "M68 E7 Q%d", &value) == 1) command = value;
+        if (std::sscanf(line.c_str(), "M68 E0 Q%d", &value) == 1 && value != 0)
+            asked.emplace_back(value, command);
+    }
+    ASSERT_EQ(asked.size(), 11U);
+    EXPECT_EQ(asked[0], (std::pair{1, 1}));
+    for (int i = 1; i < 11; ++i)
+        EXPECT_EQ(asked[static_cast<std::size_t>(i)], (std::pair{i + 1, 2}));
+}
+
+TEST(PartProgram, ThePrepareIsAskedForAtTheDatumOnceTheStationIsArmed) {
+    // plan_of puts the datum 4 mm before the first target
+    const auto text = write_linuxcnc(order_with_prepare(TriggerShape::sequence_block));
+    ASSERT_TRUE(text);
+    const std::string lines = executed(*text);
+    const auto datum = lines.find("G1 X6.0000\n"), armed = lines.find("M66 P0 L3 Q600.0\n", datum),
+               claim = lines.find("M68 E3 Q6.0000\n", armed),
+               ask = lines.find("M68 E7 Q1\nG4 P4.000\nM68 E0 Q1\n", claim),
+               answer = lines.find("M66 P0 L3 Q10.0\n", ask),
+               way = lines.find("G1 X10.0000\n", answer);
+    EXPECT_NE(way, std::string::npos) << lines;
+}
+
+TEST(PartProgram, APrepareThatIsWithheldIsAskedForOnceMore) {
+    const auto text = write_linuxcnc(order_with_prepare(TriggerShape::sequence_block));
+    ASSERT_TRUE(text);
+    const std::string lines = executed(*text, 2); // wait 1 is for arming
+    EXPECT_NE(lines.find("M68 E0 Q0\nG4 P4.000\nM68 E0 Q1\nG4 P0.050\nM66 P0 L3 Q10.0\n"),
+              std::string::npos)
+        << lines;
+    EXPECT_EQ(lines.find("ABORT"), std::string::npos);
+}
+
+TEST(PartProgram, OnlyTheSequenceBlockCanSendPrepare) {
+    for (const TriggerShape shape :
+         {TriggerShape::single_register, TriggerShape::coil_and_index, TriggerShape::dwell})
+        for (auto* writer : {write_marlin, write_linuxcnc}) {
+            const auto text = writer(order_with_prepare(shape));
+            ASSERT_FALSE(text);
+            EXPECT_NE(text.error().detail.find("sequence-block"), std::string::npos);
+        }
 }
 
 TEST(PartProgram, AWithheldAnswerBringsTheAxisBackFromItsSideAndAsksAgain) {

@@ -42,6 +42,20 @@ TEST(CncLines, BlockHasTheDocumentedWords) {
     EXPECT_EQ(writes[0].words, words);
 }
 
+TEST(CncLines, TheCommandIsTheProgramsOwnWhereItSetsOne) {
+    CncLines lines{cnc("sequence-block")};
+    lines.set_analog(command_output, 1, 0);
+    announce(lines, 1, 8);
+    lines.set_analog(command_output, 2, 0);
+    announce(lines, 2, 12);
+    const auto writes = sent(lines);
+    ASSERT_EQ(writes.size(), 2U) << "a command alone is no request";
+    EXPECT_EQ(writes[0].words[0], 1); // CMD: prepare
+    EXPECT_EQ(writes[0].words[1], 1); // CMD_SEQ
+    EXPECT_EQ(writes[1].words[0], 2); // CMD: capture
+    EXPECT_EQ(writes[1].words[1], 2);
+}
+
 TEST(CncLines, ZeroIsAlwaysWrittenAndIsNoRequest) {
     CncLines lines{cnc("single-register")};
     lines.set_analog(0, 0, 0);

@@ -57,6 +57,17 @@ TEST(GeneratedProgram, EveryShapeAndCycleShowsTheSamePoints) {
         }
 }
 
+TEST(GeneratedProgram, ThePrepareIsNoPoint) {
+    ProgramOrder order = order_of(TriggerShape::sequence_block, CycleKind::standard);
+    order.datum_by_cnc = true;
+    const auto text = write_linuxcnc(order);
+    ASSERT_TRUE(text);
+    const auto plan = plan_of_program(*text, false, Scenario{});
+    ASSERT_TRUE(plan) << plan.error().detail;
+    EXPECT_EQ(plan->targets_mm, targets_mm);
+    EXPECT_EQ(plan->approaches, 3);
+}
+
 TEST(GeneratedProgram, MarlinShowsTheSamePoints) {
     const auto text = write_marlin(order_of(TriggerShape::dwell, CycleKind::standard));
     ASSERT_TRUE(text);

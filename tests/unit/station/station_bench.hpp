@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -378,6 +379,16 @@ public:
     void ask(TriggerEvent event) {
         event.at = scheduler.now();
         port->sink->on_trigger(event);
+    }
+    /// The CNC ties the datum where the axis stands. @returns done is the request's number
+    bool prepare(std::uint16_t sequence) {
+        TriggerEvent event;
+        event.command = TriggerCommand::prepare;
+        event.sequence = sequence;
+        event.nominal_counts = static_cast<std::int32_t>(std::lround(shop.plan().datum.in(um)*10));
+        ask(event);
+        run(2s);
+        return port->done == sequence;
     }
     /// Drives, asks, waits. @returns done is the point's number
     bool take(int step) { return take(step, static_cast<std::uint16_t>(step + 1)); }

@@ -144,6 +144,24 @@ TEST_F(StationResumes, ARunThatWaitsForItsPrepareOffersZeroAgain) {
     EXPECT_EQ(life.port->done, 2);
 }
 
+TEST_F(StationResumes, TheDoneOfAPrepareIsPublishedAgainAndItsDatumHolds) {
+    shop.now += 60s; // the laser was on long before
+    {
+        Life life{shop};
+        ArmRequest request;
+        request.datum_by_cnc = true;
+        ASSERT_TRUE(life.arm(request));
+        ASSERT_TRUE(life.prepare(1));
+    }
+    Life life{shop};
+    life.run(3s); // the laser is counted for a while
+    EXPECT_EQ(life.port->done_before_open, 1);
+    ASSERT_TRUE(life.take(0, 2));
+    const RunRecord run = only_run();
+    ASSERT_EQ(run.datums.size(), 1U);
+    EXPECT_EQ(run.points.at(0).datum_id, run.datums[0].id);
+}
+
 TEST_F(StationResumes, ARunThatDiedAtOnceGoesOnWhenItsLaserCounted) {
     shop.now += 60s; // the laser was on long before
     {

@@ -50,6 +50,35 @@ TEST_F(StationRuns, EveryPointIsOnDiskWhenDoneSaysSo) {
     }
 }
 
+// The laser's zero lies 5 mm beside that of the machine: the tying alone brings them together.
+TEST_F(StationRuns, TheCncTiesTheDatumWithRequestOneAndThePointsCountFromTwo) {
+    shop.drift_um = [](MonotonicTime) { return 5000.0; };
+    Life life{shop};
+    ArmRequest request;
+    request.datum_by_cnc = true;
+    ASSERT_TRUE(life.arm(request));
+    EXPECT_EQ(life.port->done, 0) << "armed, and nothing is tied yet";
+    EXPECT_TRUE(read_run_file(shop.run_files().at(0))->datums.empty());
+    ASSERT_TRUE(life.prepare(1));
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step, static_cast<std::uint16_t>(step + 2))) << step;
+    EXPECT_TRUE(life.port->refusals.empty());
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_TRUE(run->complete);
+    EXPECT_TRUE(check_complete(*run));
+    ASSERT_EQ(run->datums.size(), 1U);
+    EXPECT_EQ(run->datums[0].sequence, 1) << "the request that tied it";
+    EXPECT_NEAR(run->datums[0].coordinate.in(mm), shop.plan().datum.in(mm), 1e-9);
+    EXPECT_LE(run->datums[0].at, run->points.front().window_begin);
+    for (const PointRecord& point : run->points) {
+        EXPECT_EQ(point.sequence, point.step + 2);
+        // 1 m of an axis at 22.6 degC grows by 30 um, the index of the made air is off by 2 um.
+        EXPECT_LT(std::abs(point.live_deviation.in(um)), 50) << point.step;
+        EXPECT_EQ(point.datum_id, run->datums[0].id);
+    }
+}
+
 // The reading moves by 0.5 um/s, the laser's time is known within 40 us.
 TEST_F(StationRuns, EachCaptureStatesItsSynchronisationErrorInTheRunFileAndTheStatus) {
     shop.drift_um = [](MonotonicTime at) { return 0.5 * seconds_of(at.time_since_epoch()); };

@@ -17,6 +17,8 @@ std::uint16_t clip(double value) {
     return static_cast<std::uint16_t>(std::lround(std::fmin(std::fmax(value, 0.0), 65535.0)));
 }
 
+constexpr std::uint16_t command_capture = 2;
+
 /// Position of words 1..9 in the array.
 enum At : std::size_t {
     command = 0,
@@ -32,14 +34,14 @@ enum At : std::size_t {
 CncLines::CncLines(CncScenario cnc)
     : cnc_{std::move(cnc)} {}
 
-std::array<std::uint16_t, 9> CncLines::block(const CncScenario& cnc,
-                                             const std::array<double, 6>& outputs) {
+std::array<std::uint16_t, 9> CncLines::block(const CncScenario& cnc, const CncOutputs& outputs) {
     std::array<std::uint16_t, 9> words{};
     if (cnc.shape != "sequence-block") {
         words[0] = clip(outputs[0]);
         return words;
     }
-    words[command] = 2;
+    const double told = outputs[command_output];
+    words[command] = told == 0 ? command_capture : clip(told);
     words[sequence] = clip(outputs[0]);
     words[target] = clip(outputs[1]);
     words[direction] = clip(outputs[2]);

@@ -13,6 +13,14 @@
 
 namespace axiscal::simulate {
 
+/// What the program has set: 0 sequence, 1 target, 2 direction, 3 position, 4 approach, 5 feed,
+/// 6 the indexing table, 7 CMD of the sequence-block (0, as long as no program has set it:
+/// capture).
+using CncOutputs = std::array<double, 8>;
+/// Output and value with which a program sends prepare in place of capture.
+constexpr int command_output = 7;
+constexpr double command_prepare = 1;
+
 /// One write of the exchange, in the order in which the program made them.
 struct CncWrite {
     /// Words 1..9 of the sequence-block; only the first for single-register and coil-and-index.
@@ -34,7 +42,8 @@ public:
     explicit CncLines(CncScenario cnc);
 
     // the program's side
-    /// Output 0 is the sequence (or index): a change makes a request of outputs 1..5 as they stand.
+    /// Output 0 is the sequence (or index): a change makes a request of outputs 1..5 and 7 as they
+    /// stand.
     void set_analog(int output, double value, double now_s);
     void set_digital(int output, bool on, double now_s);
     /// Input 0: done equals the sequence; for coil-and-index the discrete input, and input 1 the
@@ -53,8 +62,7 @@ public:
     [[nodiscard]] CncAnswer answer() const;
     [[nodiscard]] int requests() const;
     /// Words 1..9 for a sequence. Pure.
-    static std::array<std::uint16_t, 9> block(const CncScenario& cnc,
-                                              const std::array<double, 6>& outputs);
+    static std::array<std::uint16_t, 9> block(const CncScenario& cnc, const CncOutputs& outputs);
 
 private:
     void request(CncWrite write, double now_s);
@@ -62,7 +70,7 @@ private:
 
     mutable std::mutex mutex_;
     CncScenario cnc_;
-    std::array<double, 6> analog_{};
+    CncOutputs analog_{};
     std::deque<CncWrite> queue_;
     std::optional<CncWrite> standing_, standing_coil_;
     CncAnswer answer_;

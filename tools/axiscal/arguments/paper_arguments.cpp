@@ -12,6 +12,7 @@ Prints JSON. An array of cases gives an array of results; one that is refused na
 constexpr const char* program_footer = R"(Examples:
   axiscal program --config station.toml --out .             X-whole.ngc for LinuxCNC
   axiscal program --config station.toml --dialect marlin    for a 3D printer
+  axiscal program --config station.toml --datum-by-cnc      the CNC ties the datum: axiscal arm --datum-by-cnc
 Load and start it; when the axis waits at its datum: axiscal arm --program X-whole.ngc)";
 
 constexpr const char* export_footer = R"(Example:
@@ -48,10 +49,15 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     program->add_option(
         "--seed", options.program.seed,
         "seed of the targets' random parts; default: the station file's, or a new one");
+    auto* retake =
+        program->add_option("--retake", options.program.run_file,
+                            "run file: write the program of the points that are to be taken again");
+    retake->check(CLI::ExistingFile);
     program
-        ->add_option("--retake", options.program.run_file,
-                     "run file: write the program of the points that are to be taken again")
-        ->check(CLI::ExistingFile);
+        ->add_flag("--datum-by-cnc", options.program.datum_by_cnc,
+                   "begin with the prepare command, for 'axiscal arm --datum-by-cnc' (trigger "
+                   "shape sequence-block)")
+        ->excludes(retake);
     teach(*program, program_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     program->callback([&] {
         chosen = [&] {
