@@ -10,9 +10,6 @@ namespace {
 std::string assignment(std::string_view key, const std::string& value) {
     return std::string{key} + " = " + value;
 }
-std::string quoted(std::string_view text) {
-    return "\"" + std::string{text} + "\"";
-}
 std::string joined(const std::vector<std::string>& words) {
     std::string list;
     for (const std::string& word : words)

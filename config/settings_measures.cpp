@@ -5,9 +5,6 @@
 namespace axiscal {
 namespace {
 
-std::string quoted(std::string_view text) {
-    return "\"" + std::string{text} + "\"";
-}
 std::optional<double> si_of(const auto& fallback) {
     return fallback ? std::optional<double>{fallback->si()} : std::nullopt;
 }

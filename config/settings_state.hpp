@@ -26,6 +26,10 @@ struct SettingsDocument::State {
 /// "axis.material": a key below a path; the root has the empty path.
 std::string joined_path(std::string_view path, std::string_view key);
 
+inline std::string quoted(std::string_view text) {
+    return "\"" + std::string{text} + "\"";
+}
+
 /// A table as one reader sees it. `node` is null when the file has no such table: every key is
 /// then missing.
 struct Settings::Impl {

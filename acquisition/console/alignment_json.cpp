@@ -1,5 +1,6 @@
 #include "acquisition/console/alignment_json.hpp"
 
+#include "acquisition/console/optional_json.hpp"
 #include "analysis/alignment/cosine_error.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,10 +11,6 @@ namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T> Json or_null(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 Json to_json(const std::optional<CosineError>& found) {
     if (!found) return nullptr;

@@ -1,15 +1,13 @@
 #include "acquisition/console/api_json.hpp"
 
+#include "acquisition/console/optional_json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T> Json or_null(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 Json to_json(const ChannelView& channel) {
     return {{"instrument", channel.instrument},

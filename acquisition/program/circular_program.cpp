@@ -4,6 +4,8 @@
 // axis to the second (X to Y, Z to X, Y to Z). Wiring as for the linear cycle (docs/trigger.md).
 #include "acquisition/program/circular_program.hpp"
 
+#include "acquisition/program/linuxcnc_handshake.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -13,15 +15,13 @@ namespace axiscal {
 namespace {
 
 constexpr double one_degree = std::numbers::pi / 180;
-constexpr double arming_limit_s = 600; ///< a technician needs a while to reach the PC
-constexpr double comparison_s = 0.05;  ///< the sequence must reach the servo thread first
 constexpr double rest_s = 0.5; ///< before feed-in and after feed-out: the step is seen whole
 constexpr double halt_s = 2;   ///< without a handshake
 constexpr double least_arc_deg = 1e-9;
 
-class Writer {
+class CircleWriter {
 public:
-    explicit Writer(const CircularOrder& order)
+    explicit CircleWriter(const CircularOrder& order)
         : order_{order}
         , plan_{order.plan} {}
 
@@ -153,7 +153,7 @@ private:
 } // namespace
 
 std::string write_circular_linuxcnc(const CircularOrder& order) {
-    return Writer{order}.write();
+    return CircleWriter{order}.write();
 }
 
 } // namespace axiscal

@@ -6,19 +6,17 @@
 // begins with prepare.
 #include "acquisition/program/part_program.hpp"
 
+#include "acquisition/program/linuxcnc_handshake.hpp"
+
 #include <cstdio>
 #include <utility>
 
 namespace axiscal {
 namespace {
 
-constexpr double arming_limit_s = 600; // a technician needs a while to reach the PC
-// The echo comparison runs in the servo thread; the sequence must reach it before it is asked.
-constexpr double comparison_s = 0.05;
-
-class Writer {
+class CycleWriter {
 public:
-    explicit Writer(const ProgramOrder& order)
+    explicit CycleWriter(const ProgramOrder& order)
         : order_{order} {}
 
     std::string write() {
@@ -195,7 +193,7 @@ Result<std::string> write_linuxcnc(const ProgramOrder& order) {
             Fault::bad_request,
             "nobody tells a program where the indexing table stands now: drive to the points "
             "by hand, from the asked side, and take them with 'axiscal trigger'");
-    return Writer{order}.write();
+    return CycleWriter{order}.write();
 }
 
 } // namespace axiscal

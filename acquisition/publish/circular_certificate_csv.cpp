@@ -4,12 +4,10 @@
 #include "acquisition/publish/csv_text.hpp"
 #include "analysis/circular/circular_trials.hpp"
 
-#include <numbers>
-
 namespace axiscal {
 namespace {
 
-constexpr double micrometres = 1e3, per_degree = 180 / std::numbers::pi;
+constexpr double micrometres = 1e3;
 
 void append_head(std::string& csv, const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
@@ -75,7 +73,7 @@ void append_readings(std::string& csv, const CircularCertificate& certificate) {
         const std::string sense{name_of(trace.sense)};
         for (std::size_t i = 0; i < trace.angle_rad.size(); ++i)
             append_csv_line(
-                csv, {sense, std::to_string(i + 1), csv_number(trace.angle_rad[i] * per_degree),
+                csv, {sense, std::to_string(i + 1), csv_number(trace.angle_rad[i] * degree_per_rad),
                       csv_number(trace.radial_deviation_mm[i] * micrometres),
                       csv_number(about.radial_deviation_mm[i] * micrometres), side_of(ring, i)});
     }

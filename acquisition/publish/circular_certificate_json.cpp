@@ -5,14 +5,10 @@
 #include "acquisition/publish/record_json.hpp"
 #include "analysis/circular/circular_trials.hpp"
 
-#include <numbers>
-
 namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double per_degree = 180 / std::numbers::pi;
 
 std::string label_of(const CircularCertificate& certificate, const std::string& key) {
     return circular_label(key, certificate.measured.test.source);
@@ -47,7 +43,7 @@ Json zone_json(const CircularDeviation& deviation, const CircularTest& test) {
         Json held;
         held["sense"] = name_of(point.sense);
         held["reading"] = point.index;
-        held["angle_deg"] = folded_angle(trace->angle_rad[point.index]) * per_degree;
+        held["angle_deg"] = folded_angle(trace->angle_rad[point.index]) * degree_per_rad;
         held["side"] = point.side == ZoneSide::outer ? "outer" : "inner";
         object["control_points"].push_back(std::move(held));
     }
@@ -129,8 +125,8 @@ Json capture_of(const CircularMeasurement& measured) {
     for (const CircularTrace& trace : measured.test.traces) {
         Json& driven = object["readings"][std::string{name_of(trace.sense)}];
         driven["count"] = trace.angle_rad.size();
-        driven["start_deg"] = trace.angle_rad.front() * per_degree;
-        driven["end_deg"] = trace.angle_rad.back() * per_degree;
+        driven["start_deg"] = trace.angle_rad.front() * degree_per_rad;
+        driven["end_deg"] = trace.angle_rad.back() * degree_per_rad;
     }
     return object;
 }

@@ -5,10 +5,13 @@
 #include "analysis/circular/circular_uncertainty.hpp"
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 
 namespace axiscal {
+
+inline constexpr double degree_per_rad = 180 / std::numbers::pi;
 
 struct CircularAnswer {
     const CircularTest& test;

@@ -7,6 +7,7 @@
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/environment_limits.hpp"
+#include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
 
@@ -14,14 +15,6 @@
 #include <random>
 
 namespace axiscal {
-namespace {
-
-constexpr Duration laser_limit = std::chrono::seconds{2};   // an older reading is no reading
-constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back within 5 s
-constexpr Duration look_every = std::chrono::milliseconds{20};
-
-} // namespace
-
 Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
     CycleConfig cycle = config_.cycle;
     if (request.seed) cycle.seed = request.seed;

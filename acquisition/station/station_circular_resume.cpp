@@ -4,14 +4,13 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/station/patience.hpp"
 
 #include <algorithm>
 
 namespace axiscal {
 namespace {
 
-constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back within 5 s
-constexpr Duration look_every = std::chrono::milliseconds{20};
 constexpr Duration settling = std::chrono::milliseconds{500};
 constexpr double second_s = 1;
 

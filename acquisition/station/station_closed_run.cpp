@@ -5,6 +5,7 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/environment_limits.hpp"
+#include "acquisition/station/patience.hpp"
 
 #include <utility>
 
@@ -14,7 +15,6 @@ namespace {
 constexpr Length reading_slack = mm(0.05); // of two neighbouring readings, beside the axis's speed
 constexpr Duration buffer_time = std::chrono::seconds{1};  // older bytes may wait in a USB buffer
 constexpr Duration answer_limit = std::chrono::seconds{5}; // for a station that was just started
-constexpr Duration look_every = std::chrono::milliseconds{20};
 
 } // namespace
 

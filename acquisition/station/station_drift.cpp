@@ -12,7 +12,7 @@
 namespace axiscal {
 namespace {
 
-constexpr Duration look_every = std::chrono::milliseconds{50}; // an abort is heard within it
+constexpr Duration hear_every = std::chrono::milliseconds{50}; // an abort is heard within it
 constexpr const char* lost_zero = "The laser's counter lost its zero: the readings cannot be "
                                   "compared any more.";
 
@@ -107,7 +107,7 @@ Task<void> Station::record_drift(std::string run_id) {
         if (now >= due)
             note_drift();
         else
-            co_await scheduler_.sleep_for(std::min(due - now, look_every));
+            co_await scheduler_.sleep_for(std::min(due - now, hear_every));
         if (goes_on() && drift_->recorder.zero_is_lost()) co_await close_drift(false, lost_zero);
         if (const auto why = journal_.failure(); why && goes_on())
             co_await close_drift(false, disk_in_words(*why));

@@ -4,6 +4,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/station/patience.hpp"
 #include "drivers/spawn.hpp"
 
 #include <utility>
@@ -11,7 +12,6 @@
 namespace axiscal {
 namespace {
 
-constexpr Duration look_every = std::chrono::milliseconds{20};
 constexpr double arcsec_per_degree = 3600;
 
 /// One reading, at one instant; a millimetre stands for a degree.

@@ -3,18 +3,13 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/station/patience.hpp"
 #include "drivers/spawn.hpp"
 
 #include <algorithm>
 #include <utility>
 
 namespace axiscal {
-namespace {
-
-constexpr Duration laser_limit = std::chrono::seconds{2}; // an older reading is no reading
-
-} // namespace
-
 Result<void> Station::run_may_be_revised() const {
     if (!run_ || !machine_) return fail(Fault::no_run_armed, "there is no run to add to");
     if (waiting_for_disk_)

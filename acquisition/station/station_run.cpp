@@ -4,6 +4,7 @@
 #include "acquisition/capture/capture.hpp"
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/station/patience.hpp"
 #include "drivers/spawn.hpp"
 
 #include <filesystem>
@@ -12,7 +13,6 @@
 namespace axiscal {
 namespace {
 
-constexpr Duration look_every = std::chrono::milliseconds{20}; // adds at most this to a capture
 constexpr Duration after_the_start = std::chrono::seconds{1};
 
 } // namespace

@@ -3,18 +3,13 @@
 
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/run/live_position.hpp"
+#include "acquisition/station/patience.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace axiscal {
-namespace {
-
-constexpr Duration laser_limit = std::chrono::seconds{2};
-
-} // namespace
-
 void Station::publish_to_port() {
     PortStatus status;
     status.state = port_state_;

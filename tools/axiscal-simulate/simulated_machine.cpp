@@ -24,8 +24,6 @@ double table_um(const std::vector<TablePoint>& table, double position_mm) {
 constexpr double settle_s = 0.01;
 /// A sample step below this is standing still: 1 nm, the print step of a position stream.
 constexpr double still_step_mm = 1.5e-6;
-/// Play of an axis without reversal error; only keeps the state of the operator defined.
-constexpr double least_play_mm = 1e-7;
 
 } // namespace
 

@@ -29,6 +29,8 @@ private:
     ErrorScenario errors_;
 };
 
+/// Play of an axis without lost motion; only keeps the state of the operator defined.
+inline constexpr double least_play_mm = 1e-7;
 /// Lost motion: the slide follows the drive only when the play is used up. Not thread-safe.
 /// State in [-1, 1]: -1 after a forward approach (the slide trails below), +1 after a backward one.
 class Play {

@@ -12,7 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t largest_text = std::size_t{64} << 20;
 constexpr std::size_t deepest_nesting = 64; // a case needs 5
 constexpr char marker = '\x01';             // cannot stand unescaped in a JSON string
 
@@ -162,7 +161,8 @@ std::string not_finite_token(const json& value) {
 }
 
 Result<CaseText> read_case_text(std::string_view text) {
-    if (text.size() > largest_text) return refuse(Fault::bad_case, "json", "is larger than 64 MiB");
+    if (text.size() > largest_case_bytes)
+        return refuse(Fault::bad_case, "json", "is larger than 64 MiB");
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     Builder builder;
     if (json::sax_parse(text, &builder)) return builder.take();

@@ -11,6 +11,9 @@
 
 namespace axiscal {
 
+/// 64 MiB: of a case, and of a table that it opens.
+inline constexpr std::size_t largest_case_bytes = std::size_t{64} << 20;
+
 struct CaseText {
     nlohmann::json document;
     /// Key that stands twice, by place in the top array (0 for a single object).

@@ -26,7 +26,7 @@ CaseVerdict verdict_of(const ConformanceOrder& order, const ConformanceCase& ask
     return answer ? judge_answer(asked, *answer) : judge_silence(asked, answer.error().detail);
 }
 
-int complain(const Error& error) {
+int tell_no_kit(const Error& error) {
     std::cerr << error.detail;
     if (error.cause) std::cerr << ": " << error.cause.message();
     std::cerr << "\n";
@@ -37,10 +37,10 @@ int complain(const Error& error) {
 
 int command_conformance(const ConformanceOrder& order, bool json) {
     const auto folder = find_conformance_folder(order.folder);
-    if (!folder) return complain(folder.error());
+    if (!folder) return tell_no_kit(folder.error());
     const auto kit = read_kit(*folder, order.only);
     if (!kit) {
-        complain(kit.error());
+        tell_no_kit(kit.error());
         return kit.error().fault == Fault::not_found ? exit_usage : exit_failed;
     }
     for (const std::string& complaint : kit->complaints)

@@ -15,6 +15,7 @@
 #include "acquisition/station/station_loader.hpp"
 #include "config/certificate_dates.hpp"
 #include "tools/axiscal/analyze_case.hpp"
+#include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <nlohmann/json.hpp>
@@ -54,11 +55,6 @@ bool is_run_file(const std::string& path) {
     std::string head(sqlite_magic.size(), '\0');
     return file.read(head.data(), static_cast<std::streamsize>(head.size())) &&
            head == sqlite_magic;
-}
-
-int complain(const Error& error) {
-    std::cerr << describe(error) << "\n";
-    return error.fault == Fault::io ? exit_failed : exit_refused;
 }
 
 int analyze_circular_run(const std::string& path) {

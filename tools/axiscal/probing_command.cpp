@@ -5,6 +5,7 @@
 #include "acquisition/publish/probing_document.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,11 +20,6 @@ namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-int complain(const Error& error) {
-    std::cerr << describe(error) << "\n";
-    return error.fault == Fault::io ? exit_failed : exit_refused;
-}
 
 Result<std::string> text_of_file(const std::string& path) {
     std::ifstream file{path, std::ios::binary};

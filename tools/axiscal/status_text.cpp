@@ -154,25 +154,25 @@ std::string outbox_text(const Json& outbox) {
 
 std::string instruments_text(const Json& instruments) {
     std::string text;
-    for (const Json& one : instruments) {
-        text += format("  %-10s %-12s %-11s", one.at("name").get<std::string>().c_str(),
-                       one.at("driver").get<std::string>().c_str(),
-                       one.at("state").get<std::string>().c_str());
-        const std::string who = one.at("model").get<std::string>() +
-                                (one.at("serial").get<std::string>().empty()
+    for (const Json& instrument : instruments) {
+        text += format("  %-10s %-12s %-11s", instrument.at("name").get<std::string>().c_str(),
+                       instrument.at("driver").get<std::string>().c_str(),
+                       instrument.at("state").get<std::string>().c_str());
+        const std::string who = instrument.at("model").get<std::string>() +
+                                (instrument.at("serial").get<std::string>().empty()
                                      ? ""
-                                     : " serial " + one.at("serial").get<std::string>());
+                                     : " serial " + instrument.at("serial").get<std::string>());
         text +=
             " " + who +
             format(
                 "  samples %llu, gaps %llu, bad frames %llu, checksum errors %llu, restarts %llu\n",
-                one.at("samples").get<unsigned long long>(),
-                one.at("gaps").get<unsigned long long>(),
-                one.at("bad_frames").get<unsigned long long>(),
-                one.at("checksum_errors").get<unsigned long long>(),
-                one.at("restarts").get<unsigned long long>());
-        if (!one.at("note").get<std::string>().empty())
-            text += "             " + one.at("note").get<std::string>() + "\n";
+                instrument.at("samples").get<unsigned long long>(),
+                instrument.at("gaps").get<unsigned long long>(),
+                instrument.at("bad_frames").get<unsigned long long>(),
+                instrument.at("checksum_errors").get<unsigned long long>(),
+                instrument.at("restarts").get<unsigned long long>());
+        if (!instrument.at("note").get<std::string>().empty())
+            text += "             " + instrument.at("note").get<std::string>() + "\n";
     }
     return text.empty() ? "  none configured\n" : text;
 }

@@ -6,8 +6,6 @@
 namespace axiscal {
 namespace {
 
-constexpr TextStyle note{7, false, grey};
-
 std::string cosine_words(const std::optional<CosineError>& found) {
     if (!found) return "not seen";
     std::string words =
@@ -52,7 +50,7 @@ void draw_alignment(Sheet& sheet, const std::optional<AlignmentRecord>& alignmen
     sheet.text("A beam at the angle γ reads D cos γ: short by D (1 − cos γ), never long. By the "
                "reading: highest − last at the far end, bounded by the scatter for the tilts that "
                "were steered through their maximum. By the return spot: tan γ = e / 2D.",
-               note);
+               note_style);
 }
 
 } // namespace axiscal

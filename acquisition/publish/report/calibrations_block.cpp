@@ -6,16 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace axiscal {
 namespace {
-
-std::string as_stated(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 /// Lengths in micrometres; the others as their readings are printed.
 std::string uncertainty_words(const ChannelCalibration& given, const ChannelRecord& channel) {

@@ -1,5 +1,6 @@
 #include "acquisition/publish/report/back_parts.hpp"
 #include "acquisition/publish/report/circular_pages.hpp"
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/circular_wording.hpp"
 
 #include <algorithm>
@@ -8,9 +9,6 @@
 
 namespace axiscal {
 namespace {
-
-constexpr TextStyle note{7, false, grey};
-constexpr double um_per_mm = 1e3;
 
 std::string or_not_stated(const std::optional<double>& value, const std::string& unit) {
     return value ? compact_number(*value) + unit : "not stated";
@@ -76,7 +74,7 @@ void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
     add_senses(fields, measured.test);
     sheet.heading("Test conditions", 180);
     sheet.fields(fields, 2);
-    sheet.text("All readings count, spikes at reversals included; a filter changes G.", note);
+    sheet.text("All readings count, spikes at reversals included; a filter changes G.", note_style);
 }
 
 std::string expansion_words(double alpha_per_K) {
@@ -105,7 +103,7 @@ void draw_temperatures(Sheet& sheet, const CircularCertificate& certificate) {
     sheet.fields(fields, 2);
     sheet.text("F and D at 20 °C = as read + L α (θ − 20 °C) of the bar − R α (θ − 20 °C) of the "
                "machine. G and G(b) do not feel it.",
-               note);
+               note_style);
 }
 
 /// @param circles  at least one
@@ -146,7 +144,7 @@ void draw_circles(Sheet& sheet, const CircularCertificate& certificate) {
     sheet.text("Path residual: time found from the begin to the end of the circle minus the "
                "programmed one, times the feed. " +
                    synchronisation_words(certificate.measured.run.circles),
-               note);
+               note_style);
 }
 
 double standard_deviation_of(const std::vector<double>& values, double mean) {
@@ -179,7 +177,7 @@ void draw_repeats(Sheet& sheet, const CircularCertificate& certificate) {
     sheet.heading("Repeats", 60);
     sheet.text("The certificate's figures are those of the mean circle: the repeats' readings "
                "averaged angle by angle. s: standard deviation over the repeats.",
-               note);
+               note_style);
     sheet.table(columns, rows, 7);
 }
 

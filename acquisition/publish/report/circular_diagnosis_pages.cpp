@@ -1,6 +1,7 @@
 // What the form comes from, for the person at the machine.
 
 #include "acquisition/publish/report/circular_pages.hpp"
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/circular_wording.hpp"
 #include "analysis/circular/cause_advice.hpp"
 
@@ -11,9 +12,6 @@ namespace axiscal {
 namespace {
 
 using circular::Cause;
-
-constexpr TextStyle note{7, false, grey};
-constexpr double um_per_mm = 1e3;
 
 std::string um_of(double mm) {
     return fixed(mm * um_per_mm, 2);
@@ -84,7 +82,7 @@ void draw_all_causes(Sheet& sheet, const CircularCertificate& certificate) {
                    (diagnosis.reversals_masked
                         ? " Readings within 4° of a reversal were left out of the fit."
                         : ""),
-               note);
+               note_style);
 }
 
 void draw_common_lag(Sheet& sheet, const CircularCertificate& certificate) {
@@ -96,7 +94,7 @@ void draw_common_lag(Sheet& sheet, const CircularCertificate& certificate) {
     if (lag->longest_s)
         words +=
             "; were all of it lag, the lag would be " + fixed(*lag->longest_s * 1e3, 2) + " ms";
-    sheet.text(words + ".", note);
+    sheet.text(words + ".", note_style);
 }
 
 void draw_reversals(Sheet& sheet, const CircularCertificate& certificate) {
@@ -153,7 +151,7 @@ void draw_circular_diagnosis(Sheet& sheet, const CircularCertificate& certificat
                                                                             : "one sense"} +
                    "; each alone would give the G that stands beside it. Contributions do not add "
                    "up. The largest first.",
-               note);
+               note_style);
     sheet.advance(3);
     draw_ranking(sheet, certificate);
     draw_all_causes(sheet, certificate);

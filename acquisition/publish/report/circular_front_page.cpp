@@ -10,8 +10,7 @@
 namespace axiscal {
 namespace {
 
-constexpr double plot_width = 300, column_gap = 12, legend_room = 40;
-constexpr TextStyle note{7, false, grey};
+constexpr double width_of_both_senses = 300, column_gap = 12, legend_of_both_senses = 40;
 constexpr Colour bar_colour{0.55, 0.62, 0.7};
 
 std::string senses_words(const CircularTest& test) {
@@ -99,7 +98,7 @@ std::string temperature_note(const CircularCertificate& certificate) {
 void draw_column(Canvas& canvas, PageBox column, const CircularCertificate& certificate) {
     double y = column.y + draw_figures(canvas, column, certificate) + 2;
     const auto tell = [&](const std::string& words) {
-        y += canvas.paragraph({column.x, y}, column.width, words, note).height + 2;
+        y += canvas.paragraph({column.x, y}, column.width, words, note_style).height + 2;
     };
     const bool external = certificate.measured.test.source == SignalSource::external;
     tell("G by the minimum zone" +
@@ -180,7 +179,7 @@ double height_below(Canvas& canvas, const CircularCertificate& certificate) {
                    : canvas.measure_paragraph(Sheet::width, words, {7.5, true}).height + 2;
     };
     const auto causes = static_cast<double>(largest_causes(certificate).size());
-    double height = legend_room + (causes > 0 ? bars_head + bar_row * causes : 0);
+    double height = legend_of_both_senses + (causes > 0 ? bars_head + bar_row * causes : 0);
     for (const std::string& words : notes_of(certificate))
         height += height_of(words);
     return height + 10;
@@ -200,7 +199,7 @@ std::vector<StatedField> draw_circular_front_page(Sheet& sheet,
     Canvas& canvas = sheet.canvas();
     constexpr double largest = 296;
     const double room = sheet.remaining() - signature_height - height_below(canvas, certificate);
-    const PageBox plot{Sheet::left, sheet.y(), plot_width, std::min(room, largest)};
+    const PageBox plot{Sheet::left, sheet.y(), width_of_both_senses, std::min(room, largest)};
     const PolarView view = polar_view_of_both(certificate);
     draw_polar_plot(canvas, plot, view);
     const double legend = draw_polar_legend(canvas, plot, view);

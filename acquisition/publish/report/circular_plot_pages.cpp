@@ -1,17 +1,15 @@
 // Each sense by itself, and the two little tables that stand beside its plot.
 
 #include "acquisition/publish/report/circular_pages.hpp"
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/circular_wording.hpp"
 #include "acquisition/publish/report/polar_plot.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace axiscal {
 namespace {
-
-constexpr double per_degree = 180 / std::numbers::pi;
 
 std::string pair_of(double x_mm, double y_mm, int decimals) {
     return micrometres(x_mm, decimals, true) + ", " + micrometres(y_mm, decimals, true) + " µm";
@@ -115,8 +113,9 @@ double draw_control_points(Canvas& canvas,
                         ", " + (outer ? "outer" : "inner"),
                     style);
         canvas.text({angle_right, y},
-                    fixed(folded_angle(trace->angle_rad[point.index]) * per_degree, 2) + "°", style,
-                    Align::right);
+                    fixed(folded_angle(trace->angle_rad[point.index]) * degrees_per_radian, 2) +
+                        "°",
+                    style, Align::right);
         canvas.text({column.right(), y},
                     micrometres(outer ? deviation.ring.outer_mm : deviation.ring.inner_mm,
                                 deviation_decimals(certificate) + 1, true),

@@ -1,6 +1,7 @@
 // The uncertainty budget of a circular test as a reader checks it. Micrometres.
 
 #include "acquisition/publish/report/circular_pages.hpp"
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/circular_wording.hpp"
 
 #include <algorithm>
@@ -9,12 +10,8 @@
 namespace axiscal {
 namespace {
 
-constexpr TextStyle note{7, false, grey};
-constexpr double um_per_mm = 1e3;
-constexpr int decimals_of_u = 3;
-
-std::string of_u(double u_mm) {
-    return fixed(u_mm * um_per_mm, decimals_of_u);
+std::string of_length(double u_mm) {
+    return uncertainty_on_paper(u_mm * um_per_mm);
 }
 
 struct TermOnPaper {
@@ -41,7 +38,7 @@ void draw_terms(Sheet& sheet, const CircularCertificate& certificate) {
             rows.push_back({term.name, certificate.needs(term.term) ? "not stated" : "not needed",
                             "–", term.counts, "–"});
         else
-            rows.push_back({term.name, of_u(known->u_mm), formula_on_paper(known->formula),
+            rows.push_back({term.name, of_length(known->u_mm), formula_on_paper(known->formula),
                             term.counts, known->status});
     }
     sheet.table({{"Term", "", Align::left},
@@ -60,9 +57,9 @@ void draw_figure_uncertainties(Sheet& sheet, const CircularCertificate& certific
             rows.push_back({line.symbol + " " + line.index, "not evaluated", "–", "–"});
             continue;
         }
-        rows.push_back({line.symbol + " " + line.index, of_u(known->u_mm),
-                        known->monte_carlo_u_mm ? of_u(*known->monte_carlo_u_mm) : "–",
-                        of_u(known->expanded_mm)});
+        rows.push_back({line.symbol + " " + line.index, of_length(known->u_mm),
+                        known->monte_carlo_u_mm ? of_length(*known->monte_carlo_u_mm) : "–",
+                        of_length(known->expanded_mm)});
     }
     sheet.table({{"Figure", "", Align::left},
                  {"u by formula", "µm"},
@@ -97,7 +94,7 @@ void draw_circular_uncertainty(Sheet& sheet, const CircularCertificate& certific
         words += " u simulated: " + std::to_string(budget->trials) +
                  " trials that disturb every reading and evaluate anew (JCGM 101); drift runs "
                  "along the trace there and comes out smaller.";
-    sheet.text(words, note);
+    sheet.text(words, note_style);
 }
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #include "acquisition/publish/report/circular_wording.hpp"
 
+#include "acquisition/publish/report/circular_units.hpp"
 #include "analysis/circular/circular_trials.hpp"
 
 #include <algorithm>
@@ -7,12 +8,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 namespace axiscal {
 namespace {
-
-constexpr double turn = 2 * std::numbers::pi, um_per_mm = 1e3;
 
 Sense sense_of(std::string_view key) {
     return key.ends_with("_ccw") ? Sense::ccw : Sense::cw;
@@ -62,13 +60,12 @@ std::string symbol_with_index(const std::string& key, const CircularCertificate&
 }
 
 std::string angle_words(double angle_rad) {
-    constexpr double per_degree = 360 / turn;
-    const double hundredths = std::round(folded_angle(angle_rad) * per_degree * 100);
+    const double hundredths = std::round(folded_angle(angle_rad) * degrees_per_radian * 100);
     return fixed(hundredths < 36000 ? hundredths / 100 : 0, 2) + "°"; // a whole turn less a bit
 }
 
 int quadrant_at(double angle_rad) {
-    return 1 + static_cast<int>(folded_angle(angle_rad) / (turn / 4));
+    return 1 + static_cast<int>(folded_angle(angle_rad) / (whole_turn_rad / 4));
 }
 
 } // namespace

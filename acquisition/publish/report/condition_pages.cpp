@@ -59,11 +59,6 @@ std::string expansion_words(const CompensationSummary& done) {
     return words + ", uncertainty not stated";
 }
 
-std::string refractivity_words(const CompensationSummary& done) {
-    return fixed(done.refractive_index_minus_1_first * 1e6, 3) + " → " +
-           fixed(done.refractive_index_minus_1_last * 1e6, 3) + " ×10\u207b\u2076";
-}
-
 void draw_compensation_summary(Sheet& sheet, const Certificate& certificate) {
     const CompensationSummary& done = certificate.compensation;
     const PaperUnits units = paper_units_of(certificate);
@@ -89,19 +84,18 @@ void draw_compensation_summary(Sheet& sheet, const Certificate& certificate) {
 
 void draw_formulas(Sheet& sheet, const Certificate& certificate) {
     const bool exact = certificate.compensation.expansion_form == "exact";
-    constexpr TextStyle note{7, false, grey};
     sheet.text("Displacement in air since the datum: D = (D\u1d65 − (n − n\u2080) L\u2080) / n / "
                "cos γ, with D\u1d65 the count times the vacuum wavelength over the passes of the "
                "beam, n\u2080 the index at the datum, tan γ = e / 2L for a return spot that walks "
                "by e over the travel L.",
-               note);
+               note_style);
     sheet.text(exact ? "Expansion, exact: D at 20 °C = D / (1 + α (T − 20 °C))."
                      : "Expansion, first order: D at 20 °C = D (1 − α (T − 20 °C)).",
-               note);
+               note_style);
     sheet.text("Position = datum ± D at 20 °C. Air and material are the means of their channels, "
                "interpolated at the time of each point. The compensation is applied once, here; "
                "none is applied by the instrument.",
-               note);
+               note_style);
 }
 
 /// Means over the approaches of one target and direction, before and after.

@@ -11,8 +11,6 @@
 namespace axiscal {
 namespace {
 
-constexpr TextStyle note{7, false, grey};
-
 std::string place_words(const RunDrift& drift) {
     return fixed(drift.setup.place.in(mm), 3) + " mm";
 }
@@ -91,12 +89,12 @@ void draw_rule(Sheet& sheet, const RunDrift& drift) {
                "as a run would have given it. ETVE: the same within an hour. Positive changes go "
                "towards + of the coordinate. What is left after the compensation is the "
                "environment's share: machine, set-up and sensors together.",
-               note);
+               note_style);
     const auto& times = drift.axis.times;
     if (times.back() - times.front() < drift.window_min)
         sheet.text("The test is shorter than " + fixed(drift.window_min, 0) +
                        " min: ETVE is the range of the whole test.",
-                   note);
+                   note_style);
     if (const std::string gaps = gaps_words(drift); !gaps.empty())
         sheet.text(gaps, {7.5, true, backward_vermilion});
 }
@@ -162,7 +160,7 @@ void draw_setup(Sheet& sheet, const DriftDocument& document) {
         "is carried to 20 °C as every point of a run is, air on the whole path from the "
         "interferometer (dead path included), material on the distance from the datum. "
         "Other channels are as last read in each interval.",
-        note);
+        note_style);
 }
 
 } // namespace

@@ -12,7 +12,7 @@ constexpr double seconds_a_minute = 60;
 constexpr double least_span_um = 0.05; ///< the plot never magnifies noise beyond this
 constexpr double room_of_figure = 62;  ///< right of the frame, for E_VE
 constexpr double room_of_times = 24;
-constexpr Stroke mark{grey, 0.7, true};
+constexpr Stroke dashed_grey{grey, 0.7, true};
 
 /// Where the lowest and the highest reading lie.
 struct Extremes {
@@ -32,7 +32,7 @@ Extremes extremes_of(const DriftSeries& axis, const PlotFrame& frame, double per
 void draw_figure(Canvas& canvas, const PlotFrame& frame, const Extremes& at, double range_um) {
     const double x = frame.box.right() + 9, tip = 3;
     for (const PagePoint& point : {at.low, at.high}) {
-        canvas.line(point, {x + 4, point.y}, mark);
+        canvas.line(point, {x + 4, point.y}, dashed_grey);
         canvas.dot(point, 1.6, backward_vermilion);
     }
     canvas.line({x, at.high.y}, {x, at.low.y}, {ink, 0.7});

@@ -1,16 +1,16 @@
 #include "acquisition/publish/report/polar_plot.hpp"
 
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/polar_signs.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace axiscal {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4, one_degree = turn / 360;
+constexpr double quarter = whole_turn_rad / 4;
 constexpr double rim_pt = 26; ///< around the plot: sense, start and end, names of the axes
 constexpr TextStyle ring_style{6}, mark_style{6.5, true}, axis_style{7.5, true};
 
@@ -19,7 +19,7 @@ PagePoint polar(PagePoint centre, double radius, double angle_rad) {
 }
 
 std::vector<PagePoint> arc(PagePoint centre, double radius, double from_rad, double to_rad) {
-    const int steps = std::max(2, static_cast<int>(std::fabs(to_rad - from_rad) / one_degree));
+    const int steps = std::max(2, static_cast<int>(std::fabs(to_rad - from_rad) / one_degree_rad));
     std::vector<PagePoint> points;
     points.reserve(static_cast<std::size_t>(steps) + 1);
     for (int i = 0; i <= steps; ++i)
@@ -142,8 +142,8 @@ void draw_zone(Canvas& canvas, const PolarPlace& place, const PolarView& view) {
     if (!view.zone) return;
     const double outer = place.scale.radius_pt(view.zone->outer_mm - view.base_mm);
     const double inner = place.scale.radius_pt(view.zone->inner_mm - view.base_mm);
-    std::vector<PagePoint> border = arc(place.centre, outer, 0, turn);
-    const std::vector<PagePoint> hole = arc(place.centre, inner, turn, 0);
+    std::vector<PagePoint> border = arc(place.centre, outer, 0, whole_turn_rad);
+    const std::vector<PagePoint> hole = arc(place.centre, inner, whole_turn_rad, 0);
     border.insert(border.end(), hole.begin(), hole.end());
     canvas.area(border, zone_tint, zone_opacity);
     canvas.ring(place.centre, outer, {ink, 0.5});
@@ -152,13 +152,13 @@ void draw_zone(Canvas& canvas, const PolarPlace& place, const PolarView& view) {
 
 /// Readings far apart are joined along the circle: a chord would cut inward.
 std::vector<PagePoint> line_through(const PolarPlace& place, const std::vector<PolarPoint>& piece) {
-    constexpr double longest = 2 * one_degree;
+    constexpr double longest = 2 * one_degree_rad;
     std::vector<PagePoint> line;
     line.reserve(piece.size());
     for (std::size_t i = 0; i < piece.size(); ++i) {
         const PolarPoint& to = piece[i];
         const PolarPoint& from = piece[i == 0 ? 0 : i - 1];
-        const double step = std::remainder(to.angle_rad - from.angle_rad, turn);
+        const double step = std::remainder(to.angle_rad - from.angle_rad, whole_turn_rad);
         const int parts = 1 + static_cast<int>(std::fabs(step) / longest);
         for (int part = 1; part <= parts; ++part) {
             const double share = static_cast<double>(part) / parts;
@@ -190,10 +190,11 @@ void draw_sense(Canvas& canvas,
                 const PolarPlace& place,
                 const PolarView& view,
                 const PolarTrace& trace) {
-    constexpr double shaft = 24 * one_degree, most_overshoot = 30 * one_degree, bar = 2;
+    constexpr double shaft = 24 * one_degree_rad, most_overshoot = 30 * one_degree_rad, bar = 2;
     const Colour colour = colour_of(trace.sense);
     const double radius = rim_of(place, view, trace), sign = sign_of(trace.sense);
-    const double overshoot = std::min(view.overshoot_deg.value_or(0) * one_degree, most_overshoot);
+    const double overshoot =
+        std::min(view.overshoot_deg.value_or(0) * one_degree_rad, most_overshoot);
     if (overshoot > 0) {
         canvas.polyline(
             arc(place.centre, radius, trace.start_rad - sign * overshoot, trace.start_rad),

@@ -1,5 +1,6 @@
 #include "acquisition/publish/report/polar_view.hpp"
 
+#include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/page.hpp"
 
 #include <algorithm>
@@ -12,12 +13,10 @@
 namespace axiscal {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi, one_degree = std::numbers::pi / 180;
-
 /// Difference of two angles within (-180, 180] deg.
 double difference(double from, double to) {
     const double d = folded_angle(to - from);
-    return d > std::numbers::pi ? d - turn : d;
+    return d > std::numbers::pi ? d - whole_turn_rad : d;
 }
 
 /// In the order driven where the angles tell one; by angle elsewhere.
@@ -46,7 +45,7 @@ double widest_step(const std::vector<PolarPoint>& points) {
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::ranges::nth_element(steps, middle);
     constexpr double slack = 1 + 1e-9; // even steps
-    return slack * std::max(5 * one_degree, 2 * *middle);
+    return slack * std::max(5 * one_degree_rad, 2 * *middle);
 }
 
 std::vector<std::vector<PolarPoint>> pieces_of(const std::vector<PolarPoint>& points) {
@@ -62,7 +61,7 @@ std::vector<std::vector<PolarPoint>> pieces_of(const std::vector<PolarPoint>& po
 
 /// First, least, greatest and last of each tenth of a degree, in their order.
 std::vector<PolarPoint> thinned(const std::vector<PolarPoint>& points) {
-    constexpr double bin = 0.1 * one_degree;
+    constexpr double bin = 0.1 * one_degree_rad;
     std::vector<PolarPoint> kept;
     std::size_t first = 0;
     while (first < points.size()) {

@@ -7,8 +7,6 @@
 namespace axiscal {
 namespace {
 
-constexpr TextStyle note{7, false, grey};
-
 std::string artefact_words(const RotarySetup& rotary) {
     const std::string positions = std::to_string(positions_of_a_turn(rotary));
     return rotary.method == AngleMethod::polygon
@@ -22,11 +20,6 @@ std::string deviation_words(const RotarySetup& rotary) {
     const auto [low, high] = std::ranges::minmax(rotary.deviations_arcsec);
     return fixed(low, 2) + "″ to " + fixed(high, 2) + "″, taken out; counted " +
            (rotary.certificate_with_axis ? "with" : "against") + " the axis";
-}
-
-std::string refractivity_words(const CompensationSummary& done) {
-    return fixed(done.refractive_index_minus_1_first * 1e6, 3) + " → " +
-           fixed(done.refractive_index_minus_1_last * 1e6, 3) + " ×10\u207b\u2076";
 }
 
 } // namespace
@@ -61,7 +54,7 @@ void draw_angle(Sheet& sheet, const Certificate& certificate) {
                 "typed the reading a: angle = k 360° / faces + a − (d(k) − d(0)) with the "
                 "certified deviation d(k) of face k. Nothing shows that the axis stood still, or "
                 "from which side it came. An angle does not expand: nothing was brought to 20 °C.",
-        note);
+        note_style);
 }
 
 } // namespace axiscal

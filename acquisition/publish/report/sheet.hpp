@@ -27,6 +27,9 @@ struct StatedField {
     std::string key, value;
 };
 
+/// Of what is said below a table, a plot or a set of fields.
+inline constexpr TextStyle note_style{7, false, grey};
+
 class Sheet {
 public:
     static constexpr double left = 18 * points_per_mm, right = page_width - 18 * points_per_mm;

@@ -5,24 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace axiscal {
 namespace {
-
-constexpr TextStyle note{7, false, grey};
-constexpr int decimals_of_u = 3; // of a micrometre
-
-std::string of_u(double u_um) {
-    return fixed(u_um, decimals_of_u);
-}
-
-/// A stated number with the digits that were stated.
-std::string as_stated(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 /// "0.7 µm/m" or "0.5 µm" as it was stated.
 std::string words_of(const DeviceLimit& limit) {
@@ -100,7 +85,7 @@ void draw_terms(Sheet& sheet, const Certificate& certificate) {
     for (const TermLine& line : term_lines(certificate)) {
         const Contribution* known = certificate.uncertainty.budget->find(line.term);
         if (known)
-            rows.push_back({line.name, line.stated, of_u(known->u),
+            rows.push_back({line.name, line.stated, uncertainty_on_paper(known->u),
                             formula_on_paper(known->formula), known->status});
         else
             rows.push_back({line.name, "not stated", "–", "–", "–"});
@@ -122,7 +107,7 @@ struct ParameterGroup {
 std::string simulated_u(const Certificate& certificate, const std::string& key) {
     const auto& simulation = certificate.uncertainty.simulation;
     const MonteCarloFigure* drawn = simulation ? simulation->find(key) : nullptr;
-    return drawn ? of_u(drawn->u * budget_units_per(certificate.result.unit)) : "–";
+    return drawn ? uncertainty_on_paper(drawn->u * budget_units_per(certificate.result.unit)) : "–";
 }
 
 /// Evaluated parameters; neighbours of one budget and one target share a line.
@@ -170,9 +155,10 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
     std::vector<TableRow> rows;
     for (const ParameterGroup& group : groups) {
         const ParameterUncertainty& figure = *group.figure;
-        TableRow row{group.symbols, of_u(figure.u), group.simulated, of_u(figure.expanded)};
+        TableRow row{group.symbols, uncertainty_on_paper(figure.u), group.simulated,
+                     uncertainty_on_paper(figure.expanded)};
         if (targets) {
-            row.push_back(group.target_um ? of_u(*group.target_um) : "–");
+            row.push_back(group.target_um ? uncertainty_on_paper(*group.target_um) : "–");
             const bool met = group.target_um && figure.expanded <= *group.target_um;
             row.emplace_back(!group.target_um ? "no target" : met ? "yes" : "NO");
         }
@@ -194,8 +180,8 @@ void draw_legend(Sheet& sheet, const Certificate& certificate) {
         words +=
             " u(R) of the source counts the repeatability of both directions as common; strict "
             "propagation would give " +
-            of_u(*both->strict_u) + " " + unit_of(certificate) + ".";
-    sheet.text(words, note);
+            uncertainty_on_paper(*both->strict_u) + " " + unit_of(certificate) + ".";
+    sheet.text(words, note_style);
 }
 
 /// What "u simulated" is, and by how much the formula of u(R) lies beside it.
@@ -215,7 +201,7 @@ void draw_simulation(Sheet& sheet, const Certificate& certificate) {
                  " % " + (*ratio >= 1 ? "above" : "below") + " the simulated one.";
     if (scatters_less_than_stated(certificate.result.parameters.R, *known.simulation))
         words += " The readings scatter less than the stated E_VE allows: look at E_VE.";
-    sheet.text(words, note);
+    sheet.text(words, note_style);
 }
 
 } // namespace

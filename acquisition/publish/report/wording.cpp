@@ -59,6 +59,16 @@ std::string stated(const std::string& text) {
     return empty ? "not stated" : text;
 }
 
+std::string as_stated(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+std::string uncertainty_on_paper(double uncertainty) {
+    return fixed(uncertainty, 3);
+}
+
 std::string readable_instant(const std::string& iso8601) {
     const bool instant = iso8601.size() == 20 && iso8601[10] == 'T' && iso8601.back() == 'Z';
     if (!instant) return stated(iso8601);
@@ -177,6 +187,11 @@ std::string synchronisation_words(const Certificate& certificate) {
         words += " Not stated for " + std::to_string(over.captures - over.stated) + " of " +
                  std::to_string(over.captures) + " captures.";
     return words;
+}
+
+std::string refractivity_words(const CompensationSummary& done) {
+    return fixed(done.refractive_index_minus_1_first * 1e6, 3) + " → " +
+           fixed(done.refractive_index_minus_1_last * 1e6, 3) + " ×10\u207b\u2076";
 }
 
 std::string air_formula_words(const std::string& name) {

@@ -15,6 +15,10 @@ std::string fixed(double value, int decimals);
 std::string fixed_up(double value, int decimals);
 /// The text, or "not stated" when a person left it empty.
 std::string stated(const std::string& text);
+/// A stated number with the digits that were stated, six at most.
+std::string as_stated(double value);
+/// A term or a result of a budget in micrometres, or in seconds of arc: three decimals.
+std::string uncertainty_on_paper(double uncertainty);
 /// "2026-01-02T08:15:03Z" becomes "2026-01-02 08:15:03 UTC"; other texts stay as they are.
 std::string readable_instant(const std::string& iso8601);
 
@@ -61,6 +65,8 @@ ChannelPaper paper_of(ChannelKind kind, Medium medium);
 /// nothing tells.
 std::string synchronisation_words(const Certificate& certificate);
 
+/// "271.375 → 271.402 ×10⁻⁶": n − 1 at the first and at the last point.
+std::string refractivity_words(const CompensationSummary& done);
 std::string air_formula_words(const std::string& name);
 std::string expansion_form_words(const std::string& name);
 

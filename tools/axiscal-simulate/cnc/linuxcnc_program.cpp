@@ -1,6 +1,7 @@
 #include "cnc/linuxcnc_program.hpp"
 
 #include "cnc/expression.hpp"
+#include "cnc/program_line.hpp"
 
 #include <cctype>
 #include <cmath>
@@ -13,10 +14,6 @@
 namespace axiscal::simulate {
 
 namespace {
-
-tl::unexpected<Error> at_line(int line, const std::string& reason) {
-    return fail(Fault::bad_request, "line " + std::to_string(line) + ": " + reason);
-}
 
 /// Tenths of the code, so that G61.1 is 611 and G1 is 10.
 using Codes = std::set<int>;

@@ -1,5 +1,7 @@
 #include "cnc/marlin_program.hpp"
 
+#include "cnc/program_line.hpp"
+
 #include <cctype>
 #include <charconv>
 #include <map>
@@ -8,10 +10,6 @@
 namespace axiscal::simulate {
 
 namespace {
-
-tl::unexpected<Error> at_line(int line, const std::string& reason) {
-    return fail(Fault::bad_request, "line " + std::to_string(line) + ": " + reason);
-}
 
 Result<std::map<char, double>> read_words(std::istringstream& text, int line) {
     std::map<char, double> words;

@@ -8,9 +8,6 @@
 namespace axiscal::simulate {
 
 namespace {
-/// Play of an axis without lost motion; only keeps the state of the operator defined.
-constexpr double least_play_mm = 1e-7;
-
 double play_mm(double backlash_um) {
     return std::max(backlash_um * 1e-3, least_play_mm);
 }

@@ -1,5 +1,7 @@
 #include "wire/ids_face.hpp"
 
+#include "wire/client_poll.hpp"
+
 #include <arpa/inet.h>
 #include <cerrno>
 #include <poll.h>
@@ -10,7 +12,6 @@ namespace axiscal::simulate {
 
 namespace {
 
-constexpr int poll_ms = 20;
 /// Noise is a function of the sample's number: a millisecond each.
 constexpr double samples_per_s = 1000;
 
@@ -95,7 +96,7 @@ void IdsFace::run(std::stop_token stop) {
         std::vector<pollfd> waits{{listener_, POLLIN, 0}};
         for (const auto& [socket, pending] : clients_)
             waits.push_back({socket, POLLIN, 0});
-        ::poll(waits.data(), waits.size(), poll_ms);
+        ::poll(waits.data(), waits.size(), client_poll_ms);
         if (waits[0].revents != 0)
             if (const int socket =
                     ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);

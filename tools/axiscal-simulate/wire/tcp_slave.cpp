@@ -1,5 +1,7 @@
 #include "wire/tcp_slave.hpp"
 
+#include "wire/client_poll.hpp"
+
 #include <arpa/inet.h>
 #include <cerrno>
 #include <netinet/in.h>
@@ -10,7 +12,6 @@
 namespace axiscal::simulate {
 
 namespace {
-constexpr int poll_ms = 20;
 constexpr std::size_t header_bytes = 7;
 /// MBAP length: unit and PDU of at most 253 bytes.
 constexpr std::size_t longest = 254;
@@ -85,7 +86,7 @@ void TcpSlave::run(const std::stop_token& stop, const std::function<void()>& idl
         std::vector<pollfd> waits{{listener_, POLLIN, 0}};
         for (const auto& [socket, pending] : clients_)
             waits.push_back({socket, POLLIN, 0});
-        ::poll(waits.data(), waits.size(), poll_ms);
+        ::poll(waits.data(), waits.size(), client_poll_ms);
         if (idle) idle();
         if (waits[0].revents != 0) accept_one();
         for (std::size_t i = 1; i < waits.size(); ++i)

@@ -20,7 +20,7 @@ constexpr std::array models{NamedModel{"ciddor", AirModel::ciddor},
                             NamedModel{"birch_downs", AirModel::birch_downs},
                             NamedModel{"bonsch_potulski", AirModel::bonsch_potulski}};
 
-Result<NamedModel> model_of(const json& object) {
+Result<NamedModel> air_model_of(const json& object) {
     Words names;
     for (const NamedModel& model : models)
         names.emplace_back(model.name);
@@ -67,7 +67,7 @@ Result<ordered_json> air_index_case(const json& object) {
                                {"analysis", "model", "vacuum_wavelength_nm", "temperature_degC",
                                 "pressure_Pa", "relative_humidity_percent", "vapour_pressure_Pa",
                                 "co2_ppm", "saturation"}));
-    AXISCAL_TRY(const NamedModel named, model_of(object));
+    AXISCAL_TRY(const NamedModel named, air_model_of(object));
     AXISCAL_TRY(const AirConditions air, conditions_of(object));
     AXISCAL_TRY(const AirIndex index, air_index_of(named.model, air));
     ordered_json answer;

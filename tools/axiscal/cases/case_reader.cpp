@@ -100,6 +100,14 @@ Result<double> number_at(const json& object, const std::string& key, const std::
     return number_of(*value, field);
 }
 
+Result<double> positive_at(const json& object, const std::string& key, const std::string& field) {
+    constexpr double largest_magnitude = 1e12; // beyond any machine in any unit
+    AXISCAL_TRY(const double number, number_at(object, key, field));
+    if (!(number > 0) || number > largest_magnitude)
+        return refuse(Fault::bad_case, field, "must be greater than 0 and at most 1e12");
+    return number;
+}
+
 Result<double>
 number_or(const json& object, const std::string& key, const std::string& field, double missing) {
     return object.contains(key) ? number_at(object, key, field) : Result<double>{missing};

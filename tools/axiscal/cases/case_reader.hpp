@@ -40,6 +40,10 @@ Result<double> number_of(const nlohmann::json& value, const std::string& field);
 Result<double>
 number_at(const nlohmann::json& object, const std::string& key, const std::string& field);
 
+/// The number under `key`, greater than 0 and at most 1e12.
+Result<double>
+positive_at(const nlohmann::json& object, const std::string& key, const std::string& field);
+
 /// The number under `key`, or `missing` where the key does not stand.
 Result<double> number_or(const nlohmann::json& object,
                          const std::string& key,

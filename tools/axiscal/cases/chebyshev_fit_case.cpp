@@ -18,7 +18,7 @@ struct Case {
     AxisRange range;
 };
 
-Result<Case> case_of(const json& object) {
+Result<Case> stated_fit(const json& object) {
     AXISCAL_CHECK(check_object(object, "", {"analysis", "x", "y", "degree", "range"}));
     Case stated;
     AXISCAL_TRY(stated.x, numbers_at(object, "x", "x"));
@@ -42,7 +42,7 @@ Result<Case> case_of(const json& object) {
 } // namespace
 
 Result<ordered_json> chebyshev_fit_case(const json& object) {
-    AXISCAL_TRY(const Case stated, case_of(object));
+    AXISCAL_TRY(const Case stated, stated_fit(object));
     AXISCAL_TRY(const ChebyshevFit fit,
                 fit_chebyshev(stated.x, stated.y, stated.degree, stated.range));
     ordered_json out;

@@ -70,7 +70,7 @@ span_of(const json& object, const std::string& key, const std::string& field, do
     return span;
 }
 
-Result<DriftCase> case_of(const json& object) {
+Result<DriftCase> stated_drift(const json& object) {
     const Words of_temperature{"name",
                                "time_min",
                                "readings",
@@ -235,7 +235,7 @@ Result<ordered_json> drift_case(const json& object) {
     if (object.contains("unit") || object.contains("channels")) {
         AXISCAL_TRY(unit, one_of(object, "unit", "unit", {"um", "mm", "nm"}));
     }
-    AXISCAL_TRY(const DriftCase stated, case_of(object));
+    AXISCAL_TRY(const DriftCase stated, stated_drift(object));
     ordered_json answer;
     answer["format"] = "axiscal.result/1";
     answer["unit"] = unit;
@@ -252,9 +252,10 @@ Result<ordered_json> drift_case(const json& object) {
     const double unit_mm = unit == "mm" ? 1 : unit == "um" ? 1e-3 : 1e-6;
     AXISCAL_CHECK(add_tilts(object, stated, unit_mm, answer));
     for (std::size_t i = 0; i < stated.temperatures.size(); ++i) {
-        AXISCAL_TRY(auto one, temperature_json(object.at("temperatures")[i],
-                                               indexed("temperatures", i), stated.temperatures[i]));
-        answer["temperatures"].push_back(std::move(one));
+        AXISCAL_TRY(auto figures,
+                    temperature_json(object.at("temperatures")[i], indexed("temperatures", i),
+                                     stated.temperatures[i]));
+        answer["temperatures"].push_back(std::move(figures));
     }
     return answer;
 }

@@ -13,13 +13,13 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-const std::string field_prefix = "uncertainty.monte_carlo.";
+const std::string simulation_field_prefix = "uncertainty.monte_carlo.";
 
 /// Whole numbers that a double holds exactly.
 Result<double> whole_at(const json& member, const std::string& key, double least, double most) {
-    AXISCAL_TRY(const double number, number_at(member, key, field_prefix + key));
+    AXISCAL_TRY(const double number, number_at(member, key, simulation_field_prefix + key));
     if (number >= least && number <= most && number == std::floor(number)) return number;
-    return refuse(Fault::bad_case, field_prefix + key,
+    return refuse(Fault::bad_case, simulation_field_prefix + key,
                   "must be a whole number from " + std::to_string(static_cast<long long>(least)) +
                       " to " + std::to_string(static_cast<long long>(most)));
 }
@@ -54,7 +54,7 @@ Result<void> add_monte_carlo(ordered_json& document,
     const auto simulated = simulate_sessions(
         run, result, session_errors(budget, budget_units_per(result.unit)), request);
     if (!simulated)
-        return refuse(Fault::bad_case, field_prefix + simulated.error().field,
+        return refuse(Fault::bad_case, simulation_field_prefix + simulated.error().field,
                       simulated.error().detail);
     add_simulation_json(document, *simulated, budget, result.unit);
     return {};

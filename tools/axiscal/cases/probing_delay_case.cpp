@@ -66,7 +66,7 @@ Result<ProbingSeries> series_of(const json& object, const std::string& field) {
     return series;
 }
 
-Result<ProbingDelayCase> case_of(const json& object) {
+Result<ProbingDelayCase> stated_probing(const json& object) {
     AXISCAL_CHECK(
         check_object(object, "", {"analysis", "feed_mm_per_min", "series", "required_touches"}));
     ProbingDelayCase stated;
@@ -122,7 +122,7 @@ ordered_json series_to_json(const ProbingDelay& result) {
 } // namespace
 
 Result<ordered_json> probing_delay_case(const json& object) {
-    AXISCAL_TRY(const ProbingDelayCase stated, case_of(object));
+    AXISCAL_TRY(const ProbingDelayCase stated, stated_probing(object));
     AXISCAL_TRY(const auto results, evaluate_probing_delay(stated));
     ordered_json out;
     out["format"] = "axiscal.result/1";

@@ -117,7 +117,7 @@ Result<void> subtract_quasi_static(const json& object, SeparationCase& stated) {
     return {};
 }
 
-Result<SeparationCase> case_of(const json& object) {
+Result<SeparationCase> stated_separation(const json& object) {
     AXISCAL_CHECK(
         check_object(object, "",
                      {"analysis", "workpiece", "basis", "order", "max_order", "constant", "signs",
@@ -135,7 +135,7 @@ Result<SeparationCase> case_of(const json& object) {
 
 Result<ordered_json> three_axes(const json& object) {
     AXISCAL_TRY(const StatedOrders orders, orders_of(object));
-    AXISCAL_TRY(SeparationCase stated, case_of(object));
+    AXISCAL_TRY(SeparationCase stated, stated_separation(object));
     if (orders.highest) {
         AXISCAL_TRY(stated.model.orders, choose_orders(stated, *orders.highest));
     } else {

@@ -11,7 +11,6 @@
 namespace axiscal {
 namespace {
 
-constexpr std::size_t largest_text = std::size_t{64} << 20; // as of a case
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 tl::unexpected<Error> refuse_line(std::size_t line, std::string reason) {
@@ -193,7 +192,7 @@ bool is_measurements_csv(std::string_view text) {
 }
 
 Result<std::vector<MeasuredPoint>> read_measurements_csv(std::string_view text) {
-    if (text.size() > largest_text) return refuse_line(1, "opens a table larger than 64 MiB");
+    if (text.size() > largest_case_bytes) return refuse_line(1, "opens a table larger than 64 MiB");
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     std::size_t line = 0;
     const auto header = cells_of(next_line(text, line));

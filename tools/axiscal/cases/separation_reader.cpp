@@ -69,9 +69,9 @@ Result<StatedOrders> orders_of(const json& object) {
     const json five = 5;
     const json& order = object.contains("order") ? object.at("order") : five;
     if (!order.is_array()) {
-        AXISCAL_TRY(const std::size_t one, order_of(order, "order"));
+        AXISCAL_TRY(const std::size_t of_all, order_of(order, "order"));
         for (auto& row : stated.orders)
-            row.fill(one);
+            row.fill(of_all);
         return stated;
     }
     const bool by_row = order.size() == 3 && order[0].is_array();

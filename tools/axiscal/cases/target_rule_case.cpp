@@ -10,14 +10,10 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double largest_magnitude = 1e12;
-
 Result<std::optional<double>>
 scaled_or_none(const json& object, const std::string& key, double scale) {
     if (!object.contains(key)) return std::optional<double>{};
-    AXISCAL_TRY(const double number, number_at(object, key, key));
-    if (!(number > 0) || number > largest_magnitude)
-        return refuse(Fault::bad_case, key, "must be greater than 0 and at most 1e12");
+    AXISCAL_TRY(const double number, positive_at(object, key, key));
     return std::optional<double>{number * scale};
 }
 

@@ -9,8 +9,6 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double largest_magnitude = 1e12;
-
 /// Every parameter of every standard here.
 constexpr std::array<std::string_view, 31> judged_parameters{"A",
                                                              "A_forward",
@@ -43,13 +41,6 @@ constexpr std::array<std::string_view, 31> judged_parameters{"A",
                                                              "repeatability_forward",
                                                              "repeatability_backward",
                                                              "positioning"};
-
-Result<double> positive_at(const json& object, const std::string& key, const std::string& field) {
-    AXISCAL_TRY(const double number, number_at(object, key, field));
-    if (!(number > 0) || number > largest_magnitude)
-        return refuse(Fault::bad_case, field, "must be greater than 0 and at most 1e12");
-    return number;
-}
 
 /// From one unit to another; the quotient of powers of ten is taken so that 22 um are 0.022 mm.
 double converted(double value, const std::string& from, const std::string& to) {

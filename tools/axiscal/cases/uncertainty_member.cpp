@@ -66,7 +66,7 @@ Result<void> check_units(const json& member, AxisKind kind) {
     return {};
 }
 
-Result<int> approaches_of(const json& member) {
+Result<int> budget_approaches_of(const json& member) {
     constexpr double most = 1e6;
     const std::string field = field_prefix + "n";
     AXISCAL_TRY(const double n, number_at(member, "n", field));
@@ -115,7 +115,7 @@ Result<UncertaintyMember> uncertainty_member(const json& member, AxisKind kind) 
             *place = value * factor;
         }
     if (member.contains("n")) {
-        AXISCAL_TRY(out.approaches, approaches_of(member));
+        AXISCAL_TRY(out.approaches, budget_approaches_of(member));
     }
     if (member.contains("eve_model")) {
         AXISCAL_TRY(const std::string model, one_of(member, "eve_model", field_prefix + "eve_model",

@@ -25,15 +25,6 @@ namespace {
 
 constexpr double longest_look_s = 0.02;
 
-Result<double> number(const UsbWish& wish, const std::string& name, const std::string& otherwise) {
-    const std::string text = wish.text(name, otherwise);
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0')
-        return fail(Fault::bad_request, name + "=" + text + " is no number");
-    return value;
-}
-
 Result<int> open_socket(const std::string& interface) {
     const int handle = ::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     sockaddr_can address{};
@@ -68,12 +59,12 @@ CanBus::~CanBus() {
 }
 
 Result<CanBus::Device> CanBus::make_device(const UsbWish& wish, const UsbWorld& world) {
-    AXISCAL_TRY(const double node, number(wish, "node", wish.kind == "cantrans" ? "125" : "127"));
+    AXISCAL_TRY(const double node, wish.number("node", wish.kind == "cantrans" ? "125" : "127"));
     if (!(node >= 1 && node <= 127)) return fail(Fault::bad_request, "node is 1 to 127");
-    AXISCAL_TRY(const double mm, number(wish, "mm", "0"));
-    AXISCAL_TRY(const double swing_mm, number(wish, "swing_mm", "0"));
-    AXISCAL_TRY(const double period_s, number(wish, "period_s", "10"));
-    AXISCAL_TRY(const double offset_k, number(wish, "offset_k", "0"));
+    AXISCAL_TRY(const double mm, wish.number("mm", "0"));
+    AXISCAL_TRY(const double swing_mm, wish.number("swing_mm", "0"));
+    AXISCAL_TRY(const double period_s, wish.number("period_s", "10"));
+    AXISCAL_TRY(const double offset_k, wish.number("offset_k", "0"));
     Device device{wish.text("called", wish.kind), wish.kind, nullptr,
                   std::make_shared<std::atomic<bool>>(false)};
     auto faulty = [flag = device.faulty](double) { return flag->load() ? 1 : 0; };

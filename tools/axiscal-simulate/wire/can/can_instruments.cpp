@@ -6,13 +6,6 @@ namespace axiscal::simulate {
 
 namespace {
 
-CanNode::Bytes little(std::int64_t value, int bytes) {
-    CanNode::Bytes out;
-    for (int at = 0; at < bytes; ++at)
-        out.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * at)));
-    return out;
-}
-
 /// Objects that every node has (CiA 301).
 void put_identity(CanNode& node,
                   std::uint32_t device_type,
@@ -41,10 +34,11 @@ std::unique_ptr<CanNode> make_cantrans(int number, const CanTransWorld& world) {
     node->put_number(0x6132, 0, 1, 1);
     node->put_number(0x6132, 1, 2, 1);
     node->put_measured(0x9130, 1, [celsius = world.celsius](double seconds) {
-        return little(std::lround(celsius(seconds) * 100), 4);
+        return low_byte_first(std::lround(celsius(seconds) * 100), 4);
     });
-    node->put_measured(
-        0x6150, 1, [status = world.status](double seconds) { return little(status(seconds), 1); });
+    node->put_measured(0x6150, 1, [status = world.status](double seconds) {
+        return low_byte_first(status(seconds), 1);
+    });
     node->put_tpdo(1, 0x180 + n, 0xFF, 0, {0x91300120, 0x61500108});
     return node;
 }
@@ -62,14 +56,16 @@ std::unique_ptr<CanNode> make_temposonics(int number, const TemposonicsWorld& wo
     auto steps = [world](double seconds) {
         return std::llround(world.metres(seconds) * 1e9 / world.step_nm);
     };
-    node->put_measured(0x6020, 1, [steps](double seconds) { return little(steps(seconds), 4); });
+    node->put_measured(0x6020, 1,
+                       [steps](double seconds) { return low_byte_first(steps(seconds), 4); });
     node->put_measured(0x6030, 1, [metres = world.metres](double seconds) {
         constexpr double look_s = 1e-3; // velocity in mm/s
         const double speed = (metres(seconds) - metres(seconds - look_s)) / look_s * 1e3;
-        return little(std::lround(speed), 2);
+        return low_byte_first(std::lround(speed), 2);
     });
-    node->put_measured(0x6400, 1,
-                       [area = world.area](double seconds) { return little(area(seconds), 1); });
+    node->put_measured(0x6400, 1, [area = world.area](double seconds) {
+        return low_byte_first(area(seconds), 1);
+    });
     node->put_tpdo(1, 0x180 + n, 0xFE, 1, {0x60200120, 0x60300110, 0x64000108});
     return node;
 }

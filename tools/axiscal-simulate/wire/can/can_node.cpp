@@ -13,17 +13,17 @@ constexpr double forgotten_s = 0.02; ///< what was due longer ago is never sent
 constexpr std::uint32_t no_object = 0x06020000, no_sub = 0x06090011, read_only = 0x06010002,
                         wrong_length = 0x06070010, unknown_command = 0x05040001;
 
-CanNode::Bytes little(std::uint32_t value, int bytes) {
+} // namespace
+
+CanNode::Bytes low_byte_first(std::int64_t value, int bytes) {
     CanNode::Bytes out;
     for (int at = 0; at < bytes; ++at)
-        out.push_back(static_cast<std::uint8_t>(value >> (8 * at)));
+        out.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * at)));
     return out;
 }
 
-} // namespace
-
 void CanNode::put_number(int index, int sub, std::uint32_t value, int bytes, bool writable) {
-    objects_[{index, sub}] = {little(value, bytes), {}, writable};
+    objects_[{index, sub}] = {low_byte_first(value, bytes), {}, writable};
 }
 
 void CanNode::put_text(int index, int sub, const std::string& text) {
@@ -103,7 +103,7 @@ CanNode::Bytes CanNode::content(const Object& object, double now_s) const {
 }
 
 void CanNode::tell_emergency(std::uint16_t code, std::uint8_t error_register, const Bytes& maker) {
-    Bytes bytes = little(code, 2);
+    Bytes bytes = low_byte_first(code, 2);
     bytes.push_back(error_register);
     bytes.insert(bytes.end(), maker.begin(), maker.end());
     bytes.resize(8);
@@ -144,7 +144,7 @@ CanMessage CanNode::answer(Bytes bytes) const {
 CanMessage CanNode::abort(Key key, std::uint32_t code) const {
     Bytes bytes{0x80, static_cast<std::uint8_t>(key.first),
                 static_cast<std::uint8_t>(key.first >> 8), static_cast<std::uint8_t>(key.second)};
-    const Bytes reason = little(code, 4);
+    const Bytes reason = low_byte_first(code, 4);
     bytes.insert(bytes.end(), reason.begin(), reason.end());
     return answer(bytes);
 }
@@ -175,7 +175,7 @@ CanMessage CanNode::begin_upload(Key key, double now_s) {
     }
     upload_ = {bytes, 0, 0};
     reply[0] = 0x41;
-    const Bytes size = little(static_cast<std::uint32_t>(bytes.size()), 4);
+    const Bytes size = low_byte_first(static_cast<std::uint32_t>(bytes.size()), 4);
     reply.insert(reply.end(), size.begin(), size.end());
     return answer(reply);
 }

@@ -96,4 +96,7 @@ private:
     std::uint64_t pdos_sent_ = 0, pdos_skipped_ = 0;
 };
 
+/// The lowest `bytes` (0 to 8) of a number as the bus carries them; negative: two's complement.
+CanNode::Bytes low_byte_first(std::int64_t value, int bytes);
+
 } // namespace axiscal::simulate

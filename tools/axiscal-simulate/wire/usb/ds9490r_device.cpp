@@ -9,7 +9,11 @@ namespace axiscal::simulate {
 
 namespace {
 
-enum Request : std::uint8_t { control_command = 0, communication_command = 1, mode_command = 2 };
+enum ChipRequest : std::uint8_t {
+    control_command = 0,
+    communication_command = 1,
+    mode_command = 2
+};
 enum ControlCommand : std::uint16_t {
     reset_device = 0,
     flush_communication = 7,

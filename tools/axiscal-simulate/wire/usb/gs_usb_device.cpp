@@ -6,7 +6,14 @@
 namespace axiscal::simulate {
 namespace {
 
-enum Request : std::uint8_t { host_format = 0, bit_timing, mode, berr, limits, configuration };
+enum AdapterRequest : std::uint8_t {
+    host_format = 0,
+    bit_timing,
+    mode,
+    berr,
+    limits,
+    configuration
+};
 constexpr std::uint32_t from_bus = 0xFFFFFFFF; ///< echo id of a frame that the host did not send
 constexpr std::uint32_t error_flag = 0x20000000, bus_off_class = 0x40, long_id_flag = 0x80000000,
                         remote_flag = 0x40000000;

@@ -7,14 +7,14 @@
 namespace axiscal::simulate {
 namespace {
 
-using Command = std::span<const std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
 
 std::uint8_t folded(unsigned sum) {
     sum = (sum >> 8) + (sum & 0xFFU);
     return static_cast<std::uint8_t>((sum >> 8) + (sum & 0xFFU));
 }
 
-unsigned total(Command bytes) {
+unsigned total(ByteView bytes) {
     unsigned sum = 0;
     for (const std::uint8_t byte : bytes)
         sum += byte;
@@ -27,14 +27,14 @@ std::uint8_t low(std::uint64_t number, int byte = 0) {
 
 /// Checksums of an extended frame, whose other bytes stand already.
 Bytes closed(Bytes frame) {
-    const unsigned sum = total(Command{frame}.subspan(6));
+    const unsigned sum = total(ByteView{frame}.subspan(6));
     frame[4] = low(sum);
     frame[5] = low(sum, 1);
-    frame[0] = folded(total(Command{frame}.subspan(1, 5)));
+    frame[0] = folded(total(ByteView{frame}.subspan(1, 5)));
     return frame;
 }
 
-bool sound(Command frame) {
+bool sound(ByteView frame) {
     if (frame.size() < 2) return false;
     if (frame.size() == 2) return frame[0] == folded(frame[1]);
     return frame.size() >= 8 && closed(Bytes(frame.begin(), frame.end()))[0] == frame[0] &&
@@ -105,7 +105,7 @@ void U6Device::answer_config() {
     replies_.push_back(closed(std::move(frame)));
 }
 
-void U6Device::answer_memory(Command command) {
+void U6Device::answer_memory(ByteView command) {
     const int block = command[7];
     Bytes frame = reply_frame(17, 0x2D);
     for (int i = 0; i < 4; ++i)
@@ -114,7 +114,7 @@ void U6Device::answer_memory(Command command) {
 }
 
 /// StreamConfig: one channel, 4 MHz.
-void U6Device::configure(Command command) {
+void U6Device::configure(ByteView command) {
     Bytes frame = reply_frame(1, 0x11);
     const bool one_channel = command.size() == 16 && command[6] == 1;
     if (streaming_)
@@ -132,7 +132,7 @@ void U6Device::configure(Command command) {
 void U6Device::start_or_stop(bool start) {
     Bytes reply{0, static_cast<std::uint8_t>(start ? 0xA9 : 0xB1), 0, 0};
     if (streaming_ == start) reply[2] = start ? 48 : 52; // active already, or not running
-    reply[0] = folded(total(Command{reply}.subspan(1)));
+    reply[0] = folded(total(ByteView{reply}.subspan(1)));
     replies_.push_back(std::move(reply));
     streaming_ = start;
     overflowed_ = false;
@@ -140,7 +140,7 @@ void U6Device::start_or_stop(bool start) {
     next_scan_ = packets_ = 0;
 }
 
-UsbAnswer U6Device::out(std::uint8_t endpoint, Command data) {
+UsbAnswer U6Device::out(std::uint8_t endpoint, ByteView data) {
     if (endpoint != 1) return UsbAnswer::stall();
     if (!sound(data))
         replies_.push_back({0xB8, 0xB8}); // bad checksum

@@ -9,22 +9,9 @@
 #include "wire/usb/usbtenki_device.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 namespace axiscal::simulate {
-namespace {
-
-Result<double> number(const UsbWish& wish, const std::string& name, const std::string& otherwise) {
-    const std::string text = wish.text(name, otherwise);
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0')
-        return fail(Fault::bad_request, name + "=" + text + " is no number");
-    return value;
-}
-
-} // namespace
 
 Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbWorld& world) {
     auto air = [air = world.scenario.air, clock = world.clock] {
@@ -34,10 +21,10 @@ Result<std::unique_ptr<UsbDevice>> make_usbtenki(const UsbWish& wish, const UsbW
 }
 
 Result<std::unique_ptr<UsbDevice>> make_labjack_u6(const UsbWish& wish, const UsbWorld& world) {
-    AXISCAL_TRY(const double serial, number(wish, "serial", "470012345"));
-    AXISCAL_TRY(const double volts, number(wish, "volts", "0"));
-    AXISCAL_TRY(const double swing, number(wish, "swing", "0"));
-    AXISCAL_TRY(const double period_s, number(wish, "period_s", "10"));
+    AXISCAL_TRY(const double serial, wish.number("serial", "470012345"));
+    AXISCAL_TRY(const double volts, wish.number("volts", "0"));
+    AXISCAL_TRY(const double swing, wish.number("swing", "0"));
+    AXISCAL_TRY(const double period_s, wish.number("period_s", "10"));
     if (!(serial >= 0 && serial < 4294967296.0) || !(period_s > 0))
         return fail(Fault::bad_request, "serial is a number of 32 bits, period_s above 0");
     U6Device::World seen;
@@ -62,7 +49,7 @@ Result<std::unique_ptr<UsbDevice>> make_temper(const UsbWish& wish, const UsbWor
 }
 
 Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWorld& world) {
-    AXISCAL_TRY(const double mm, number(wish, "mm", "1"));
+    AXISCAL_TRY(const double mm, wish.number("mm", "1"));
     const auto none = [](double) { return 0; };
     const CanTransWorld warm{[thermal = world.scenario.thermal](double seconds) {
                                  return material_at(thermal, seconds).in_celsius();
@@ -82,8 +69,8 @@ Result<std::unique_ptr<UsbDevice>> make_gs_usb(const UsbWish& wish, const UsbWor
 }
 
 Result<std::unique_ptr<UsbDevice>> make_ds9490r(const UsbWish& wish, const UsbWorld& world) {
-    AXISCAL_TRY(const double sensors, number(wish, "sensors", "2"));
-    AXISCAL_TRY(const double bits, number(wish, "bits", "12"));
+    AXISCAL_TRY(const double sensors, wish.number("sensors", "2"));
+    AXISCAL_TRY(const double bits, wish.number("bits", "12"));
     if (!(sensors >= 1 && sensors <= 8) || !(bits >= 9 && bits <= 12))
         return fail(Fault::bad_request, "sensors are 1 to 8, bits 9 to 12");
     auto bus = std::make_unique<OneWireBus>();

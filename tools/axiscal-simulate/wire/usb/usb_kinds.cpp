@@ -27,6 +27,15 @@ std::string UsbWish::text(const std::string& name, const std::string& otherwise)
     return found == settings.end() ? otherwise : found->second;
 }
 
+Result<double> UsbWish::number(const std::string& name, const std::string& otherwise) const {
+    const std::string wished = text(name, otherwise);
+    char* end = nullptr;
+    const double value = std::strtod(wished.c_str(), &end);
+    if (wished.empty() || *end != '\0')
+        return fail(Fault::bad_request, name + "=" + wished + " is no number");
+    return value;
+}
+
 std::uint16_t UsbWish::hexadecimal(const std::string& name, std::uint16_t otherwise) const {
     const std::string number = text(name, "");
     if (number.empty()) return otherwise;

@@ -16,7 +16,10 @@ struct UsbWish {
     std::map<std::string, std::string> settings; ///< serial, behind, and what the kind knows
     /// The setting's text, or `otherwise`.
     [[nodiscard]] std::string text(const std::string& name, const std::string& otherwise) const;
-    /// The same for a number as `lsusb` shows it, 16c0; no number reads as 0.
+    /// The setting as a number, 12 or 0.5. @errors bad_request naming a text that is none.
+    [[nodiscard]] Result<double> number(const std::string& name,
+                                        const std::string& otherwise) const;
+    /// The setting as a number as `lsusb` shows it, 16c0; no number reads as 0.
     [[nodiscard]] std::uint16_t hexadecimal(const std::string& name, std::uint16_t otherwise) const;
 };
 /// @errors bad_request naming the part that is no name=value.

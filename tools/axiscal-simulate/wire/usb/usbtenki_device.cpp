@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<std::uint8_t, 4> chips{0x15, 0x16, 0x20, 0x19}; // P, its T, SHT31 T, SHT31 RH
 constexpr double two_to_21 = 2097152, two_to_23 = 8388608, two_to_31 = 2147483648;
 
-std::uint32_t rounded(double value, double highest) {
+std::uint32_t rounded_count(double value, double highest) {
     return static_cast<std::uint32_t>(std::clamp(std::round(value), 0.0, highest));
 }
 
@@ -58,7 +58,7 @@ Ms5611Counts ms5611_counts(double pressure_Pa, double temperature_degC, const Ms
         sensitivity -= 1.25 * (first - 2000) * (first - 2000) + 5.5 * cold * cold;
     }
     const double d1 = (pressure_Pa * 32768 + offset) * two_to_21 / sensitivity;
-    return {rounded(d1, 0xFFFFFF), rounded(dt + c[4] * 256.0, 0xFFFFFF)};
+    return {rounded_count(d1, 0xFFFFFF), rounded_count(dt + c[4] * 256.0, 0xFFFFFF)};
 }
 
 UsbTenkiDevice::UsbTenkiDevice(std::string serial, std::function<TrueAir()> air)
@@ -80,8 +80,8 @@ Bytes UsbTenkiDevice::raw(int channel) const {
     switch (channel) {
     case 0: append_little24(bytes, counts.d1); [[fallthrough]];
     case 1: append_little24(bytes, counts.d2); return bytes;
-    case 2: return big_word(rounded((temperature_degC + 45) / 175 * 65535, 65535));
-    default: return big_word(rounded(air.humidity.si() * 65535, 65535));
+    case 2: return big_word(rounded_count((temperature_degC + 45) / 175 * 65535, 65535));
+    default: return big_word(rounded_count(air.humidity.si() * 65535, 65535));
     }
 }
 

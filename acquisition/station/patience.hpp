@@ -1,0 +1,13 @@
+#pragma once
+// How long the station waits for its instruments, and how often it looks.
+
+#include "analysis/quantity/time.hpp"
+
+namespace axiscal {
+
+inline constexpr Duration laser_limit = std::chrono::seconds{2};   // an older reading is no reading
+inline constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back in 5 s
+inline constexpr Duration look_every =
+    std::chrono::milliseconds{20}; // adds at most this to a capture
+
+} // namespace axiscal
