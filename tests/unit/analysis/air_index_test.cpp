@@ -13,7 +13,7 @@
 #include <random>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::air_index_test {
 namespace {
 
 const std::map<std::string, AirModel> models{{"ciddor", AirModel::ciddor},
@@ -259,4 +259,4 @@ TEST(AirIndex, IceVanishesTowardsAbsoluteZero) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::air_index_test

@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::air_refraction_test {
 namespace {
 
 struct Row {
@@ -124,4 +124,4 @@ TEST(AirRefraction, RemarksOnAStateOutsideTheFormulasRange) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::air_refraction_test

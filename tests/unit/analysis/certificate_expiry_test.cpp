@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::certificate_expiry_test {
 namespace {
 
 TEST(CertificateExpiry, IsTheDayAfterTheDueDate) {
@@ -19,4 +19,4 @@ TEST(CertificateExpiry, CountsTheDayOnWhichTheRunWasOpened) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::certificate_expiry_test

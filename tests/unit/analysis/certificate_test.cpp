@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::certificate_test {
 namespace {
 
 using test::at_seconds;
@@ -268,4 +268,4 @@ TEST(CanonicalBytes, ChangeWithTheLastBitOfAnyFigure) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::certificate_test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::channel_correction_test {
 namespace {
 
 /// As a laboratory writes it: at 15, 20 and 30 degC.
@@ -36,4 +36,4 @@ TEST(ChannelCorrection, IsNothingWithoutPointsAndConstantWithOne) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::channel_correction_test

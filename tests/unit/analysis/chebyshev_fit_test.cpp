@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::chebyshev_fit_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -205,4 +205,4 @@ TEST(ChebyshevFitRefuses, WhatIsNoFit) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::chebyshev_fit_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circle_cut_test {
 namespace {
 
 using circular::Cause;
@@ -44,7 +44,7 @@ void expect_truth(const DrivenBar& bar, const std::vector<CircleCapture>& circle
     const auto test = mean_test(run_of(bar, circles));
     ASSERT_TRUE(test) << test.error().detail;
     const auto found = diagnose_circle(*test, {"X", "Y"}).value();
-    Truth truth = bar.truth;
+    CircleTruth truth = bar.truth;
     const double R = bar.setup.plan.nominal_radius_mm, F = bar.setup.plan.feed_mm_per_s;
     for (const Cause cause : {Cause::scale_x, Cause::scale_y, Cause::squareness, Cause::backlash_x,
                               Cause::backlash_y, Cause::servo_lag_difference}) {
@@ -269,4 +269,4 @@ TEST(CircleCut, TheCalibratedLengthTakesTheReadingToTheNominalRadius) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_cut_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::circle_diagnosis_test {
 namespace {
 
 using circular::Cause;
@@ -30,9 +30,9 @@ const CauseContribution* find(const CircleDiagnosis& diagnosis, const std::strin
 }
 
 /// Every cause of a size that makes micrometres.
-Truth random_truth(std::mt19937_64& random, double R, double F) {
+CircleTruth random_truth(std::mt19937_64& random, double R, double F) {
     std::uniform_real_distribution<double> um{-0.01, 0.01};
-    Truth truth;
+    CircleTruth truth;
     for (const Cause cause : every_cause())
         truth[reference_name(cause)] = um(random) / leverage_of(cause, R, F);
     return truth;
@@ -47,7 +47,7 @@ TEST(CircleDiagnosis, FindsTheTruthOfEverySyntheticCaseOfTheReference) {
         EXPECT_FALSE(found.reversals_masked);
         EXPECT_TRUE(found.not_separable.empty());
         EXPECT_TRUE(found.cyclic.empty());
-        Truth truth = set.at("truth");
+        CircleTruth truth = set.at("truth");
         const bool noisy = !set.at("request").is_null();
         for (const Cause cause : every_cause()) {
             const auto& estimate = found.of(cause);
@@ -68,7 +68,7 @@ TEST(CircleDiagnosis, FindsEveryMixtureOfCausesAtAnyRadiusAndFeed) {
     for (const double R : {20.0, 150.0, 500.0})
         for (int trial = 0; trial < 20; ++trial) {
             const double F = 5 + 10.0 * trial;
-            const Truth truth = random_truth(random, R, F);
+            const CircleTruth truth = random_truth(random, R, F);
             const auto angles =
                 trial % 2 ? even_angles(-20, 200, 0.5) : even_angles(0.25, 359.9, 0.5);
             const CircleDiagnosis found = diagnose(made_test(truth, angles, R, F));
@@ -83,7 +83,7 @@ TEST(CircleDiagnosis, FindsEveryMixtureOfCausesAtAnyRadiusAndFeed) {
 TEST(CircleDiagnosis, StatesUncertaintiesThatTheScatterOfManyTestsConfirms) {
     std::mt19937_64 random{11};
     std::normal_distribution<double> noise{0, 3e-4};
-    const auto clean = made_test(Truth{{"square", 2e-5}}, even_angles(-20, 200, 1));
+    const auto clean = made_test(CircleTruth{{"square", 2e-5}}, even_angles(-20, 200, 1));
     std::map<Cause, double> squares;
     constexpr int tests = 200;
     for (int i = 0; i < tests; ++i) {
@@ -106,7 +106,7 @@ TEST(CircleDiagnosis, StatesUncertaintiesThatTheScatterOfManyTestsConfirms) {
 
 TEST(CircleDiagnosis, OneSenseDoesNotTellSquarenessFromLagDifferenceAndSaysSo) {
     CircularTest test =
-        made_test(Truth{{"square", 5e-5}, {"backlash_x", 0.004}}, even_angles(0.5, 359.5, 1));
+        made_test(CircleTruth{{"square", 5e-5}, {"backlash_x", 0.004}}, even_angles(0.5, 359.5, 1));
     test.traces.pop_back();
     const CircleDiagnosis found = diagnose(test);
     EXPECT_FALSE(found.of(Cause::squareness).value);
@@ -129,7 +129,7 @@ TEST(CircleDiagnosis, OneSenseDoesNotTellSquarenessFromLagDifferenceAndSaysSo) {
 }
 
 TEST(CircleDiagnosis, AnArcWithinAQuarterLeavesOutWhatItCannotSee) {
-    const CircularTest test = made_test(Truth{{"square", 5e-5}}, even_angles(10, 80, 0.5));
+    const CircularTest test = made_test(CircleTruth{{"square", 5e-5}}, even_angles(10, 80, 0.5));
     const CircleDiagnosis found = diagnose(test);
     EXPECT_LT(found.rank, found.columns);
     EXPECT_FALSE(found.of(Cause::backlash_x).value) << "no reversal of X was seen";
@@ -139,7 +139,7 @@ TEST(CircleDiagnosis, AnArcWithinAQuarterLeavesOutWhatItCannotSee) {
 }
 
 TEST(CircleDiagnosis, ASpikeIsFoundAndDoesNotBendTheCauses) {
-    const Truth truth{{"backlash_x", 0.005}, {"square", 3e-5}, {"straight_y", 0.002}};
+    const CircleTruth truth{{"backlash_x", 0.005}, {"square", 3e-5}, {"straight_y", 0.002}};
     CircularTest test = made_test(truth, even_angles(0.25, 359.9, 0.5));
     CircularTrace& ccw = test.traces.front();
     for (std::size_t i = 0; i < ccw.angle_rad.size(); ++i) {
@@ -171,7 +171,8 @@ TEST(CircleDiagnosis, ASpikeIsFoundAndDoesNotBendTheCauses) {
 }
 
 TEST(CircleDiagnosis, EveryReversalHasAStepOfItsOwn) {
-    CircularTest test = made_test(Truth{{"backlash_x", 0.004}}, even_angles(0.25, 359.9, 0.5));
+    CircularTest test =
+        made_test(CircleTruth{{"backlash_x", 0.004}}, even_angles(0.25, 359.9, 0.5));
     // counter-clockwise at 180 deg the step is 1 um higher: fading out over 60 deg of arc
     CircularTrace& ccw = test.traces.front();
     for (std::size_t i = 0; i < ccw.angle_rad.size(); ++i) {
@@ -193,7 +194,7 @@ TEST(CircleDiagnosis, FindsAPeriodicErrorOfUnknownPitchAndItsAxis) {
     for (const int axis : {0, 1})
         for (const double pitch : {10.0, 12.345, 40.0}) {
             const double R = 150, amplitude = 0.0015, phase = 0.7;
-            CircularTest test = made_test(Truth{{"square", 3e-5}, {"lateral_x", 0.002}},
+            CircularTest test = made_test(CircleTruth{{"square", 3e-5}, {"lateral_x", 0.002}},
                                           even_angles(0.125, 359.9, 0.25));
             for (auto& trace : test.traces)
                 for (std::size_t i = 0; i < trace.angle_rad.size(); ++i) {
@@ -220,7 +221,8 @@ TEST(CircleDiagnosis, FindsAPeriodicErrorOfUnknownPitchAndItsAxis) {
 
 TEST(CircleDiagnosis, APeriodicErrorWithoutNoiseIsFoundExactly) {
     const double R = 100, pitch = 8;
-    CircularTest test = made_test(Truth{{"backlash_y", 0.003}}, even_angles(0.125, 359.9, 0.25), R);
+    CircularTest test =
+        made_test(CircleTruth{{"backlash_y", 0.003}}, even_angles(0.125, 359.9, 0.25), R);
     for (auto& trace : test.traces)
         for (std::size_t i = 0; i < trace.angle_rad.size(); ++i) {
             const double c = std::cos(trace.angle_rad[i]);
@@ -240,7 +242,8 @@ TEST(CircleDiagnosis, LobesEvenInAngleAreNoErrorOfAnAxis) {
     std::normal_distribution<double> noise{0, 1e-4};
     for (const int lobes : {4, 5, 8, 13, 40})
         for (const bool noisy : {false, true}) {
-            CircularTest test = made_test(Truth{{"square", 1e-5}}, even_angles(0.25, 359.9, 0.5));
+            CircularTest test =
+                made_test(CircleTruth{{"square", 1e-5}}, even_angles(0.25, 359.9, 0.5));
             for (auto& trace : test.traces)
                 for (std::size_t i = 0; i < trace.angle_rad.size(); ++i)
                     trace.radial_deviation_mm[i] +=
@@ -296,16 +299,17 @@ TEST(CircleDiagnosis, AChangeOverOfTheLeadIsASignedStep) {
 }
 
 TEST(CircleDiagnosis, RanksTheCausesByWhatEachAddsToG) {
-    const CircularTest test = made_test(Truth{{"square", 4e-5},
-                                              {"backlash_y", 0.002},
-                                              {"straight_x", 0.006},
-                                              {"lateral_x", 0.003},
-                                              {"scale_x", 3e-5},
-                                              {"scale_y", 2.5e-5},
-                                              {"off_x_ccw", 0.04}},
+    const CircularTest test = made_test(CircleTruth{{"square", 4e-5},
+                                                    {"backlash_y", 0.002},
+                                                    {"straight_x", 0.006},
+                                                    {"lateral_x", 0.003},
+                                                    {"scale_x", 3e-5},
+                                                    {"scale_y", 2.5e-5},
+                                                    {"off_x_ccw", 0.04}},
                                         even_angles(0.5, 359.5, 1));
     const CircleDiagnosis found = diagnose(test);
-    EXPECT_TRUE(std::ranges::is_sorted(found.ranking, std::ranges::greater{}, &CauseContribution::G_mm));
+    EXPECT_TRUE(
+        std::ranges::is_sorted(found.ranking, std::ranges::greater{}, &CauseContribution::G_mm));
     EXPECT_EQ(found.ranking.front().cause, "squareness");
     // closed forms: R beta; By; Sx sin 3 theta / 4; P |s| / 2, which the senses double; R (ex - ey)
     EXPECT_NEAR(find(found, "squareness")->G_mm, 150 * 4e-5, 1e-5);
@@ -320,7 +324,7 @@ TEST(CircleDiagnosis, RanksTheCausesByWhatEachAddsToG) {
 
 TEST(CircleDiagnosis, SaysTheSignsInWords) {
     const auto words = [](const char* name, double value, const std::string& cause) {
-        const auto test = made_test(Truth{{name, value}}, even_angles(0.5, 359.5, 1));
+        const auto test = made_test(CircleTruth{{name, value}}, even_angles(0.5, 359.5, 1));
         return find(diagnose(test), cause)->words;
     };
     const auto has = [](const std::string& text, const std::string& part) {
@@ -345,7 +349,7 @@ TEST(CircleDiagnosis, SaysTheSignsInWords) {
 
 TEST(CircleDiagnosis, AMillionReadingsGiveTheSameCausesAsAThousand) {
     std::mt19937_64 random{9};
-    const Truth truth = random_truth(random, 150, 1000.0 / 60);
+    const CircleTruth truth = random_truth(random, 150, 1000.0 / 60);
     const auto angles = even_angles(0.0005, 359.9999, 0.001);
     const CircleDiagnosis found = diagnose(made_test(truth, angles));
     for (const Cause cause : every_cause())
@@ -355,11 +359,11 @@ TEST(CircleDiagnosis, AMillionReadingsGiveTheSameCausesAsAThousand) {
 
 TEST(CircleDiagnosis, ACommonLagIsBoundedAndNotClaimed) {
     const CircleDiagnosis found = diagnose(
-        made_test(Truth{{"scale_x", -2e-6}, {"scale_y", -2e-6}}, even_angles(0.5, 359.5, 1)));
+        made_test(CircleTruth{{"scale_x", -2e-6}, {"scale_y", -2e-6}}, even_angles(0.5, 359.5, 1)));
     ASSERT_TRUE(found.common_lag && found.common_lag->longest_s);
     const double tau = *found.common_lag->longest_s, turning = (1000.0 / 60) / 150;
     EXPECT_NEAR(-150 * (turning * tau) * (turning * tau) / 2, 150 * -2e-6, 1e-12);
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_diagnosis_test

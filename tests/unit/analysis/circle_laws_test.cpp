@@ -11,7 +11,7 @@
 #include <limits>
 #include <set>
 
-namespace axiscal {
+namespace axiscal::circle_laws_test {
 namespace {
 
 using test::Points;
@@ -340,4 +340,4 @@ TEST(MinimumZoneCircle, OfAMillionPointsIsThatOfItsFourControlPoints) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_laws_test

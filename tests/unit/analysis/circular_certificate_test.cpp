@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::circular_certificate_test {
 namespace {
 
-const test::Truth some_truth{{"scale_x", 12e-6}, {"square", 22e-6}, {"backlash_x", 0.003}};
+const test::CircleTruth some_truth{{"scale_x", 12e-6}, {"square", 22e-6}, {"backlash_x", 0.003}};
 
-CircularMeasurement measured_of(const test::Truth& truth) {
+CircularMeasurement measured_of(const test::CircleTruth& truth) {
     CircularMeasurement measured;
     measured.test = test::made_test(truth, test::even_angles(0.5, 359.5, 1));
     return measured;
@@ -152,7 +152,7 @@ TEST(CircularCertificate, CanonicalBytesFeelAFigureAndNotTheLastBitOfASine) {
 }
 
 TEST(CauseAdvice, SpeaksBySignAndAxis) {
-    const auto advice = [](const test::Truth& truth, const std::string& cause) {
+    const auto advice = [](const test::CircleTruth& truth, const std::string& cause) {
         const auto test = test::made_test(truth, test::even_angles(0.5, 359.5, 1));
         const auto diagnosis = diagnose_circle(test, {"X", "Z"});
         for (const CauseContribution& found : diagnosis->ranking)
@@ -173,4 +173,4 @@ TEST(CauseAdvice, SpeaksBySignAndAxis) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_certificate_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::circular_laws_test {
 namespace {
 
 using circular::Cause;
@@ -46,9 +46,9 @@ protected:
     static constexpr double R = 150, F = 1000.0 / 60;
     std::mt19937_64 random{20260102};
 
-    Truth truth() {
+    CircleTruth truth() {
         std::uniform_real_distribution<double> um{-0.01, 0.01};
-        Truth made;
+        CircleTruth made;
         for (std::size_t i = 0; i < circular::cause_count; ++i) {
             const auto cause = static_cast<Cause>(i);
             made[reference_name(cause)] = um(random) / leverage_of(cause, R, F);
@@ -308,4 +308,4 @@ TEST_F(CircularLaws, ACauseAddsToItselfAlone) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_laws_test

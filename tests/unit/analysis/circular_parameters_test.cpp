@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circular_parameters_test {
 namespace {
 
 using namespace test;
@@ -88,20 +88,20 @@ TEST(CircularParameters, ANanometreAtHalfAMetreKeepsItsDigits) {
 
 TEST(CircularParameters, FIsCountedFromTheCentreThatIsAskedFor) {
     const CircularTest test =
-        made_test(Truth{{"off_x_ccw", 0.02}, {"off_x_cw", 0.02}}, even_angles(0, 359, 1));
+        made_test(CircleTruth{{"off_x_ccw", 0.02}, {"off_x_cw", 0.02}}, even_angles(0, 359, 1));
     const auto set_up = evaluate(test, RadialCentre::set_up);
     EXPECT_NEAR(set_up.ccw->F.max_mm, 0.02, 1e-15);
     EXPECT_NEAR(set_up.ccw->F.min_mm, -0.02, 1e-15);
     EXPECT_EQ(set_up.ccw->F.centre, RadialCentre::set_up);
     const auto fitted = evaluate(test);
     EXPECT_NEAR(fitted.ccw->F.max_mm, 0, 3e-6) << "second order of the offset";
-    const auto arc = made_test(Truth{{"off_x_ccw", 0.02}}, even_angles(0, 100, 1));
+    const auto arc = made_test(CircleTruth{{"off_x_ccw", 0.02}}, even_angles(0, 100, 1));
     EXPECT_EQ(evaluate(arc).ccw->F.centre, RadialCentre::set_up);
     EXPECT_NEAR(evaluate(arc, RadialCentre::least_squares).ccw->F.max_mm, 0, 1e-4);
 }
 
 TEST(CircularParameters, LeastSquaresIsRefusedBelow90DegAndSetUpIsNot) {
-    const auto shorter = made_test(Truth{{"square", 1e-5}}, even_angles(0, 89, 1));
+    const auto shorter = made_test(CircleTruth{{"square", 1e-5}}, even_angles(0, 89, 1));
     EXPECT_EQ(refused_field(shorter, RadialCentre::least_squares), "f_centre");
     const auto found = evaluate(shorter);
     EXPECT_FALSE(found.D_mm);
@@ -111,7 +111,7 @@ TEST(CircularParameters, LeastSquaresIsRefusedBelow90DegAndSetUpIsNot) {
 }
 
 TEST(CircularParameters, ReachesTwentyDegreesByBarAndMachine) {
-    const CircularTest test = made_test(Truth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
+    const CircularTest test = made_test(CircleTruth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
     const CircularParameters read = evaluate(test);
     // a steel machine at 23, a bar of 150.01 mm with 1.2e-6 at 25 degC
     const BarExpansion bar{25, 23, 1.2e-6, 11.5e-6, 150.01};
@@ -140,7 +140,7 @@ TEST(CircularParameters, RefuseAnExpansionInMicrometresPerMetre) {
 }
 
 TEST(CircularParameters, OneSenseGivesItsOwnFiguresWithReasonsForTheRest) {
-    CircularTest test = made_test(Truth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
+    CircularTest test = made_test(CircleTruth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
     test.traces.erase(test.traces.begin());
     const CircularParameters found = evaluate(test);
     EXPECT_FALSE(found.ccw);
@@ -153,7 +153,7 @@ TEST(CircularParameters, OneSenseGivesItsOwnFiguresWithReasonsForTheRest) {
 }
 
 TEST(CircularParameters, FeedbackSignalsGiveFormAlone) {
-    CircularTest test = made_test(Truth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
+    CircularTest test = made_test(CircleTruth{{"square", 3e-5}}, even_angles(0.5, 359.5, 1));
     test.source = SignalSource::feedback;
     const CircularParameters found = evaluate(test);
     EXPECT_TRUE(found.G_b);
@@ -203,4 +203,4 @@ TEST(CircularParameters, RefuseByField) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_parameters_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace axiscal {
+namespace axiscal::circular_run_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -111,4 +111,4 @@ TEST(CircularRun, APlaneNamesItsAxesInItsOwnOrder) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_run_test

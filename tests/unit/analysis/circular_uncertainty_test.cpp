@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circular_uncertainty_test {
 namespace {
 
 using namespace test;
@@ -11,7 +11,7 @@ using namespace test;
 const double root3 = std::sqrt(3.0);
 
 CircularTest plain(double R = 150) {
-    return made_test(Truth{{"square", 4e-5}}, even_angles(5, 355, 10), R);
+    return made_test(CircleTruth{{"square", 4e-5}}, even_angles(5, 355, 10), R);
 }
 
 CircularBudget budget(const CircularTest& test,
@@ -147,4 +147,4 @@ TEST(CircularUncertainty, RefusesByField) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_uncertainty_test

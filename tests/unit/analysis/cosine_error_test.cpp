@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::cosine_error_test {
 namespace {
 
 AlignmentRecord aligned(Length distance, Length missing, Length scatter, bool passed) {
@@ -65,4 +65,4 @@ TEST(CosineError, OfASpotNeedsATravel) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cosine_error_test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::diagonals_test {
 namespace {
 
 using Signs = std::array<int, 3>;
@@ -283,4 +283,4 @@ TEST(StepDiagonalRefuses, WhatItCannotSeparate) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::diagonals_test

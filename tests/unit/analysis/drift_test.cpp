@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::drift_test {
 namespace {
 
 TEST(Drift, AgreesWithTheReference) {
@@ -171,4 +171,4 @@ TEST(DriftRefuses, WrongShapesByField) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::drift_test

@@ -30,7 +30,7 @@ struct Trapezoid {
 class DrivenBar {
 public:
     CircularSetup setup;
-    Truth truth;
+    CircleTruth truth;
     double acceleration = 0, noise_mm = 0, rate_hz = 1000, rest_s = 0.7;
     /// Ends of the bar's range about R; outside there are no samples.
     double range_mm = 10;

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::error_separation_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -386,4 +386,4 @@ TEST(ErrorSeparation, PointsAtTheReferenceAloneHaveRankZeroAndNothingSeparable) 
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::error_separation_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::expansion_test {
 namespace {
 
 nlohmann::json entry(const std::string& id) {
@@ -143,4 +143,4 @@ TEST(ExpansionRefuses, WhatNoBodyDoes) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::expansion_test

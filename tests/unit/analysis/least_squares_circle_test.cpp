@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::least_squares_circle_test {
 namespace {
 
 using test::arc;
@@ -158,4 +158,4 @@ TEST(ArcOfPoints, IsTheCircleWithoutTheLargestGap) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::least_squares_circle_test

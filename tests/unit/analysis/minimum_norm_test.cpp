@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::minimum_norm_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -138,4 +138,4 @@ TEST(MinimumNorm, ChosenColumnsAreTheProblemWithoutTheOthers) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::minimum_norm_test

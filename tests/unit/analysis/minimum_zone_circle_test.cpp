@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace axiscal {
+namespace axiscal::minimum_zone_circle_test {
 namespace {
 
 using test::arc;
@@ -141,4 +141,4 @@ TEST(BoundingCircles, AgreeWithTheThirdPartyProgramOnNistsSets) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::minimum_zone_circle_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::periodic_error_test {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
@@ -283,4 +283,4 @@ TEST_F(PeriodicLaws, NothingNearbyFitsBetterThanTheFoundPitch) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::periodic_error_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace axiscal {
+namespace axiscal::positioning_accuracy_test {
 namespace {
 
 using test::Rows;
@@ -221,4 +221,4 @@ TEST(DeclareAt20C, NamesTheFieldOfEveryRefusal) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_accuracy_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::positioning_laws_test {
 namespace {
 
 using test::Rows;
@@ -164,4 +164,4 @@ TEST_F(PositioningLaws, LongCoordinateCostsNoDigitsOfTheSpread) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_laws_test

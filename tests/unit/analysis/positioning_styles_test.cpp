@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::positioning_styles_test {
 namespace {
 
 using Figures = std::map<std::string, double>;
@@ -267,4 +267,4 @@ TEST_F(StyleLaws, RawRangesAreBoundedByEachOther) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_styles_test

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::probing_delay_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -251,4 +251,4 @@ TEST(ToothPeriod, CoarseStepsOverManyTeethAreFoundOrRefusedNeverWrong) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::probing_delay_test

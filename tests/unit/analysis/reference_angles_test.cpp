@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::reference_angles_test {
 namespace {
 
 ReferenceAngles polygon(std::vector<double> deviations, std::vector<int> faces) {
@@ -128,4 +128,4 @@ TEST(ReferenceAnglesLaws, TheTruthBehindAnyArtefactIsFoundAgain) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::reference_angles_test

@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::rotary_position_test {
 namespace {
 
 using test::rad;
@@ -179,4 +179,4 @@ TEST(RotaryRun, RefusesASetupThatCannotBe) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::rotary_position_test

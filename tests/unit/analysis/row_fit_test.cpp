@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal::circular {
+namespace axiscal::circular::row_fit_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -144,4 +144,4 @@ TEST(RowFit, AWeightCountsAsRepeatedRows) {
 }
 
 } // namespace
-} // namespace axiscal::circular
+} // namespace axiscal::circular::row_fit_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace axiscal {
+namespace axiscal::run_drift_test {
 namespace {
 
 constexpr double start_s = 100, lambda_nm = 632.991354;
@@ -165,4 +165,4 @@ TEST(RunDrift, RefusesWhatIsNoTest) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_drift_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::single_axis_features_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -202,4 +202,4 @@ TEST(SingleAxisFeatures, RefuseListsThatDoNotFit) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::single_axis_features_test

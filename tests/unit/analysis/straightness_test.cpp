@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::straightness_test {
 namespace {
 
 /// y = 4 h x (L - x) / L^2 at m equal steps.
@@ -267,4 +267,4 @@ TEST(SquarenessLaws, MethodsDifferByLessThanStraightnessOverLength) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::straightness_test

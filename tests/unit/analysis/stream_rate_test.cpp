@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::stream_rate_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -41,4 +41,4 @@ TEST(StreamRate, IsNotKnownOfOneSample) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::stream_rate_test

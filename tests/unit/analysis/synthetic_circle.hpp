@@ -13,12 +13,12 @@
 namespace axiscal::test {
 
 /// Names as in the reference file: "square", "servo", "backlash_x", "off_x_ccw", ...
-using Truth = std::map<std::string, double>;
+using CircleTruth = std::map<std::string, double>;
 
 inline constexpr double one_degree = std::numbers::pi / 180;
 
 /// Radial deviation at `theta`, written from the table of effects.
-inline double true_deviation(Truth truth, double theta, Sense sense, double R, double F) {
+inline double true_deviation(CircleTruth truth, double theta, Sense sense, double R, double F) {
     const auto sign = [](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0; };
     const double c = std::cos(theta), s = std::sin(theta), sg = sense == Sense::ccw ? 1 : -1;
     const double sx = -sg * sign(s), sy = sg * sign(c);
@@ -40,7 +40,7 @@ inline std::vector<double> even_angles(double from_deg, double to_deg, double st
 }
 
 inline CircularTrace
-made_trace(const Truth& truth, std::vector<double> angles, Sense sense, double R, double F) {
+made_trace(const CircleTruth& truth, std::vector<double> angles, Sense sense, double R, double F) {
     CircularTrace trace{sense, std::move(angles), {}};
     for (const double theta : trace.angle_rad)
         trace.radial_deviation_mm.push_back(true_deviation(truth, theta, sense, R, F));
@@ -48,7 +48,7 @@ made_trace(const Truth& truth, std::vector<double> angles, Sense sense, double R
 }
 
 /// Both senses over the same angles.
-inline CircularTest made_test(const Truth& truth,
+inline CircularTest made_test(const CircleTruth& truth,
                               const std::vector<double>& angles,
                               double R = 150,
                               double F = 1000.0 / 60) {
@@ -62,7 +62,7 @@ inline CircularTest made_test(const Truth& truth,
 inline CircularTest reference_test(const nlohmann::json& set) {
     const double R = set.at("R"), F = set.at("feed_mm_s");
     if (set.at("request").is_null())
-        return made_test(set.at("truth").get<Truth>(), even_angles(0.5, 359.5, 1), R, F);
+        return made_test(set.at("truth").get<CircleTruth>(), even_angles(0.5, 359.5, 1), R, F);
     CircularTest test{R, F, SignalSource::external, {}};
     for (const Sense sense : {Sense::ccw, Sense::cw}) {
         const auto& trace = set.at("request").at(std::string{name_of(sense)});

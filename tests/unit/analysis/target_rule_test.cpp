@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::target_rule_test {
 namespace {
 
 TargetQuestion linear(std::vector<double> targets, int approaches = 5) {
@@ -164,4 +164,4 @@ TEST(TargetRuleLaws, ShiftAndDirectionOfTheAxisDoNotMatter) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::target_rule_test

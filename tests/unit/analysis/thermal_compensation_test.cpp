@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::thermal_compensation_test {
 namespace {
 
 using test::at_seconds;
@@ -266,4 +266,4 @@ TEST(ThermalCompensation, RefusesImpossibleValuesAndSetups) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::thermal_compensation_test

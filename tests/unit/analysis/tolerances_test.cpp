@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::tolerances_test {
 namespace {
 
 const std::vector<ToleranceLimit> bands{{"A", 500, 22}, {"A", 800, 25}, {"A", 1250, 32},
@@ -86,4 +86,4 @@ TEST(JudgeFigures, GivesOneVerdictAParameterInTheOrderOfTheSet) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::tolerances_test

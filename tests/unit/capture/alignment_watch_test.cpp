@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::alignment_watch_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -207,4 +207,4 @@ TEST(AlignmentWatch, GivesUpWhatItSawWhenTheCounterLosesItsZero) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::alignment_watch_test

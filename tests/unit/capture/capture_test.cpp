@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::capture_test {
 namespace {
 
 using testing::at_s;
@@ -299,4 +299,4 @@ TEST(Approach, LawAcceptsEveryTrueApproachAndNoWrongOne) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::capture_test

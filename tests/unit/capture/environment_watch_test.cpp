@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::environment_watch_test {
 namespace {
 
 using testing::at_s;
@@ -85,4 +85,4 @@ TEST(EnvironmentWatch, NamesTheStaleChannelItsPlaceAndItsAge) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::environment_watch_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::sample_history_test {
 namespace {
 
 using testing::at_s;
@@ -103,4 +103,4 @@ TEST(LongestSilence, CountsTheEndsOfTheSpanToo) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::sample_history_test

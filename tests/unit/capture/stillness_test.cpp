@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::stillness_test {
 namespace {
 
 using testing::at_s;
@@ -182,4 +182,4 @@ TEST(FindStillWindow, TellsThatTheLaserIsSilent) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::stillness_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::stream_chunker_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -185,4 +185,4 @@ TEST(MinMaxPyramid, AShortStreamIsShownSampleBySample) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::stream_chunker_test

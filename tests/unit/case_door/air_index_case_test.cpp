@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::air_index_case_test {
 namespace {
 
 using nlohmann::json;
@@ -107,4 +107,4 @@ TEST(AirIndexCaseLaws, NumbersInNumbersOut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::air_index_case_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::analyze_case_test {
 namespace {
 
 using nlohmann::json;
@@ -291,4 +291,4 @@ TEST(AnalyzeCases, RepeatedKeyRefusesOnlyItsOwnElement) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::analyze_case_test

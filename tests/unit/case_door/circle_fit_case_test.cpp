@@ -5,7 +5,7 @@
 #include <fstream>
 #include <numbers>
 
-namespace axiscal {
+namespace axiscal::circle_fit_case_test {
 namespace {
 
 using nlohmann::json;
@@ -107,4 +107,4 @@ TEST(CircleFitCaseRefuses, NotFiniteTokensByTheirField) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_fit_case_test

@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-namespace axiscal {
+namespace axiscal::circular_case_test {
 namespace {
 
 using nlohmann::json;
@@ -256,4 +256,4 @@ TEST(CircularCase, RefusesWordsForPaperOfAWrongKind) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_case_test

@@ -1,6 +1,6 @@
 #include "asked.hpp"
 
-namespace axiscal {
+namespace axiscal::drift_case_test {
 namespace {
 
 using nlohmann::json;
@@ -83,4 +83,4 @@ TEST(DriftCaseLaws, NumbersInNumbersOut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::drift_case_test

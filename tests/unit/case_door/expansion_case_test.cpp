@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::expansion_case_test {
 namespace {
 
 using nlohmann::json;
@@ -89,4 +89,4 @@ TEST(ExpansionCaseLaws, NumbersInNumbersOut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::expansion_case_test

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::geometry_case_test {
 namespace {
 
 using nlohmann::json;
@@ -173,4 +173,4 @@ TEST(GeometryCaseLaws, NumbersInNumbersOut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::geometry_case_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace axiscal {
+namespace axiscal::positioning_limits_test {
 namespace {
 
 using nlohmann::json;
@@ -147,4 +147,4 @@ TEST(ShippedTolerances, AreReadAndMarkedToBeChecked) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_limits_test

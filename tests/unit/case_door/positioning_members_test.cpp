@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace axiscal {
+namespace axiscal::positioning_members_test {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ TEST(PeriodicErrorCase, RefusesByField) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_members_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace axiscal {
+namespace axiscal::positioning_standards_test {
 namespace {
 
 using nlohmann::json;
@@ -128,4 +128,4 @@ TEST(PositioningStandards, ArcsecondsMayStandOverDegrees) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::positioning_standards_test

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::probing_and_fit_case_test {
 namespace {
 
 using nlohmann::json;
@@ -119,4 +119,4 @@ TEST(ChebyshevFitCaseRefuses, EachWrongMember) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::probing_and_fit_case_test

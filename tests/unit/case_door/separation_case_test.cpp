@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::separation_case_test {
 namespace {
 
 using nlohmann::json;
@@ -319,4 +319,4 @@ TEST(SeparationCaseRefuses, FeaturesThatAreNone) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::separation_case_test

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::uncertainty_member_test {
 namespace {
 
 using nlohmann::json;
@@ -257,4 +257,4 @@ TEST(UncertaintyMember, OfARotaryAxisMayBeStatedInDegrees) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::uncertainty_member_test

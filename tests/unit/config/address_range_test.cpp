@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::address_range_test {
 namespace {
 
 bool covers(const char* range, const char* address) {
@@ -45,4 +45,4 @@ TEST(AddressRange, KnowsThisComputer) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::address_range_test

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace axiscal {
+namespace axiscal::channel_calibration_test {
 namespace {
 
 using test::example_text;
@@ -95,4 +95,4 @@ TEST(StationConfig, RefusesACorrectionWithoutUnit) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::channel_calibration_test

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::circular_config_test {
 namespace {
 
 using test::example_text;
@@ -134,4 +134,4 @@ TEST(CircularConfig, WhatIsMissingOrDoubledIsTold) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_config_test

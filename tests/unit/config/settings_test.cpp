@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::settings_test {
 namespace {
 
 using test::document_of;
@@ -322,4 +322,4 @@ TEST(SettingsDocument, SurvivesArbitraryBytes) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::settings_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::share_address_test {
 namespace {
 
 TEST(ShareAddress, HasServerShareAndFolder) {
@@ -46,4 +46,4 @@ TEST(ShareAddress, TakesNoPasswordAndRepeatsNone) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::share_address_test

@@ -4,7 +4,7 @@
 #include <regex>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::station_config_test {
 namespace {
 
 using test::count_lines;
@@ -131,4 +131,4 @@ TEST(StationConfig, RefusesAnUnknownKeyOfAChannel) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_config_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace axiscal {
+namespace axiscal::station_environment_test {
 namespace {
 
 using test::example_text;
@@ -59,4 +59,4 @@ TEST(StationEnvironment, RefusesLimitsThatNothingLiesBetween) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_environment_test

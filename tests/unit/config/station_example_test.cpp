@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::station_example_test {
 namespace {
 
 using test::example_text;
@@ -80,4 +80,4 @@ TEST(StationExample, OffersNoKeyThatDoesNotExist) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_example_test

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::station_rotary_test {
 namespace {
 
 using test::example_text;
@@ -191,4 +191,4 @@ TEST(StationConfig, RefusesDegreesOnALinearAxis) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_rotary_test

@@ -4,7 +4,7 @@
 #include <regex>
 #include <string>
 
-namespace axiscal {
+namespace axiscal::station_trigger_test {
 namespace {
 
 using test::example_text;
@@ -89,4 +89,4 @@ INSTANTIATE_TEST_SUITE_P(
                     "did you mean \"sequence-block\"?"}));
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_trigger_test

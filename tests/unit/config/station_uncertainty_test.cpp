@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace axiscal {
+namespace axiscal::station_uncertainty_test {
 namespace {
 
 using test::example_text;
@@ -91,4 +91,4 @@ TEST(StationUncertainty, RefusesWhatContradictsItselfOrHasNoUnit) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_uncertainty_test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace axiscal {
+namespace axiscal::conformance_case_test {
 namespace {
 
 using nlohmann::json;
@@ -94,4 +94,4 @@ TEST(ConformanceCase, BrokenTextIsToldWithItsPlace) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::conformance_case_test

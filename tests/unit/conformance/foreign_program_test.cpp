@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace axiscal {
+namespace axiscal::foreign_program_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -65,4 +65,4 @@ TEST(ForeignProgram, OneThatNeverStopsTalkingIsCut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::foreign_program_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::judge_test {
 namespace {
 
 ConformanceCase asked_for(std::vector<Expectation> expect) {
@@ -140,4 +140,4 @@ TEST(Report, JsonHoldsEveryFigureWithItsDigits) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::judge_test

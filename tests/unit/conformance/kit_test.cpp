@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::kit_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -74,4 +74,4 @@ TEST_F(ConformanceKit, IsFoundWhereItIsStatedFirst) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::kit_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::access_test {
 namespace {
 
 AccessRules rules() {
@@ -86,4 +86,4 @@ TEST(Access, AForeignOriginIsRefusedOnBothDoors) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::access_test

@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <thread>
 
-namespace axiscal {
+namespace axiscal::http_face_test {
 namespace {
 
 namespace asio = boost::asio;
@@ -403,4 +403,4 @@ TEST(Token, IsMadeOnceAndKept) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::http_face_test

@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::listening_test {
 namespace {
 
 constexpr const char* nobodys_group = "no-such-group-here";
@@ -106,4 +106,4 @@ TEST_F(SocketDoor, NamesAnUnknownGroupItsPlaceAndTheWayOutAndLeavesNoSocket) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::listening_test

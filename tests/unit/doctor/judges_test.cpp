@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/magic.h>
 
-namespace axiscal {
+namespace axiscal::judges_test {
 namespace {
 
 Health worst(const std::vector<Finding>& findings) {
@@ -107,4 +107,4 @@ TEST(Doctor, WhateverIsNotGoodSaysHowToMendIt) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::judges_test

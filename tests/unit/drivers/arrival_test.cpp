@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace axiscal {
+namespace axiscal::arrival_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -138,4 +138,4 @@ TEST(Doorbell, ARingBeforeTheWaitEndsItAndIsHeardOnce) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::arrival_test

@@ -15,7 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::can_link_test {
 namespace {
 
 template <class T> Task<void> keep_result(Task<T> task, std::optional<T>& result) {
@@ -169,4 +169,4 @@ TEST(CanInterface, ThatIsMissingIsRefusedByTheOpener) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::can_link_test

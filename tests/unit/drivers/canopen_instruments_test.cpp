@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace axiscal {
+namespace axiscal::canopen_instruments_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -362,4 +362,4 @@ TEST(CanOpenKeys, AreRefusedWithTheWayOut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::canopen_instruments_test

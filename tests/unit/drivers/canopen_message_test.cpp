@@ -9,7 +9,7 @@
 
 #include <tuple>
 
-namespace axiscal {
+namespace axiscal::canopen_message_test {
 namespace {
 
 /// JUMO 902910, TPDO1: INT32 0x9130:1, UINT8 0x6150:1.
@@ -250,4 +250,4 @@ TEST(NodeMessages, TellAnEmergencyAndItsEnd) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::canopen_message_test

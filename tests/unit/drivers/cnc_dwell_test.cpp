@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::cnc_dwell_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -194,4 +194,4 @@ TEST(DwellTriggerPort, ReportsAHaltAsARequestOfTheNextNumber) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_dwell_test

@@ -9,7 +9,7 @@
 #include <functional>
 #include <poll.h>
 
-namespace axiscal {
+namespace axiscal::cnc_mirrored_port_test {
 namespace {
 
 using namespace testing;
@@ -191,4 +191,4 @@ TEST_F(Mirrored, SaysWhatTheCncsExceptionMeans) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_mirrored_port_test

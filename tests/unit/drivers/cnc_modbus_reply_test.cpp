@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::cnc_modbus_reply_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -40,4 +40,4 @@ TEST(ModbusReply, TellsAnExceptionFromWhatIsNoAnswer) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_modbus_reply_test

@@ -10,7 +10,7 @@
 #include <functional>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::cnc_modbus_rtu_port_test {
 namespace {
 
 using namespace testing;
@@ -220,4 +220,4 @@ TEST(RtuMailbox, GivesNoImageOlderThanThePostedWrites) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_modbus_rtu_port_test

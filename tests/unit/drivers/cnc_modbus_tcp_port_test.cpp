@@ -11,7 +11,7 @@
 #include <poll.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::cnc_modbus_tcp_port_test {
 namespace {
 
 using namespace testing;
@@ -320,4 +320,4 @@ TEST(MbapFramer, GivesTheSameFramesHoweverTheBytesAreCut) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_modbus_tcp_port_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace axiscal {
+namespace axiscal::cnc_register_map_test {
 namespace {
 
 using testing::MapBench;
@@ -416,4 +416,4 @@ TEST_F(CoilAndIndex, ReportsEachRequestOnceWhateverOrderTheWritesArriveIn) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_register_map_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace axiscal {
+namespace axiscal::cnc_rtu_framer_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -164,4 +164,4 @@ TEST(RtuFramer, ALawFindsTheRequestAfterAnyGarbageAndASilence) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_rtu_framer_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::cnc_sequence_block_words_test {
 namespace {
 
 using BlockBench = testing::MapBench<SequenceBlockMap>;
@@ -148,4 +148,4 @@ TEST(SequenceBlockAbsence, IsWhatAValueThatIsNoNumberReads) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cnc_sequence_block_words_test

@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::counter_record_test {
 namespace {
 
 /// Time 0x0102030405060708 ns, value 1000, count 3 of type COUNT and scope COUNT, event INDEX (4)
@@ -130,4 +130,4 @@ TEST(Counter, IsAScaleOrALaserAndNotBoth) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::counter_record_test

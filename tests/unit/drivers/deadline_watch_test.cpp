@@ -5,7 +5,7 @@
 #include <boost/asio/post.hpp>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::deadline_watch_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -91,4 +91,4 @@ TEST(DeadlineWatch, OutlivesALoopThatTookItsSleeperAlong) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::deadline_watch_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::device_clock_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -238,4 +238,4 @@ TEST(LowerHull, IsTheLineOfLeastSumBelowAllPoints) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::device_clock_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::dracal_line_test {
 namespace {
 
 constexpr std::string_view reading = "D,VCP-PTH450,E18890,,101182,Pa,24.8344,C,59.8779,%,*3FB5";
@@ -89,4 +89,4 @@ TEST(DracalLine, HasNoNumberForAnAbsentSensor) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::dracal_line_test

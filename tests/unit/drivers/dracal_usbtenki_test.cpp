@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::dracal_usbtenki_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -118,4 +118,4 @@ TEST_F(UsbTenki, HasAbsentChannelsWhileItStalls) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::dracal_usbtenki_test

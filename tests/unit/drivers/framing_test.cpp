@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::framing_test {
 namespace {
 
 struct Fed {
@@ -73,4 +73,4 @@ TEST(Crc16Xmodem, GivesTheCataloguedCheckValue) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::framing_test

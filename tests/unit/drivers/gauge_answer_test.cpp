@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::gauge_answer_test {
 namespace {
 
 const GaugeModel& model(std::string_view name) {
@@ -104,4 +104,4 @@ TEST(AsciiGauge, WantsTheUnitOfAGaugeThatDoesNotTellIt) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::gauge_answer_test

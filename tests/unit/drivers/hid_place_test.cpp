@@ -6,7 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::hid_place_test {
 namespace {
 
 /// The kernel keeps all HID devices in one folder, those on USB as links into their device's.
@@ -55,4 +55,4 @@ TEST_F(HidPlaces, OnUsbAreThereOnce) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::hid_place_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::ids_message_test {
 namespace {
 
 TEST(IdsMessage, AsksAsTheMakersProgramsDo) {
@@ -76,4 +76,4 @@ TEST(Ids, WantsItStatedWhoCorrectsForAir) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::ids_message_test

@@ -14,7 +14,7 @@
 #include <fcntl.h>
 #include <filesystem>
 
-namespace axiscal {
+namespace axiscal::instrument_faults_test {
 namespace {
 
 /// One running instrument behind a path that stays while the device changes, as udev's names do.
@@ -167,4 +167,4 @@ TEST(InstrumentFaults, TimesOfABurstAreSpreadAndNeverGoBack) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::instrument_faults_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::instrument_pages_test {
 namespace {
 
 std::string text_of(const std::filesystem::path& path) {
@@ -112,4 +112,4 @@ TEST(InstrumentPages, RowThatIsMissingOrStandsElsewhereIsNotFound) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::instrument_pages_test

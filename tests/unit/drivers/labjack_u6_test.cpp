@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::labjack_u6_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -171,4 +171,4 @@ TEST_F(LabJackU6, IsFoundByTheSerialNumberThatOnlyItTells) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::labjack_u6_test

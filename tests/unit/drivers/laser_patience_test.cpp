@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace axiscal {
+namespace axiscal::laser_patience_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -94,4 +94,4 @@ TEST_F(LaserPatience, ALineSilentForEightSecondsIsGivenUp) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::laser_patience_test

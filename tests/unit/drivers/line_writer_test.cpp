@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::line_writer_test {
 namespace {
 
 constexpr int patience_ms = 20'000; // bounds a failing test
@@ -145,4 +145,4 @@ TEST(LineWriter, OutlivesItsReader) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::line_writer_test

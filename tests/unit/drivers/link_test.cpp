@@ -16,7 +16,7 @@
 #include <fstream>
 #include <sys/ioctl.h>
 
-namespace axiscal {
+namespace axiscal::link_test {
 namespace {
 
 using boost::asio::ip::tcp;
@@ -208,4 +208,4 @@ TEST(LinkText, RefusesABaudRateOnTcp) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::link_test

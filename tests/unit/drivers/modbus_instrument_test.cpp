@@ -24,7 +24,7 @@
 #include <sys/socket.h>
 #include <thread>
 
-namespace axiscal {
+namespace axiscal::modbus_instrument_test {
 namespace {
 
 using boost::asio::ip::tcp;
@@ -426,4 +426,4 @@ TEST(ModbusSensorRtu, OneDamagedReplyDoesNotMakeTheSensorAbsent) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::modbus_instrument_test

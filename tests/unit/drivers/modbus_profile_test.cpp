@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace axiscal {
+namespace axiscal::modbus_profile_test {
 namespace {
 
 const std::string shipped = test::source_dir() + "/config/profiles";
@@ -223,4 +223,4 @@ TEST(ModbusProfile, KeysOfTheStationFileAreChecked) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::modbus_profile_test

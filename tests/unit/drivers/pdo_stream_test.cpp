@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::pdo_stream_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -114,4 +114,4 @@ TEST_F(PdoStreamTest, HandsOutWhatItHeldWhenTheStreamEnds) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::pdo_stream_test

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::plugged_test {
 namespace {
 
 class Plugged : public ::testing::Test {
@@ -282,4 +282,4 @@ TEST(Appearances, GiveBlocksThatTheirDriversAccept) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::plugged_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::registry_test {
 namespace {
 
 const std::string umd_keys = "link = \"serial:/dev/ttyACM0\"\nwavelength = \"632.991 nm\"\n"
@@ -105,4 +105,4 @@ TEST(Registry, RefusesAnAirChannelAsMaterial) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::registry_test

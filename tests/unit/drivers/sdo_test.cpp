@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::sdo_test {
 namespace {
 
 using Step = SdoTransfer::Step;
@@ -118,4 +118,4 @@ TEST(Sdo, RefusesAnswersThatCannotBeOne) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::sdo_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::station_example_test {
 namespace {
 
 const std::string folder = test::source_dir() + "/config";
@@ -38,4 +38,4 @@ TEST(StationExample, IsAcceptedByTheDriversItNames) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_example_test

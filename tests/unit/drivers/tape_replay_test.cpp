@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::tape_replay_test {
 namespace {
 
 struct TapeCase {
@@ -187,4 +187,4 @@ TEST(Tape, IsRecordedAsItWasPlayed) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::tape_replay_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::temper_line_test {
 namespace {
 
 constexpr std::string_view printed = "Temp-Inner:30.53 [C],39.92 [%RH]<";
@@ -107,4 +107,4 @@ TEST(TemperSerial, IsPolledNoFasterThanTwiceASecond) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::temper_line_test

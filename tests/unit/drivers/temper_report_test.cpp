@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::temper_report_test {
 namespace {
 
 std::vector<std::byte> text(std::string_view letters) {
@@ -84,4 +84,4 @@ TEST(TemperReading, HasNoNumberForAnAbsentProbeOrAMissingReport) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::temper_report_test

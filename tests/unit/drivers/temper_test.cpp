@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::temper_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -107,4 +107,4 @@ TEST(UsbLinks, WantTheScaleOfTheBallbar) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::temper_test

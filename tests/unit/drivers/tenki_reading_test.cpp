@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::tenki_reading_test {
 namespace {
 
 // MS5611-01BA03 data sheet, example of the calculation: C1..C6, low byte first.
@@ -110,4 +110,4 @@ TEST(TenkiReading, HasNoNumberForABrokenSensor) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::tenki_reading_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::trigger_desk_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -92,4 +92,4 @@ TEST(TriggerDesk, AnEdgeThatWaitsForItsIndexIsDecidedAtTheEndOfItsGrace) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::trigger_desk_test

@@ -14,7 +14,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::tty_porter_test {
 namespace {
 
 /// The write end stands for a terminal; the read end sees when it is closed.
@@ -110,4 +110,4 @@ TEST(TtyPorter, WhatComesThroughAfterTheLoopIsClosed) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::tty_porter_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::u6_frame_test {
 namespace {
 
 U6Bytes zeros(U6Bytes frame, std::size_t length) {
@@ -170,4 +170,4 @@ TEST(U6Volts, AreRefusedWithoutACalibration) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::u6_frame_test

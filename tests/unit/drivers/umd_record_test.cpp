@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::umd_record_test {
 namespace {
 
 UmdSetup helium_neon() {
@@ -191,4 +191,4 @@ TEST(UmdFacts, NameWhatIsMissingAndWhatContradicts) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::umd_record_test

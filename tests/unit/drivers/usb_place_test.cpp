@@ -6,7 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::usb_place_test {
 namespace {
 
 class UsbPlaces : public ::testing::Test {
@@ -99,4 +99,4 @@ TEST_F(UsbPlaces, AreNotTakenForDevicesThatShareTheirNumbers) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::usb_place_test

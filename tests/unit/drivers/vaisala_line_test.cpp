@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::vaisala_line_test {
 namespace {
 
 constexpr std::string_view reply = "P= 1013.2 hPa T= 31.1 'C RH= 38.3 %RH";
@@ -67,4 +67,4 @@ TEST(Vaisala, MeasuresPressureAloneAsPtb330) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::vaisala_line_test

@@ -8,7 +8,7 @@
 #include <boost/asio/co_spawn.hpp>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::vaisala_patience_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -20,7 +20,8 @@ const std::string form =
     "2252483d222052482022202220553420435358205c72205c6e0d";
 /// P= 1013.25 hPa, T= asterisks, RH= 38.4 %RH and its CSX, from tests/traces/vaisala-ptu300.tape.
 const std::string reading =
-    "< 1100000000 503d20313031332e323520685061202020543d202a2a2a2a2a2027432052483d2033382e3420255248"
+    "< 1100000000 "
+    "503d20313031332e323520685061202020543d202a2a2a2a2a2027432052483d2033382e3420255248"
     "2031300d0a\n";
 
 /// Written in this order; the player looks at the bytes, not at their time.
@@ -89,4 +90,4 @@ TEST_F(VaisalaPatience, OnALineWithoutAByteIsOpenedAnewAfterOneRequest) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::vaisala_patience_test

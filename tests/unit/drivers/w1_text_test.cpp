@@ -13,7 +13,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::w1_text_test {
 namespace {
 
 const std::string warm = "72 01 4b 46 7f ff 0e 10 57 : crc=57 YES\n"
@@ -174,4 +174,4 @@ TEST(Ds18b20, RefusesNamesThatTheKernelDoesNotGive) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::w1_text_test

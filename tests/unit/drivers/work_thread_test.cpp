@@ -9,7 +9,7 @@
 
 #include <future>
 
-namespace axiscal {
+namespace axiscal::work_thread_test {
 namespace {
 
 struct Asked {
@@ -78,4 +78,4 @@ TEST_F(WorkThreadTest, RunsTheLastJobAndDropsTheOthers) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::work_thread_test

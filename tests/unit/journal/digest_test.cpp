@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::digest_test {
 namespace {
 
 // FIPS 180-4 example "abc"; the million 'a' and the empty message are NIST's published vectors.
@@ -31,4 +31,4 @@ TEST(Digest, OfALinkIsThatOfPreviousAndBytesInARow) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::digest_test

@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::journal_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -343,4 +343,4 @@ TEST(Journal, KeepsEveryAcknowledgedPointThroughKill9) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::journal_test

@@ -13,7 +13,7 @@
 
 #include <functional>
 
-namespace axiscal::testing {
+namespace axiscal::testing::receipt_to_cnc_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -98,4 +98,4 @@ TEST_F(ReceiptToCnc, GivesTheNextHaltTheNextNumber) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::receipt_to_cnc_test

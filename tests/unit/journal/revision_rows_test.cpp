@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::revision_rows_test {
 namespace {
 
 using testing::RandomRun;
@@ -145,4 +145,4 @@ TEST(RevisionRows, AnOrderOrAnExclusionThatIsChangedShows) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::revision_rows_test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace axiscal {
+namespace axiscal::run_file_changed_test {
 namespace {
 
 using testing::RandomRun;
@@ -206,4 +206,4 @@ TEST(RunFile, NeverGivesAnotherRunWhateverByteIsChanged) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_file_changed_test

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace axiscal {
+namespace axiscal::run_file_formats_test {
 namespace {
 
 using testing::drop_format_4;
@@ -113,4 +113,4 @@ TEST(RunFile, IsRefusedUnderTheNumberOfAnotherFormat) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_file_formats_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::run_file_test {
 namespace {
 
 using testing::RandomRun;
@@ -222,4 +222,4 @@ TEST(RunFile, IsTidiedAfterAPowerCutInItsClosing) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_file_test

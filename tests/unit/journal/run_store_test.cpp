@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::run_store_test {
 namespace {
 
 using testing::OpeningCount;
@@ -221,4 +221,4 @@ TEST_F(RunStore, NoFolderHoldsNoRuns) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_store_test

@@ -17,7 +17,7 @@
 #include <numbers>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::stream_packing_test {
 namespace {
 
 using testing::RandomRun;
@@ -270,4 +270,4 @@ TEST(CircularRunFile, AValueThatIsNoNumberIsNotWritten) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::stream_packing_test

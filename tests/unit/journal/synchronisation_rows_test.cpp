@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-namespace axiscal {
+namespace axiscal::synchronisation_rows_test {
 namespace {
 
 using testing::drop_format_4;
@@ -157,4 +157,4 @@ TEST_F(SynchronisationRows, AFileOfFormat3GoesOnWithoutThem) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::synchronisation_rows_test

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::circular_program_test {
 namespace {
 
 struct Block {
@@ -147,4 +147,4 @@ TEST(CircularProgram, ACoilIsRaisedAndTakenBack) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_program_test

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <utility>
 
-namespace axiscal {
+namespace axiscal::part_program_test {
 namespace {
 
 /// A plan written down by hand, not by the planner: m targets, n approaches, both ways.
@@ -315,4 +315,4 @@ TEST(PartProgram, Rs274OfLinuxcncAcceptsItAndMovesAsPlanned) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::part_program_test

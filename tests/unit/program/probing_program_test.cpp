@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::probing_program_test {
 namespace {
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -128,4 +128,4 @@ TEST(ProbingLog, RefusesALogThatIsNotOfThisProgram) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::probing_program_test

@@ -13,7 +13,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::rotary_program_test {
 namespace {
 
 RotarySetup table_of(double step_deg) {
@@ -191,4 +191,4 @@ TEST(RotaryProgram, Rs274OfLinuxcncAcceptsItAndTurnsAAsPlanned) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::rotary_program_test

@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::axiscal_publish_test {
 namespace {
 
 using testing::read_bytes;
@@ -197,4 +197,4 @@ TEST(AxiscalPublish, LeavesWordOfItsStateBesideTheOutbox) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::axiscal_publish_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::certificate_json_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -325,4 +325,4 @@ TEST(CertificateCsv, QuotesWhatWouldBreakALine) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::certificate_json_test

@@ -9,7 +9,7 @@
 
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::circular_certificate_json_test {
 namespace {
 
 using nlohmann::json;
@@ -129,4 +129,4 @@ TEST(CircularCertificateCsv, HoldsEveryReadingAboutTheSetUpAndAboutTheZone) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_certificate_json_test

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace axiscal {
+namespace axiscal::circular_run_certificate_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -23,7 +23,7 @@ protected:
         return test::write_circles(folder_, bar, bar.drive(), close);
     }
     ScratchFolder folder_;
-    test::Truth truth_;
+    test::CircleTruth truth_;
 };
 
 TEST_F(CircularRunCertificate, HoldsTheTruthThatWasDriven) {
@@ -78,4 +78,4 @@ TEST_F(CircularRunCertificate, IsVerifiedAgainstItsRunFile) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_run_certificate_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circular_run_file_test {
 namespace {
 
 using circular::Cause;
@@ -56,4 +56,4 @@ TEST(CircularRunFile, ARunWithoutCirclesIsRefused) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_run_file_test

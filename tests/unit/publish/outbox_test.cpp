@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace axiscal {
+namespace axiscal::outbox_test {
 namespace {
 
 using testing::read_bytes;
@@ -87,4 +87,4 @@ TEST(Outbox, ArchivesASecondEntryOfTheSameNameBesideTheFirst) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::outbox_test

@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace axiscal {
+namespace axiscal::publisher_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -212,4 +212,4 @@ TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::publisher_test

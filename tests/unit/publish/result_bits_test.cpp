@@ -10,7 +10,7 @@
 #include <bit>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::result_bits_test {
 namespace {
 
 /// No number here comes from a mathematics library: its last bits differ between systems.
@@ -50,4 +50,4 @@ TEST(ResultBits, OfTheSimulationAreTheSameOnEveryPreset) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::result_bits_test

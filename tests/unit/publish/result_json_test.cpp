@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::result_json_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -97,4 +97,4 @@ TEST(ResultDigest, IsTheHashOfTheDocumentedBytes) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::result_json_test

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::share_test {
 namespace {
 
 using testing::read_bytes;
@@ -197,4 +197,4 @@ TEST(Share, NeverShowsAHalfFileWhereverTheCopyIsKilled) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::share_test

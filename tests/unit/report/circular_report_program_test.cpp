@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <sys/wait.h>
 
-namespace axiscal {
+namespace axiscal::circular_report_program_test {
 namespace {
 
 using testing::read_bytes;
@@ -50,4 +50,4 @@ TEST_F(CircularReportProgram, StagesTheCertificateOfACircularRun) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_report_program_test

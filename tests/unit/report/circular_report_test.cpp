@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circular_report_test {
 namespace {
 
 using test::bare_measurement;
@@ -306,4 +306,4 @@ TEST(CircularWording, NamesTheQuadrantThatATraceGoesIntoAndComesOutOf) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circular_report_test

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <functional>
 
-namespace axiscal {
+namespace axiscal::drift_report_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -219,4 +219,4 @@ TEST(DriftWords, TellADurationInItsLargestWholeUnit) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::drift_report_test

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::polar_plot_test {
 namespace {
 
 using test::bare_measurement;
@@ -32,7 +32,7 @@ double uniform(std::mt19937& random, double low, double high) {
 /// Causes between a tenth of a micrometre and a tenth of a millimetre on an arc from 120 deg.
 CircularCertificate random_certificate(std::mt19937& random) {
     const double size = std::pow(10.0, uniform(random, -4, -1));
-    test::Truth truth;
+    test::CircleTruth truth;
     for (const char* cause : {"off_x_ccw", "off_y_ccw", "off_x_cw", "off_y_cw", "backlash_x",
                               "backlash_y", "straight_x", "lateral_y"})
         truth[cause] = uniform(random, -size, size);
@@ -237,4 +237,4 @@ TEST_F(PolarPlot, TurnsTheFirstAxisRightAndTheSecondUp) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::polar_plot_test

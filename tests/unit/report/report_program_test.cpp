@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
-namespace axiscal {
+namespace axiscal::report_program_test {
 namespace {
 
 using testing::read_bytes;
@@ -114,4 +114,4 @@ TEST_F(ReportProgram, RefusesACaseThatIsNotCircularOrGoesIntoTheOutbox) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::report_program_test

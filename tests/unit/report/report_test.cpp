@@ -10,7 +10,7 @@
 
 #include <regex>
 
-namespace axiscal {
+namespace axiscal::report_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -442,4 +442,4 @@ TEST_F(Report, SurvivesControlCharactersAndBrokenUtf8) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::report_test

@@ -11,7 +11,7 @@
 namespace axiscal::test {
 
 /// Scale, squareness, lag, backlash and an offset centre: 5 to 15 um.
-inline Truth circular_truth() {
+inline CircleTruth circular_truth() {
     return {{"off_x_ccw", 0.012},   {"off_y_ccw", -0.007}, {"off_x_cw", 0.0125},
             {"off_y_cw", -0.0066},  {"scale_x", 12e-6},    {"scale_y", -8e-6},
             {"square", 22e-6},      {"servo", 150e-6},     {"backlash_x", 0.0032},
@@ -19,7 +19,7 @@ inline Truth circular_truth() {
 }
 
 /// Every 0.4 deg from `from_deg` over `arc_deg`; noise of `noise_mm` out of the seed.
-inline CircularTest circular_test(const Truth& truth,
+inline CircularTest circular_test(const CircleTruth& truth,
                                   unsigned seed,
                                   double from_deg = 0,
                                   double arc_deg = 360,

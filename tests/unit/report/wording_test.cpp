@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::wording_test {
 namespace {
 
 TEST(Wording, WritesATrueMinusAndNeverMinusZero) {
@@ -74,4 +74,4 @@ TEST(Ticks, SurviveASinglePoint) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::wording_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circle_order_test {
 namespace {
 
 TriggerEvent request(std::uint16_t sequence) {
@@ -119,4 +119,4 @@ TEST(CircleOrder, APersonStepsThroughWithoutNumbersAndDwellsMeanNothing) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_order_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::circle_resume_test {
 namespace {
 
 using Decision = CircleResume::Decision;
@@ -106,4 +106,4 @@ TEST(CircleResume, AnInterferometerMustHaveCountedOn) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::circle_resume_test

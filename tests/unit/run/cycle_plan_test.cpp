@@ -9,7 +9,7 @@
 #include <random>
 #include <tuple>
 
-namespace axiscal {
+namespace axiscal::cycle_plan_test {
 namespace {
 
 CycleConfig metre_axis() {
@@ -368,4 +368,4 @@ TEST(CyclePlan, LawEveryAcceptedPlanIsSoundAndEveryRefusalSpeaks) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::cycle_plan_test

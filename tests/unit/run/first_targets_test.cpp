@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::first_targets_test {
 namespace {
 
 constexpr Length datum = 10.0_mm;
@@ -128,4 +128,4 @@ TEST(LivePosition, TakesSignDatumAndAirIntoAccount) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::first_targets_test

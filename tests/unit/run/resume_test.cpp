@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace axiscal {
+namespace axiscal::resume_test {
 namespace {
 
 using testing::at_s;
@@ -342,4 +342,4 @@ TEST(ResumedRun, KeepsSkippedPointsSkipped) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::resume_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::retake_test {
 namespace {
 
 using testing::Bench;
@@ -212,4 +212,4 @@ TEST(Exclusion, NeedsItsReason) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::retake_test

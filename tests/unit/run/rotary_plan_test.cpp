@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::rotary_plan_test {
 namespace {
 
 CycleConfig full_turn_axis() {
@@ -158,4 +158,4 @@ TEST(RotaryPlan, TargetsOfAPolygonStandAtItsFaces) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::rotary_plan_test

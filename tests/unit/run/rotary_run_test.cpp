@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace axiscal {
+namespace axiscal::rotary_run_test {
 namespace {
 
 using testing::air_index_minus_1;
@@ -118,4 +118,4 @@ TEST(RotaryRun, OfAPolygonTakesAReadingAsItIsTyped) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::rotary_run_test

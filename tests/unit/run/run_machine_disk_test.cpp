@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-namespace axiscal {
+namespace axiscal::run_machine_disk_test {
 namespace {
 
 using testing::Bench;
@@ -93,4 +93,4 @@ TEST(Disk, ACommitThatNobodyAskedForIsNeverAcknowledged) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_machine_disk_test

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::run_machine_faults_test {
 namespace {
 
 using testing::at_s;
@@ -125,4 +125,4 @@ TEST(Laser, AFaultDuringTheWindowIsToldAtOnce) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_machine_faults_test

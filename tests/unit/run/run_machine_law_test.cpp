@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-namespace axiscal {
+namespace axiscal::run_machine_law_test {
 namespace {
 
 using testing::at_s;
@@ -263,4 +263,4 @@ TEST(RunMachineLaw, TheCounterWrapsInTheMiddleOfARun) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_machine_law_test

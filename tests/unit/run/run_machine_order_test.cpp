@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::run_machine_order_test {
 namespace {
 
 using testing::Bench;
@@ -133,4 +133,4 @@ TEST(Claim, OfARotaryAxisCountsHundredThousandthsOfADegree) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_machine_order_test

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::run_machine_test {
 namespace {
 
 using testing::at_s;
@@ -257,4 +257,4 @@ TEST(Dwell, TriggersCarryNoNumberOfTheirOwn) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_machine_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::target_positions_test {
 namespace {
 
 // The ten-thousandth output of std::mt19937_64 seeded with 5489 is fixed by the C++ standard
@@ -64,4 +64,4 @@ TEST(PhaseSpread, IsTheShortestArcThatHoldsAllPhases) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::target_positions_test

@@ -8,7 +8,7 @@
 #include <array>
 #include <iostream>
 
-namespace axiscal {
+namespace axiscal::trigger_sequences_test {
 namespace {
 
 using testing::Axis;
@@ -152,4 +152,4 @@ TEST(TriggerSequences, ACounterThatBeginsAgainAfterItsFirstPointIsARepeatAndStop
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::trigger_sequences_test

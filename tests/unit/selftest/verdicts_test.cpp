@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::verdicts_test {
 namespace {
 
 bool says(const SelftestVerdict& verdict, const std::string& words) {
@@ -58,4 +58,4 @@ TEST(SelfTest, MeasuresThisComputer) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::verdicts_test

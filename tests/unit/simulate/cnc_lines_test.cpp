@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::cnc_lines_test {
 namespace {
 
 CncScenario cnc(const std::string& shape, const std::string& fault = "", int request = 1) {
@@ -139,4 +139,4 @@ TEST(CncLines, FaultsStayWithTheirRequest) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::cnc_lines_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::commanded_axis_test {
 namespace {
 
 TEST(TrapezoidMove, TakesTheTimeOfTheTextbook) {
@@ -51,4 +51,4 @@ TEST(CommandedAxis, HaltsWhereItIs) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::commanded_axis_test

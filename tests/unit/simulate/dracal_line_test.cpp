@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::dracal_line_test {
 namespace {
 
 TEST(DracalLine, CrcClosesThePublishedSample) {
@@ -32,4 +32,4 @@ TEST(DracalLine, FractionDigitsChangeTheResolution) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::dracal_line_test

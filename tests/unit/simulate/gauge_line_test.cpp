@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::gauge_line_test {
 namespace {
 
 TEST(GaugeLine, HeidenhainHasTenPlacesWithBlanksInFront) {
@@ -26,4 +26,4 @@ TEST(GaugeLine, SylvacEchoesEachCommand) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::gauge_line_test

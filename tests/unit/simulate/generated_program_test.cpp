@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::generated_program_test {
 namespace {
 
 const std::vector<double> targets_mm{12.3456, 110.5, 207.1, 313.0};
@@ -90,4 +90,4 @@ TEST(GeneratedProgram, StopsWhereNobodyAnswers) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::generated_program_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::indexing_table_test {
 namespace {
 
 constexpr double rad = std::numbers::pi / 180;
@@ -82,4 +82,4 @@ TEST(IndexingTable, IsReadFromTheScenario) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::indexing_table_test

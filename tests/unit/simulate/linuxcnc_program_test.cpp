@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::linuxcnc_program_test {
 namespace {
 
 using Log = std::vector<std::string>;
@@ -105,4 +105,4 @@ TEST(LinuxcncProgram, RefusesWhileRunningWhatOnlyShowsThere) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::linuxcnc_program_test

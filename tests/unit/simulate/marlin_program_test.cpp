@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::marlin_program_test {
 namespace {
 
 TEST(MarlinProgram, DwellsInMilliseconds) {
@@ -31,4 +31,4 @@ TEST(MarlinProgram, RefusesWhatItDoesNotUnderstand) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::marlin_program_test

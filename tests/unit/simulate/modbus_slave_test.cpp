@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::modbus_slave_test {
 namespace {
 
 Bytes ask(RegisterBank bank, const Bytes& frame) {
@@ -103,4 +103,4 @@ TEST(ModbusSlave, KnowsTheLengthOfARequest) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::modbus_slave_test

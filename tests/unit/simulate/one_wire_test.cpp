@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::one_wire_test {
 namespace {
 
 using How = UsbAnswer::How;
@@ -174,4 +174,4 @@ TEST_F(Adapter, LosesItsBufferToAReaderOfLess) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::one_wire_test

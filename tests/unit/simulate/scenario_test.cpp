@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::scenario_test {
 namespace {
 
 std::string refusal(const std::string& toml) {
@@ -46,4 +46,4 @@ TEST(Scenario, RefusesTextThatIsNoToml) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::scenario_test

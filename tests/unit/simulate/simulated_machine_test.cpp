@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::simulated_machine_test {
 namespace {
 
 Scenario quiet() {
@@ -137,4 +137,4 @@ TEST(TrueErrors, SumTermsTableAndPeriod) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::simulated_machine_test

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <unistd.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::simulator_test {
 namespace {
 
 class SimulatorTest : public testing::Test {
@@ -149,4 +149,4 @@ TEST_F(SimulatorTest, RefusesAProgramThatItDoesNotUnderstand) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::simulator_test

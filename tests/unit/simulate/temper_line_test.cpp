@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::temper_line_test {
 namespace {
 
 std::string answered(std::string typed, const TemperTruth& truth) {
@@ -33,4 +33,4 @@ TEST(TemperAnswer, WaitsForHalfACommandAndForgetsWhatIsNone) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::temper_line_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::true_air_test {
 namespace {
 
 struct Row {
@@ -69,4 +69,4 @@ TEST(TrueAir, VapourPressureIsNearTheSteamTables) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::true_air_test

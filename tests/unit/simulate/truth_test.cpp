@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::truth_test {
 namespace {
 
 double value(const nlohmann::json& truth, const std::string& key) {
@@ -167,4 +167,4 @@ TEST(TruthPlan, NeedsACapture) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::truth_test

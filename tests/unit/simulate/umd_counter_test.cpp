@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::umd_counter_test {
 namespace {
 
 LaserScenario laser(const std::string& kind, int counts_per_cycle, int phase_bits) {
@@ -125,4 +125,4 @@ TEST(UmdCounter, SwitchesToSixteenFieldsWhileRunning) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::umd_counter_test

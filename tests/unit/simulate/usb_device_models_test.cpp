@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::usb_device_models_test {
 namespace {
 
 Bytes vendor_request(UsbDevice& device, std::uint8_t request, std::uint16_t value) {
@@ -106,4 +106,4 @@ TEST(TemperDevice, AnswersItsFirmwareAndItsValuesInReports) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::usb_device_models_test

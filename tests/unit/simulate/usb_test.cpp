@@ -16,7 +16,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::usb_test {
 namespace {
 
 /// Example of usbip_protocol.rst: a SUBMIT of 8 bytes from endpoint 1, sequence 0x0d05, device
@@ -106,7 +106,8 @@ public:
         UsbipHeader header{};
         EXPECT_EQ(::recv(socket_, header.data(), header.size(), MSG_WAITALL), 48);
         const auto word = [&](std::size_t at) {
-            return static_cast<int>(std::uint32_t{header[at]} << 24 | std::uint32_t{header[at + 1]} << 16 |
+            return static_cast<int>(std::uint32_t{header[at]} << 24 |
+                                    std::uint32_t{header[at + 1]} << 16 |
                                     std::uint32_t{header[at + 2]} << 8 | header[at + 3]);
         };
         Reply reply{word(0), word(4), word(20), {}};
@@ -254,4 +255,4 @@ TEST(FtdiUart, PutsItsStatusBeforeEvery62Bytes) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::usb_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::vaisala_line_test {
 namespace {
 
 const VaisalaAir air{1013.2, 31.1, 38.3};
@@ -32,4 +32,4 @@ TEST(VaisalaLine, TakesANewFormatAndWaitsForTheEndOfACommand) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::vaisala_line_test

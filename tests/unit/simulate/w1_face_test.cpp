@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::w1_face_test {
 namespace {
 
 TEST(W1Slave, IsTheScratchpadOfTheDataSheetWithItsCrc) {
@@ -16,4 +16,4 @@ TEST(W1Slave, IsTheScratchpadOfTheDataSheetWithItsCrc) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::w1_face_test

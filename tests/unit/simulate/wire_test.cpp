@@ -13,7 +13,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace axiscal::simulate {
+namespace axiscal::simulate::wire_test {
 namespace {
 
 struct ScratchFolder {
@@ -212,4 +212,4 @@ TEST(CncServer, IsTheMirroredBlockForAClient) {
 }
 
 } // namespace
-} // namespace axiscal::simulate
+} // namespace axiscal::simulate::wire_test

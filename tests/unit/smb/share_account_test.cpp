@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sys/stat.h>
 
-namespace axiscal {
+namespace axiscal::share_account_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -73,4 +73,4 @@ TEST(ShareAccount, ComesFromTheServiceManagerWhereNoFileIsNamed) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::share_account_test

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace axiscal::testing {
+namespace axiscal::testing::certificate_writer_test {
 namespace {
 
 class ReportProgram : public ::testing::Test {
@@ -79,4 +79,4 @@ TEST_F(ReportProgram, HasTwoMinutesInTheDaemon) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::certificate_writer_test

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace axiscal {
+namespace axiscal::outbox_watch_test {
 namespace {
 
 using testing::ScratchFolder;
@@ -197,4 +197,4 @@ TEST(OutboxWatch, IsSilentWhereNoShareIsWanted) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::outbox_watch_test

@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-namespace axiscal {
+namespace axiscal::preflight_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -340,4 +340,4 @@ TEST_F(CircularPreflight, WithoutACoefficientFAndDStandAsMeasured) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::preflight_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::roles_test {
 namespace {
 
 class Roles : public ::testing::Test {
@@ -90,4 +90,4 @@ TEST_F(Roles, AnAxisWithoutAContactSensorIsRefused) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::roles_test

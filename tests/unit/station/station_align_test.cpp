@@ -1,7 +1,7 @@
 // The beam aligned before a run: what is kept stands in the run file.
 #include "tests/unit/station/station_bench.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_align_test {
 namespace {
 
 class StationAligns : public ::testing::Test {
@@ -104,4 +104,4 @@ TEST_F(StationAligns, NothingCanBeKeptThatWasNotSeen) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_align_test

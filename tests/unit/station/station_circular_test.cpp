@@ -7,7 +7,7 @@
 #include "station_bench.hpp"
 #include "tests/unit/analysis/driven_bar.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_circular_test {
 namespace {
 
 using circular::Cause;
@@ -18,7 +18,7 @@ using test::reference_name;
 class CircleMachine {
 public:
     CircularPlan plan;
-    test::Truth truth{{"square", 40e-6}, {"backlash_x", 0.005}, {"scale_y", -30e-6}};
+    test::CircleTruth truth{{"square", 40e-6}, {"backlash_x", 0.005}, {"scale_y", -30e-6}};
 
     /// @returns how long it takes.
     Duration drive(Sense sense, MonotonicTime now) {
@@ -145,7 +145,7 @@ TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
     for (const Cause cause :
          {Cause::squareness, Cause::backlash_x, Cause::backlash_y, Cause::scale_y}) {
         const double leverage = leverage_of(cause, 50, 100);
-        test::Truth truth = bay.machine.truth;
+        test::CircleTruth truth = bay.machine.truth;
         // the form at the ends (8 um) shifts the steps by as much path: 0.16 mrad, of which twice
         // 8 um make 3 nm; a sample is 2 mrad, and a reversal falls between two: 5 um of backlash
         // times one sample of 3142
@@ -174,7 +174,8 @@ TEST(StationCircular, TheTableOfTheTransducerIsInEachRecordedReading) {
     stated.channel = "ballbar";
     stated.calibration.corrections = {{-0.1, -0.002}, {0, 0}, {0.1, 0.002}};
     stretched.shop.config.instruments.back().channels.push_back(stated);
-    const std::vector<double> wanted = readings_of_a_circle(exact), found = readings_of_a_circle(stretched);
+    const std::vector<double> wanted = readings_of_a_circle(exact),
+                              found = readings_of_a_circle(stretched);
     ASSERT_GE(wanted.size(), 3000U);
     ASSERT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -423,4 +424,4 @@ TEST(StationCircular, ABarWhoseCounterWasSwitchedOffEndsTheTest) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_circular_test

@@ -3,7 +3,7 @@
 #include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_drift_test {
 namespace {
 
 class StationDrifts : public ::testing::Test {
@@ -199,4 +199,4 @@ TEST_F(StationDrifts, OfAnotherAxisIsNotTheRunsOwn) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_drift_test

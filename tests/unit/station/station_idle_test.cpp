@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_idle_test {
 namespace {
 
 class StationIdle : public ::testing::Test {
@@ -165,4 +165,4 @@ TEST_F(StationIdle, IsReadyBeforeTheStoredRunsAreLookedInto) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_idle_test

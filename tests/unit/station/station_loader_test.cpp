@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace axiscal {
+namespace axiscal::station_loader_test {
 namespace {
 
 const std::string config_folder = test::source_dir() + "/config";
@@ -62,4 +62,4 @@ TEST(StationLoader, RefusesAScaleInPlaceOfTheLaser) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_loader_test

@@ -2,7 +2,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_resume_test {
 namespace {
 
 class StationResumes : public ::testing::Test {
@@ -267,4 +267,4 @@ TEST_F(StationResumes, NumbersRunOnFromTheOldDaemonsLastOne) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_resume_test

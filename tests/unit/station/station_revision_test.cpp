@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_revision_test {
 namespace {
 
 class StationRevises : public ::testing::Test {
@@ -262,4 +262,4 @@ TEST_F(StationRevises, LeavesAReadingOutOfAnOpenAndOfAClosedRun) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_revision_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace axiscal {
+namespace axiscal::station_rotary_test {
 namespace {
 
 using namespace testing;
@@ -256,4 +256,4 @@ TEST(StationRotary, AStationWithAnInterferometerTakesNoTypedReading) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::station_rotary_test

@@ -3,7 +3,7 @@
 #include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::station_run_test {
 namespace {
 
 class StationRuns : public ::testing::Test {
@@ -460,4 +460,4 @@ TEST_F(StationRuns, StoppingEndsThePortFirstAndLeavesTheRunOpen) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::station_run_test

@@ -1,7 +1,7 @@
 // Back-off, judgement and quiet of the supervisor; one instrument disturbs no other.
 #include "tests/unit/station/station_bench.hpp"
 
-namespace axiscal::testing {
+namespace axiscal::testing::supervisor_test {
 namespace {
 
 class Supervision : public ::testing::Test {
@@ -208,4 +208,4 @@ TEST_F(Supervision, TheConfiguredNameStandsOnScreensAndInTheRunFile) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::supervisor_test

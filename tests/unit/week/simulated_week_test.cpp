@@ -10,7 +10,7 @@
 #include <ctime>
 #include <iostream>
 
-namespace axiscal::testing {
+namespace axiscal::testing::simulated_week_test {
 namespace {
 
 constexpr int hours_of_a_week = 168;
@@ -126,4 +126,4 @@ TEST(SimulatedWeek, EveryRunIsFinishedAndEveryTroubleIsTold) {
 }
 
 } // namespace
-} // namespace axiscal::testing
+} // namespace axiscal::testing::simulated_week_test

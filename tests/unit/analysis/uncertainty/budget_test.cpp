@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::budget_test {
 namespace {
 
 using nlohmann::json;
@@ -259,4 +259,4 @@ TEST(Verdict, NoValueIsProvenBothWays) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::budget_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::calibrated_terms_test {
 namespace {
 
 RunRecord calibrated_run() {
@@ -68,4 +68,4 @@ TEST(CalibratedTerms, TakeTheFullWidthFromTheWorstMaterialSensor) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::calibrated_terms_test

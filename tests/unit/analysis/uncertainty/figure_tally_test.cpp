@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::figure_tally_test {
 namespace {
 
 /// All figures hold the same samples.
@@ -98,4 +98,4 @@ TEST(FigureTally, CountsWhatLiesBeyondThePilotAtTheEnds) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::figure_tally_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace axiscal {
+namespace axiscal::monte_carlo_test {
 namespace {
 
 using test::Rows;
@@ -267,4 +267,4 @@ TEST(MonteCarlo, RoundsTrialsUpToGroupsAndRefusesTooManyOrTooFew) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::monte_carlo_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-namespace axiscal {
+namespace axiscal::random_lanes_test {
 namespace {
 
 double normal_probability(double z) {
@@ -156,4 +156,4 @@ TEST(NormalDraws, PassTheKolmogorovSmirnovTest) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::random_lanes_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace axiscal {
+namespace axiscal::run_uncertainty_test {
 namespace {
 
 const double root_12 = std::sqrt(12.0);
@@ -223,4 +223,4 @@ TEST(RunUncertainty, MakesTheCertificateFinalAndLeavesEveryBitOfItsResult) {
 }
 
 } // namespace
-} // namespace axiscal
+} // namespace axiscal::run_uncertainty_test
