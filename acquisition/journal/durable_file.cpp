@@ -34,6 +34,18 @@ Result<void> sync_folder(const std::string& path) {
     return {};
 }
 
+void reserve_zeros(const std::string& path, std::size_t bytes) {
+    const FileHandle file{::open(path.c_str(), O_WRONLY | O_CLOEXEC)};
+    struct stat found {};
+    if (!file || ::fstat(file.get(), &found) != 0 || found.st_size != 0) return;
+    // Not posix_fallocate: a block that was never written costs the file system's journal a commit
+    // when it is.
+    const std::string zeros(bytes, '\0');
+    const bool whole = ::write(file.get(), zeros.data(), bytes) == static_cast<ssize_t>(bytes) &&
+                       ::fdatasync(file.get()) == 0;
+    if (!whole && ::ftruncate(file.get(), 0) != 0) return; // the next writer meets the disk's error
+}
+
 Result<void> write_synced(const std::string& path, std::string_view content) {
     FileHandle file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0664)};
     if (!file) return fail_io("cannot create", path);

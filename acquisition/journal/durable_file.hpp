@@ -42,6 +42,9 @@ Result<void> write_synced(const std::string& path, std::string_view content);
 /// May files grow in this folder? Writes and syncs as much as a run file needs to be gone on with,
 /// and removes it.
 Result<void> try_folder(const std::string& folder);
+/// Gives an empty file this length in zeros, synced, so that what is written over them needs no new
+/// blocks. Where they do not fit, or it is not empty, it stays as it was.
+void reserve_zeros(const std::string& path, std::size_t bytes);
 /// Renames a file or folder to a name that must be free. @errors Fault::refused if it is taken.
 Result<void> move_to_free_name(const std::string& from, const std::string& to);
 /// What a person can do about an error of the disk that carries `folder`; empty where the system's

@@ -132,6 +132,7 @@ std::optional<Error> Journal::Worker::known_failure() const {
 Result<void> Journal::Worker::take(Result<RunFileWriter> opened) {
     if (!opened) return remember(tl::unexpected<Error>(opened.error()));
     writer.emplace(*std::move(opened));
+    writer->reserve_log();
     return {};
 }
 

@@ -170,6 +170,13 @@ Result<RunFileWriter> RunFileWriter::go_on(const std::string& path,
     return writer;
 }
 
+// SQLite takes a log whose header is no header for an empty one, and overwrites it from its start.
+void RunFileWriter::reserve_log() const {
+    constexpr std::size_t header = 32, frame = 24 + 4096; // file format of SQLite, section 4
+    constexpr std::size_t frames = 1000;                  // then it folds them back by itself
+    reserve_zeros(path_ + "-wal", header + frames * frame);
+}
+
 /// Compiled once a table: for a small row that is most of the work.
 Result<Statement*> RunFileWriter::insertion_into(const Table& table) {
     auto known = insertions_.find(table.name);

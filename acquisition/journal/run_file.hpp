@@ -65,6 +65,10 @@ public:
     RunFileWriter& operator=(RunFileWriter&&) noexcept;
     ~RunFileWriter(); ///< leaves the run open, to be resumed
 
+    /// Gives the log of commits its full length before the first of them: each then overwrites, and
+    /// its sync waits for the data alone. Saves about a third of the time until a point is durable.
+    void reserve_log() const;
+
     /// One transaction, in the order preflight, retakes, exclusions, circular, streams, chunks,
     /// environment, events, datum, point; the last two with their synchronisation. @errors
     /// Fault::refused, unwritten, for the first three in a file of a format before 3.
