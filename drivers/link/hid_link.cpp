@@ -63,7 +63,7 @@ private:
 };
 
 /// The path of the wanted interface of the device in this socket.
-/// @param interface  -1: the last one.
+/// @param interface  -1: the last one that is served.
 std::string hid_path(const UsbEntry& entry, int interface) {
     hid_device_info* const all = ::hid_enumerate(entry.vendor, entry.product);
     std::string path;
@@ -84,9 +84,13 @@ Result<std::shared_ptr<HidHandle>> HidHandle::open(const UsbPlace& place) {
     AXISCAL_TRY(const UsbEntry entry, choose_usb(place, list_hid()));
     const std::lock_guard lock{hidapi_lock()};
     if (::hid_init() != 0) return fail(Fault::io, "hidapi does not start");
-    const std::string path = hid_path(entry, place.interface);
+    // Not the last that is served: before it stands a keyboard, which is not to be written to.
+    const int interface = place.interface >= 0 ? place.interface : last_hid_interface(entry.port);
+    const std::string path = hid_path(entry, interface);
     const std::string name = entry.describe();
-    if (path.empty()) return fail(Fault::io, name + " has no HID interface that the kernel serves");
+    const std::string which = interface < 0 ? "" : " " + std::to_string(interface);
+    if (path.empty())
+        return fail(Fault::io, name + " has no HID interface" + which + " that the kernel serves");
     hid_device* const device = ::hid_open_path(path.c_str());
     if (!device)
         return fail(Fault::io,

@@ -41,7 +41,26 @@ std::optional<UsbEntry> entry_of(const fs::path& hid) {
     return entry;
 }
 
+/// An attribute of an interface; -1 when there is none.
+int hexadecimal_in(const fs::path& file) {
+    std::ifstream attribute{file};
+    int number = -1;
+    if (!(attribute >> std::hex >> number)) return -1;
+    return number;
+}
+
 } // namespace
+
+int last_hid_interface(const std::string& port, const std::string& sysfs) {
+    constexpr int hid_class = 3;
+    int last = -1;
+    std::error_code error;
+    for (fs::directory_iterator part{sysfs + "/bus/usb/devices/" + port, error}, end;
+         !error && part != end; part.increment(error))
+        if (hexadecimal_in(part->path() / "bInterfaceClass") == hid_class)
+            last = std::max(last, hexadecimal_in(part->path() / "bInterfaceNumber"));
+    return last;
+}
 
 std::vector<UsbEntry> list_hid(const std::string& sysfs) {
     std::vector<UsbEntry> plugged = list_usb(sysfs);

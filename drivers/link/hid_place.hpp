@@ -11,6 +11,10 @@ namespace axiscal {
 /// `sysfs` is another folder in tests.
 std::vector<UsbEntry> list_hid(const std::string& sysfs = "/sys");
 
+/// The highest number among the interfaces of the device in this USB socket that call themselves
+/// HID, whether the kernel serves them or not; -1 where there is none, and where there is no USB.
+int last_hid_interface(const std::string& port, const std::string& sysfs = "/sys");
+
 /// This very device, not plugged in anew, is there.
 bool is_hid_plugged(const UsbEntry& entry);
 

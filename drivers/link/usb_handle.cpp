@@ -90,6 +90,22 @@ UsbHandle::~UsbHandle() {
     if (node_ >= 0) ::close(node_);
 }
 
+/// What the driver uses and the device did not tell the kernel of; empty where it did. The kernel's
+/// refusal of an endpoint is an I/O error of libusb's, as others are: only the descriptors tell.
+std::string UsbHandle::missing_part(int code, int endpoint) const {
+    if (handle_ == nullptr) return {};
+    if (endpoint == 0)
+        return code == LIBUSB_ERROR_NOT_FOUND ? "interface " + std::to_string(place_.interface)
+                                              : std::string{};
+    const auto address = static_cast<unsigned char>(endpoint);
+    if (code != LIBUSB_ERROR_IO ||
+        ::libusb_get_max_packet_size(::libusb_get_device(handle_), address) >= 0)
+        return {};
+    char text[20];
+    std::snprintf(text, sizeof text, "endpoint 0x%02x", unsigned{address});
+    return text;
+}
+
 /// A bulk endpoint that answered with STALL stays so until it is told to go on (USB 2.0, 9.4.5).
 tl::unexpected<Error> UsbHandle::failed(int code, int endpoint) {
     if (code == LIBUSB_ERROR_PIPE && endpoint != 0)
@@ -97,6 +113,10 @@ tl::unexpected<Error> UsbHandle::failed(int code, int endpoint) {
     const Fault fault = fault_of(code);
     const bool gone = code == LIBUSB_ERROR_NO_DEVICE || (fault == Fault::io && !is_plugged(entry_));
     if (gone) return place_.absence();
+    const std::string missing = missing_part(code, endpoint);
+    if (!missing.empty())
+        return fail(fault, entry_.describe() + " shows no " + missing +
+                               ": its descriptors are damaged, or it is another device");
     return fail(fault, entry_.describe() + " " + sentence_of(code));
 }
 

@@ -31,6 +31,7 @@ public:
 private:
     Result<void> open_node();
     [[nodiscard]] tl::unexpected<Error> failed(int code, int endpoint);
+    [[nodiscard]] std::string missing_part(int code, int endpoint) const;
 
     UsbPlace place_;
     UsbEntry entry_;

@@ -8,6 +8,7 @@ The checks run in their order on one station that never ends: what one of them b
 
 import json
 import os
+import re
 import sys
 import time
 from pathlib import Path
@@ -21,6 +22,11 @@ GONE = ("unavailable", "faulty")
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
 CONTACTS = "contacts"
 SENSORS = ("28-000000000001", "28-000000000002")
+LACKS = {  # whose configuration was cut within its last descriptor, as the log names it; the socket is the kernel's choice
+    "air": r"USB 1781:0a98 serial number A10234 port \S+ shows no interface 0:",  # it has no endpoints
+    "material": r"USB 413d:2107 port \S+ has no HID interface 1 that the kernel serves",  # its endpoint 0x82 is lost
+    "ballbar": r"USB 0cd5:0006 port \S+ shows no endpoint 0x83:",  # the stream's
+}
 BITS = 10  # of the DS18B20: 0.25 K, 0.19 s
 CARRIERS = {"gadget": ("dummy-hcd", "TEMPer2_V3.7"), "uhid": ("uhid", "TEMPer2_V3.9")}  # the third is in all others
 HIDAPI_LIBUSB = "/usr/lib/x86_64-linux-gnu/libhidapi-libusb.so.0"
@@ -205,6 +211,36 @@ def corrupt(station):
     spoilt(station, WITH_CHECKSUM, "corrupt 4")
     for name in WITH_CHECKSUM:
         expect(station.instrument(name)["checksum_errors"] > before[name], f"{name} counts no wrong checksum")
+
+
+@check("UsbInstrumentsWithDescriptorsCutShortAreNamedAndComeBack")
+def cut_descriptors(station):
+    """Their configuration ends within its last descriptor; the rest of them is whole, and the kernel shows the
+    device. One line of the log says what it lacks, however often it is opened in vain."""
+    since = len(station.logged())
+
+    def says(name):
+        return [line for line in station.logged()[since:] if f" {name}:" in line and re.search(LACKS[name], line)]
+
+    with undisturbed(station, NAMES):
+        try:
+            station.replug(NAMES, "descriptors")
+            for name in NAMES:
+                wait_until(f"the log says what {name} lacks", lambda name=name: says(name))
+                expect(station.state(name) in GONE, f"{name} is {station.state(name)}")
+            restarts = {name: station.instrument(name)["restarts"] for name in NAMES}
+            wait_until("each was tried again", lambda: all(station.instrument(name)["restarts"] > restarts[name] for name in NAMES))
+            told = {name: says(name) for name in NAMES}
+        finally:
+            station.replug(NAMES, "none")
+        station.wait_until_good(*NAMES)
+    for name in NAMES:
+        lines, changes = station.lines_of(name, since), station.changes_of(name, since)
+        expect(len(told[name]) == 1, f"what {name} lacks is told {len(told[name])} times: {told[name]}")
+        # That it is not plugged in: before, and once more between the wrong device and the right one.
+        expect(len(lines) <= 3, f"{name} is told {len(lines)} times: {lines}")
+        expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{name} changed: {changes}")
+    expect(station.instrument("ballbar")["serial"] == "470012345", "another U6 was taken")
 
 
 def kernel_text(sensor):

@@ -2,6 +2,7 @@
 truth on pseudo terminals, `axiscal-simulate usb` carries each through a real driver, axiscald opens
 what udev names."""
 
+import contextlib
 import sys
 from pathlib import Path
 
@@ -21,8 +22,23 @@ LINKS = {"laser": "/dev/axiscal/umd-7391230-00", "air": "/dev/axiscal/dracal-E24
 
 
 def usb_devices():
-    """How many the kernel has, its root hubs not counted."""
-    return sum(":" not in one.name for one in Path("/sys/bus/usb/devices").glob("*-*"))
+    """Each that the kernel has, by its socket and the number that it got there (devnum): what is plugged in anew
+    gets a number that none before it had, so that the old one is not taken for the new. Without root hubs."""
+    found = set()
+    for one in Path("/sys/bus/usb/devices").glob("*-*"):
+        with contextlib.suppress(OSError):  # it is just going
+            if ":" not in one.name:
+                found.add((one.name, (one / "devnum").read_text().strip()))
+    return found
+
+
+def is_set_up(device):
+    """The kernel has chosen its configuration and offered all of it to the drivers: it lets nobody read which
+    one while it does."""
+    socket, _ = device
+    with contextlib.suppress(OSError):
+        return (Path("/sys/bus/usb/devices") / socket / "bConfigurationValue").read_text().strip() != ""
+    return False
 
 
 class UsbStation(bench.Bench):
@@ -72,10 +88,21 @@ class UsbStation(bench.Bench):
         """Until the kernel has let go of them: what comes back within milliseconds it may take for the same
         device and keep what that one said of itself."""
         devices = self.ask_usb("status")["devices"]
-        left = usb_devices() - sum(devices[name]["plugged"] for name in names)
+        before = usb_devices()
+        going = sum(devices[name]["plugged"] for name in names)
         for name in names:
             self.usb(f"unplug {name}")
-        wait_until(f"the kernel has let go of {', '.join(names)}", lambda: usb_devices() <= left)
+        wait_until(f"the kernel has let go of {', '.join(names)}", lambda: len(before - usb_devices()) >= going)
+
+    def replug(self, names, fault):
+        """They come back as new devices with this fault, and the kernel has offered them to its drivers."""
+        before = usb_devices()
+        self.unplug_for_good(*names)
+        for name in names:
+            self.usb(f"fault {name} {fault}")
+            self.usb(f"plug {name}")
+        wait_until(f"the kernel has set up {', '.join(names)}",
+                   lambda: sum(map(is_set_up, usb_devices() - before)) >= len(names))
 
     def ask_usb(self, command):
         return Commands(self.folder / "usb.sock").ask(command)

@@ -54,5 +54,20 @@ TEST_F(HidPlaces, OnUsbAreThereOnce) {
     EXPECT_EQ(plugged[0].port, "1-2");
 }
 
+/// The kernel writes class and number in hexadecimal. A stick whose last interface it can not serve
+/// has that interface all the same.
+TEST_F(HidPlaces, TheLastInterfaceIsTheDevicesOwnWhetherServedOrNot) {
+    const auto device = root() / "bus/usb/devices/1-2";
+    write(device / "1-2:1.0/bInterfaceClass", "03");
+    write(device / "1-2:1.0/bInterfaceNumber", "00");
+    write(device / "1-2:1.10/bInterfaceClass", "03");
+    write(device / "1-2:1.10/bInterfaceNumber", "0a");
+    write(device / "1-2:1.11/bInterfaceClass", "ff");
+    write(device / "1-2:1.11/bInterfaceNumber", "0b");
+    write(device / "idVendor", "413d");
+    EXPECT_EQ(last_hid_interface("1-2", root().string()), 10);
+    EXPECT_EQ(last_hid_interface("0003:413D:2107.001F", root().string()), -1);
+}
+
 } // namespace
 } // namespace axiscal::hid_place_test

@@ -210,6 +210,18 @@ TEST(UrbServer, SpoilsWhatTheDeviceSays) {
     EXPECT_EQ(host.reply(true).status, -EPIPE);
 }
 
+/// The lengths that it states stay: a host sees that bytes are missing.
+TEST(UrbServer, TellsItsConfigurationWithoutTheEndOfTheLastDescriptor) {
+    Host host;
+    host.faults.set(UsbFault::descriptors, 0);
+    host.submit(1, true, 0, {}, 9, {0x80, 6, 0, 2, 0, 0, 9, 0});
+    EXPECT_EQ(host.reply(true).bytes, (Bytes{9, 2, 32, 0, 1, 1, 0, 0x80, 50}));
+    host.submit(2, true, 0, {}, 32, {0x80, 6, 0, 2, 0, 0, 32, 0});
+    const Bytes told = host.reply(true).bytes;
+    ASSERT_EQ(told.size(), 27U);
+    EXPECT_EQ((Bytes{told.end() - 2, told.end()}), (Bytes{7, 5}));
+}
+
 TEST(UsbFaults, RefusesWordsAndNumbersThatMeanNothing) {
     UsbFaults faults;
     EXPECT_FALSE(faults.set("deaf", 0));
