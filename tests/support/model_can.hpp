@@ -12,6 +12,7 @@
 #include <boost/asio/co_spawn.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace axiscal::testing {
@@ -33,6 +34,8 @@ public:
     int swallow = 0;
     /// They are dropped by the kernel, which counts them.
     int drop = 0;
+    /// When the kernel stamps a frame that was sent at a time; empty: at that time.
+    std::function<MonotonicTime(MonotonicTime sent)> stamp;
     /// Frames from devices lose all bytes beyond.
     std::size_t longest = 8;
     /// Frames that were heard by no filter of anybody, and those that were.
@@ -115,6 +118,7 @@ inline void ModelCanBus::deliver(const std::vector<simulate::CanMessage>& frames
         std::ranges::copy(std::as_bytes(std::span{message.data}.first(frame.length)),
                           frame.data.begin());
         if (swallow > 0 && swallow-- > 0) continue;
+        const MonotonicTime stamped = stamp ? stamp(at) : at;
         bool taken = false;
         for (ModelCanLink* link : links_) {
             if (!link->ids_.contains(frame.id)) continue;
@@ -122,7 +126,7 @@ inline void ModelCanBus::deliver(const std::vector<simulate::CanMessage>& frames
             if (drop > 0 && drop-- > 0)
                 ++link->dropped_;
             else
-                link->queue_.push_back({frame, at, link->dropped_});
+                link->queue_.push_back({frame, stamped, link->dropped_});
         }
         ++(taken ? heard : unheard);
     }

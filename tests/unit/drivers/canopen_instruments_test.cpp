@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace axiscal::canopen_instruments_test {
 namespace {
@@ -228,6 +229,53 @@ TEST_F(CanOpen, BallbarStreamsAtOneKilohertzWithoutAHole) {
         ASSERT_NEAR(sample.value().value(), metres(seconds), 1.1e-6);
     }
     EXPECT_EQ(ballbar.sink.identities.at(0).model, "Temposonics E-series");
+}
+
+/// A frame is on the wire for 0.1 to 0.5 ms; a host that stands still, every 60 ms on the average
+/// and for up to 8 ms, stamps what waited when it goes on.
+class LateHost {
+public:
+    MonotonicTime stamps(MonotonicTime sent) {
+        const double ready_s = seconds_of(sent.time_since_epoch()) + 1e-4 + 4e-4 * part();
+        while (next_stall_s_ < ready_s) {
+            stalled_until_s_ = next_stall_s_ + 8e-3 * part();
+            next_stall_s_ -= 0.06 * std::log(1 - part());
+        }
+        last_s_ = std::max({ready_s, stalled_until_s_, last_s_});
+        return MonotonicTime{from_seconds(last_s_)};
+    }
+    /// Since the end of the measuring cycle of 1 ms that a frame tells of.
+    double age_s() { return 1e-3 * part(); }
+
+private:
+    double part() { return std::uniform_real_distribution<>{}(random_); }
+    std::mt19937_64 random_{5};
+    double next_stall_s_ = 0, stalled_until_s_ = 0, last_s_ = 0;
+};
+
+TEST_F(CanOpen, BallbarStatesATimeWithinTwoUncertaintiesOfTheTruth) {
+    LateHost host;
+    bus.stamp = [&](MonotonicTime sent) { return host.stamps(sent); };
+    constexpr double speed = 0.1; // m/s: a value tells when it was measured, to 10 us
+    simulate::TemposonicsWorld moving{
+        [&](double seconds) { return speed * (seconds - host.age_s()); }, [](double) { return 0; }};
+    const auto node = simulate::make_temposonics(126, moving);
+    bus.nodes.push_back(node.get());
+    testing::InstrumentOnCan other{scheduler, bus, "canopen-406", on_can0 + "node = 126\n"};
+    node->power_on(now_s());
+    other.start();
+    scheduler.run_for(20s);
+    EXPECT_TRUE(other.ends.empty()) << other.last_end();
+    EXPECT_EQ(other.counters().lost_records, 0U);
+    ASSERT_GE(other.sink.samples.size(), 19'000U);
+    std::size_t covered = 0;
+    for (const Sample& sample : other.sink.samples) {
+        const double off_s =
+            seconds_of(sample.at.time_since_epoch()) - sample.value().value() / speed;
+        if (std::abs(off_s) <= 2 * seconds_of(sample.time_uncertainty)) ++covered;
+        ASSERT_LE(sample.time_uncertainty, 1ms) << "one period of the stream";
+    }
+    EXPECT_GE(covered, other.sink.samples.size() * 95 / 100);
 }
 
 TEST_F(CanOpen, BallbarCanGrowTheOtherWayByAStepOfTheStationFile) {
