@@ -1,4 +1,5 @@
 #include "drivers/clock/device_clock.hpp"
+#include "tests/support/loaded_host.hpp"
 
 #include <gtest/gtest.h>
 
@@ -76,33 +77,6 @@ TEST(DeviceClock, BeginsAnewAfterARestart) {
     EXPECT_EQ(place(clock, 2, begin + 5s + 40ms), begin + 5s + 1ms - least_delay);
 }
 
-/// A host under load, as performance figures of such hosts tell: half of the delays below 25 us,
-/// and stalls of up to 8 ms that hold everything back, one every 60 ms on the average.
-class LoadedHost {
-public:
-    explicit LoadedHost(std::uint64_t seed)
-        : random_{seed}
-        , least_s_{uniform() * 50e-6} {}
-    /// When bytes that are ready at `ready_s` are read; never before earlier ones.
-    double reads(double ready_s) {
-        while (next_stall_s_ < ready_s) {
-            stalled_until_s_ = next_stall_s_ + uniform() * 8e-3;
-            next_stall_s_ += -0.06 * std::log(1 - uniform());
-        }
-        const double delay_s = least_s_ - 20e-6 * std::log(1 - uniform());
-        last_s_ = std::max({ready_s + delay_s, stalled_until_s_, last_s_});
-        return last_s_;
-    }
-
-    /// From a byte's arrival at the kernel to its stamp, at the very least.
-    [[nodiscard]] double least_s() const { return least_s_; }
-
-private:
-    double uniform() { return std::uniform_real_distribution<>{}(random_); }
-    std::mt19937_64 random_;
-    double least_s_, next_stall_s_ = 0, stalled_until_s_ = 0, last_s_ = 0;
-};
-
 struct Wire {
     double rate_Hz = 1000, frame_s = 0, seconds = 30, ppm = 50;
     double judged_from_s = 10;
@@ -124,7 +98,7 @@ double true_time_s(double device_s, double ppm) {
 Found follow(const Wire& wire, std::uint64_t seed) {
     const Duration step{std::llround(1e9 / wire.rate_Hz)};
     DeviceClock clock{from_seconds(wire.frame_s)};
-    LoadedHost host{seed};
+    testing::LoadedHost host{seed};
     std::mt19937_64 phases{seed + 77};
     const double phase_s = wire.frame_s * std::uniform_real_distribution<>{}(phases);
     std::vector<double> late_us;
