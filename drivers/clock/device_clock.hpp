@@ -2,21 +2,14 @@
 // When was record n taken? The instrument's own number tells better than the arrival of its bytes.
 // Pure but for its memory. Loop-bound.
 
-#include "analysis/quantity/time.hpp"
 #include "drivers/clock/lower_hull.hpp"
+#include "drivers/clock/placed_time.hpp"
 
 #include <cstdint>
 #include <deque>
 #include <optional>
 
 namespace axiscal {
-
-/// An instant with its standard uncertainty u(t): the truth lies within +-2 u(t) of `at` for 95 %
-/// of the records and more.
-struct PlacedTime {
-    MonotonicTime at{};
-    Duration uncertainty{};
-};
 
 /// Fits the instrument's clock to this computer's. A record never arrives before it was taken, so
 /// delays have one side: the line below all arrivals, nearest to them in the mean, is the clock.

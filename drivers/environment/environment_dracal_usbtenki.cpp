@@ -15,6 +15,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/tenki_reading.hpp"
 #include "drivers/framing/byte_order.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -86,6 +87,7 @@ private:
     std::vector<int> chips_; ///< by device channel
     std::array<std::optional<Source>, channel_count> sources_;
     TenkiCalibration calibration_;
+    MonotonicTime asked_at_{}; ///< the last try of the last request
     bool refusal_told_ = false;
 };
 
@@ -107,7 +109,8 @@ DracalUsbTenki::ask(UsbLink& link, InstrumentContext context, Command command, i
     request.length = longest_reply;
     Result<TimedBytes> answer = TimedBytes{};
     for (int tried = 0; tried < tries; ++tried) {
-        answer = co_await link.control_in(request, context.scheduler->now() + reply_patience);
+        asked_at_ = context.scheduler->now();
+        answer = co_await link.control_in(request, asked_at_ + reply_patience);
         if (answer) {
             auto content = decode_tenki_reply(answer->bytes, command);
             if (content) {
@@ -216,9 +219,8 @@ Task<Result<int>> DracalUsbTenki::round(UsbLink& link, InstrumentContext context
         }
         ++counters_.samples;
         const auto value = raw ? tenki_value(source->chip, raw->bytes, calibration_) : std::nullopt;
-        const MonotonicTime at = raw ? raw->read_at : context.scheduler->now();
-        context.sink->take(value ? Sample{channel, at, *value}
-                                 : Sample::bad(channel, at, Quality::absent));
+        const MonotonicTime read_at = raw ? raw->read_at : context.scheduler->now();
+        context.sink->take(sample_at(channel, placed_between(asked_at_, read_at), value));
     }
     refusal_told_ = refused;
     if (answered == 0 && last.fault != Fault::internal) co_return tl::unexpected<Error>(last);

@@ -14,6 +14,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/dracal_line.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -101,10 +102,11 @@ void DracalVcp::take_reading(const DracalLine& line, MonotonicTime at, SampleSin
         seen[static_cast<std::size_t>(*channel)] = true;
         values[static_cast<std::size_t>(*channel)] = reading->value;
     }
+    // It sends by itself once a period, and does not tell when within it the chips were read.
+    const PlacedTime placed = placed_at_end(at, poll_period_);
     for (int channel = 0; channel < 3; ++channel) {
-        const auto value = values[static_cast<std::size_t>(channel)];
         ++counters_.samples;
-        sink.take(value ? Sample{channel, at, *value} : Sample::bad(channel, at, Quality::absent));
+        sink.take(sample_at(channel, placed, values[static_cast<std::size_t>(channel)]));
     }
 }
 

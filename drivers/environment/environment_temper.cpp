@@ -15,6 +15,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_report.hpp"
 #include "drivers/framing/byte_order.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -62,6 +63,7 @@ private:
     Duration poll_period_;
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
+    MonotonicTime asked_at_{}; ///< the last request
 };
 
 /// A report that came too late for its own answer must not begin the next one.
@@ -85,6 +87,7 @@ Task<Result<TimedBytes>> Temper::ask(ByteLink& link,
     const MonotonicTime deadline = scheduler.now() + reply_patience;
     const auto emptied = co_await forget_late_reports(link, scheduler);
     if (!emptied) co_return tl::unexpected<Error>(emptied.error());
+    asked_at_ = scheduler.now();
     const auto written = co_await link.write_all(std::move(what), deadline);
     if (!written) co_return tl::unexpected<Error>(written.error());
     auto answer = co_await link.read_some(deadline);
@@ -135,11 +138,11 @@ Task<Result<TemperFamily>> Temper::identify(ByteLink& link, InstrumentContext co
 /// Only what the firmware knows is handed up; what it knows and does not send is absent.
 void Temper::hand_up(const TimedBytes& reply, const TemperFamily& family, SampleSink& sink) {
     const TemperReading reading = decode_temper_reading(reply.bytes, family);
+    const PlacedTime placed = placed_between(asked_at_, reply.read_at);
     const auto take = [&](int channel, int offset, const std::optional<double>& value) {
         if (offset < 0) return;
         ++counters_.samples;
-        sink.take(value ? Sample{channel, reply.read_at, *value}
-                        : Sample::bad(channel, reply.read_at, Quality::absent));
+        sink.take(sample_at(channel, placed, value));
     };
     take(probe_temperature, family.probe_temperature, reading.probe_temperature);
     take(stick_temperature, family.stick_temperature, reading.stick_temperature);

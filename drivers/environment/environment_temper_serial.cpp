@@ -19,6 +19,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_line.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -63,14 +64,15 @@ private:
     Task<Result<void>> ask_calibration(ByteLink& link, InstrumentContext context);
     Task<Result<void>> poll(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view text, MonotonicTime read_at, SampleSink& sink);
-    void hand_up(int channel, MonotonicTime at, std::optional<double> value, SampleSink& sink);
+    void hand_up(int channel, const PlacedTime& at, std::optional<double> value, SampleSink& sink);
 
     LinkSettings link_settings_;
     Duration poll_period_;
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
-    bool probe_heard_ = false;                ///< in this poll
-    std::optional<MonotonicTime> heard_at_{}; ///< the stick's own line, in this poll
+    bool probe_heard_ = false;             ///< in this poll
+    MonotonicTime asked_at_{};             ///< this poll's request
+    std::optional<PlacedTime> heard_at_{}; ///< the stick's own line, in this poll
 };
 
 /// What comes until so many lines have ended, or nothing more comes in patience. The link is owned
@@ -137,11 +139,11 @@ Task<Result<void>> TemperSerial::ask_calibration(ByteLink& link, InstrumentConte
 }
 
 void TemperSerial::hand_up(int channel,
-                           MonotonicTime at,
+                           const PlacedTime& at,
                            std::optional<double> value,
                            SampleSink& sink) {
     ++counters_.samples;
-    sink.take(value ? Sample{channel, at, *value} : Sample::bad(channel, at, Quality::absent));
+    sink.take(sample_at(channel, at, value));
 }
 
 void TemperSerial::take_line(std::string_view text, MonotonicTime read_at, SampleSink& sink) {
@@ -152,14 +154,15 @@ void TemperSerial::take_line(std::string_view text, MonotonicTime read_at, Sampl
         return;
     }
     ++counters_.frames;
+    const PlacedTime placed = placed_between(asked_at_, read_at);
     if (line->probe)
         probe_heard_ = true;
     else
-        heard_at_ = read_at;
-    hand_up(line->probe ? probe_temperature : stick_temperature, read_at, line->temperature_degC,
+        heard_at_ = placed;
+    hand_up(line->probe ? probe_temperature : stick_temperature, placed, line->temperature_degC,
             sink);
     if (line->has_humidity)
-        hand_up(line->probe ? probe_humidity : stick_humidity, read_at, line->humidity_percent,
+        hand_up(line->probe ? probe_humidity : stick_humidity, placed, line->humidity_percent,
                 sink);
 }
 
@@ -168,7 +171,8 @@ void TemperSerial::take_line(std::string_view text, MonotonicTime read_at, Sampl
 Task<Result<void>>
 TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     Scheduler& scheduler = *context.scheduler;
-    const MonotonicTime next = scheduler.now() + poll_period_;
+    asked_at_ = scheduler.now();
+    const MonotonicTime next = asked_at_ + poll_period_;
     heard_at_.reset();
     probe_heard_ = false;
     auto request = command("ReadTemp");

@@ -18,6 +18,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/vaisala_line.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -110,26 +111,31 @@ private:
     Task<Result<int>>
     ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
-    void take_reading(const VaisalaReading& reading, MonotonicTime at, SampleSink& sink);
+    void take_reading(const VaisalaReading& reading, const PlacedTime& at, SampleSink& sink);
+    [[nodiscard]] PlacedTime placed(MonotonicTime read_at) const;
 
     VaisalaSetup setup_;
     std::vector<Channel> channels_;
     std::string request_;
     InstrumentCounters counters_;
     bool heard_ = false, identified_ = false;
-    bool spoke_ = false; ///< any byte came since the line was opened
+    bool spoke_ = false;                    ///< any byte came since the line was opened
+    std::optional<MonotonicTime> asked_at_; ///< the last request; empty: none since it was told
 };
 
-void Vaisala::take_reading(const VaisalaReading& reading, MonotonicTime at, SampleSink& sink) {
+/// A line that nobody asked for (it still sent by itself) states no u(t).
+PlacedTime Vaisala::placed(MonotonicTime read_at) const {
+    return asked_at_ ? placed_between(*asked_at_, read_at) : PlacedTime{read_at, Duration{}};
+}
+
+void Vaisala::take_reading(const VaisalaReading& reading, const PlacedTime& at, SampleSink& sink) {
     if (!std::exchange(identified_, true))
         sink.identify(Identity{"Vaisala", setup_.pressure_only ? "PTB330" : "PTU300", "", ""});
     const std::optional<double> values[] = {reading.pressure_Pa, reading.temperature_degC,
                                             reading.humidity_percent};
     for (std::size_t i = 0; i < channels_.size(); ++i) {
-        const int channel = static_cast<int>(i);
         ++counters_.samples;
-        sink.take(values[i] ? Sample{channel, at, *values[i]}
-                            : Sample::bad(channel, at, Quality::absent));
+        sink.take(sample_at(static_cast<int>(i), at, values[i]));
     }
 }
 
@@ -145,7 +151,7 @@ void Vaisala::take_line(std::string_view text, MonotonicTime read_at, SampleSink
     }
     ++counters_.frames;
     heard_ = true;
-    take_reading(*reading, read_at, sink);
+    take_reading(*reading, placed(read_at), sink);
 }
 
 /// The link and the framer are owned by run()'s frame, which waits.
@@ -167,6 +173,7 @@ Task<Result<void>> Vaisala::hear_until(ByteLink& link,
 }
 
 Task<Result<void>> Vaisala::prepare(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    asked_at_.reset();
     const auto commands = opening_commands(setup_);
     for (const std::string& text : commands) {
         const MonotonicTime end = context.scheduler->now() + talk;
@@ -187,7 +194,9 @@ Vaisala::ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& 
     for (int silent = 0; silent < (spoke_ ? silent_requests : 1);
          silent = heard_ ? 0 : silent + 1) {
         heard_ = false;
-        const MonotonicTime next = context.scheduler->now() + setup_.poll_period;
+        const MonotonicTime asked = context.scheduler->now();
+        asked_at_ = asked;
+        const MonotonicTime next = asked + setup_.poll_period;
         auto request = bytes_of(request_);
         const auto written = co_await link.write_all(std::move(request), next + link_patience);
         if (!written) co_return tl::unexpected<Error>(written.error());

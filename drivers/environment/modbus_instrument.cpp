@@ -11,6 +11,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/link/arrival.hpp"
 #include "drivers/link/link_settings.hpp"
 #include "drivers/link/modbus_bus.hpp"
@@ -105,15 +106,14 @@ void ModbusInstrument::hand_up(const RegisterBlock& block,
                                SampleSink& sink) {
     ++counters_.frames;
     const std::span<const std::uint16_t> words{reply.words};
+    const PlacedTime placed = placed_between(reply.asked_at, reply.read_at);
     for (const std::size_t place : block.channels) {
         const ModbusChannel& channel = profile_.channels[place];
         const auto begin = static_cast<std::size_t>(channel.field.address - block.address);
         const auto value = channel_value(
             words.subspan(begin, static_cast<std::size_t>(channel.field.count)), channel);
-        const int number = static_cast<int>(place);
         ++counters_.samples;
-        sink.take(value ? Sample{number, reply.read_at, *value}
-                        : Sample::bad(number, reply.read_at, Quality::absent));
+        sink.take(sample_at(static_cast<int>(place), placed, value));
     }
 }
 

@@ -14,12 +14,13 @@
 //
 // A gauge is asked each period and heard all the time: a value that a person sends with the DATA
 // key counts as well. A value belongs to the arrival of its last byte less the time that its line
-// needs on the wire.
+// needs on the wire. One that was asked for may be as old as its request, and u(t) says so.
 
 #include "drivers/gauge/ascii_gauge.hpp"
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/gauge/gauge_answer.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -72,6 +73,7 @@ private:
     Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
+    [[nodiscard]] Duration uncertainty_at(MonotonicTime at);
     void learn_unit(GaugeUnit unit);
     [[nodiscard]] bool is_echo(std::string_view line) const;
 
@@ -79,7 +81,8 @@ private:
     Duration latency_, time_uncertainty_{};
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
-    std::optional<GaugeUnit> told_unit_; ///< by the gauge, on this connection
+    std::optional<MonotonicTime> asked_at_; ///< a request that is not answered yet
+    std::optional<GaugeUnit> told_unit_;    ///< by the gauge, on this connection
     std::optional<Error> contradiction_;
     bool answered_ = false, identified_ = false;
     bool counted_before_ = false; ///< a value was handed up on an earlier connection
@@ -102,9 +105,19 @@ void AsciiGauge::learn_unit(GaugeUnit unit) {
                                "key or correct `unit`"};
 }
 
+/// u(t) of a value at `at`: what its line on the wire leaves open, or more where it is the answer
+/// of a gauge that took its time. The first value after a request answers it, or is one that a
+/// person sent meanwhile; the next ones are a person's.
+Duration AsciiGauge::uncertainty_at(MonotonicTime at) {
+    const auto asked = std::exchange(asked_at_, std::nullopt);
+    if (!asked) return time_uncertainty_;
+    return std::max(time_uncertainty_, placed_at_end(at, at - *asked).uncertainty);
+}
+
 void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink) {
     if (answer.input != setup_.input) return; // another input of the multiplexer
     answered_ = true;
+    const Duration uncertainty = uncertainty_at(at - latency_);
     if (answer.unit) learn_unit(*answer.unit);
     const auto unit = told_unit_ ? told_unit_ : setup_.unit;
     if (contradiction_ || !unit) return;
@@ -114,7 +127,7 @@ void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, Sample
             Identity{std::string{setup_.model->maker}, std::string{setup_.model->model}, "", ""});
     const double metres = setup_.sign * length_of(answer.number, *unit).si();
     Sample sample{0, at - latency_, metres, 0, epoch_};
-    sample.time_uncertainty = time_uncertainty_;
+    sample.time_uncertainty = uncertainty;
     sink.take(sample);
     counted_before_ = true;
 }
@@ -183,7 +196,9 @@ AsciiGauge::ask_unit(ByteLink& link, InstrumentContext context, LineFramer& fram
 
 Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     answered_ = false;
-    const MonotonicTime next = context.scheduler->now() + setup_.poll_period;
+    const MonotonicTime now = context.scheduler->now();
+    const MonotonicTime next = now + setup_.poll_period;
+    asked_at_ = now;
     auto request = bytes_of(setup_.model->request);
     const auto written = co_await link.write_all(std::move(request), next + link_patience);
     if (!written) co_return written;
@@ -200,6 +215,7 @@ Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
     // Answers have 10 to 18 characters; an adapter keeps them for as long as its timer runs.
     time_uncertainty_ = link->latency_uncertainty() + latency_ / 2;
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
+    asked_at_.reset();
     told_unit_.reset();
     contradiction_.reset();
     identified_ = false;

@@ -18,6 +18,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/laser/counter_record.hpp"
 #include "drivers/link/counter_link.hpp"
 
@@ -32,6 +33,10 @@ namespace {
 
 /// A timestamp further away from its arrival is of another clock.
 constexpr Duration clock_tolerance = std::chrono::seconds{10};
+/// The kernel stamps in the interrupt of the event: a latched count is older than its stamp by the
+/// latency of the interrupt, one that is read there is younger by the reading. Taken as +-50 us,
+/// rectangular [N]: u(t) = 50 us / sqrt(3).
+constexpr Duration stamp_uncertainty = std::chrono::nanoseconds{28'868};
 
 struct EventName {
     std::string_view name;
@@ -70,7 +75,7 @@ public:
 private:
     void take(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink);
     [[nodiscard]] bool is_ours(const CounterRecord& record) const;
-    MonotonicTime instant_of(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink);
+    PlacedTime instant_of(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink);
     void judge_jump(double metres, MonotonicTime at, SampleSink& sink);
 
     CounterSetup setup_;
@@ -89,15 +94,16 @@ bool Counter::is_ours(const CounterRecord& record) const {
            record.event == setup_.event;
 }
 
-MonotonicTime
+/// Of another clock's events nothing is known but that they were before their arrival: no u(t).
+PlacedTime
 Counter::instant_of(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink) {
     const MonotonicTime stamped = monotonic_from_ns(record.at_ns);
     const Duration away = read_at > stamped ? read_at - stamped : stamped - read_at;
-    if (away <= clock_tolerance) return stamped;
+    if (away <= clock_tolerance) return {stamped, stamp_uncertainty};
     if (!std::exchange(clock_told_, true))
         sink.note(Fault::bad_frame, "the counter stamps its events by another clock: the time of "
                                     "their arrival is used");
-    return read_at;
+    return {read_at, Duration{}};
 }
 
 void Counter::judge_jump(double metres, MonotonicTime at, SampleSink& sink) {
@@ -119,7 +125,7 @@ void Counter::take(const CounterRecord& record, MonotonicTime read_at, SampleSin
     }
     ++counters_.frames;
     ++counters_.samples;
-    const MonotonicTime at = instant_of(record, read_at, sink);
+    const auto [at, uncertainty] = instant_of(record, read_at, sink);
     if (record.status != 0) {
         if (!std::exchange(unread_, true))
             sink.note(Fault::signal_error, "the kernel could not read the counter (error " +
@@ -131,7 +137,9 @@ void Counter::take(const CounterRecord& record, MonotonicTime read_at, SampleSin
     const double metres = setup_.sign * counts * setup_.metres_per_count;
     judge_jump(metres, at, sink);
     counted_before_ = true;
-    sink.take(Sample{0, at, metres, 0, epoch_});
+    Sample sample{0, at, metres, 0, epoch_};
+    sample.time_uncertainty = uncertainty;
+    sink.take(sample);
 }
 
 Task<Result<void>> Counter::run(InstrumentContext context) {

@@ -15,12 +15,13 @@
 // The ecu methods stand under com.attocube.ecu in the newer wrappers and under com.attocube.ids.ecu
 // in older ones: the first is tried, then the other.
 //
-// A reading belongs to the middle between request and reply.
+// A reading belongs to the middle between request and reply, with u(t) of what lies anywhere there.
 
 #include "drivers/laser/laser_ids.hpp"
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/laser/ids_message.hpp"
 #include "drivers/link/link_settings.hpp"
@@ -91,7 +92,7 @@ public:
 private:
     struct Timed {
         IdsReply reply;
-        MonotonicTime at; ///< middle between request and reply
+        PlacedTime placed; ///< between request and reply
     };
     Task<Result<Timed>> ask(std::string method, int parameter = no_parameter);
     Task<Result<Timed>> ask_ecu(std::string method, int parameter = no_parameter);
@@ -104,10 +105,10 @@ private:
     Task<Result<void>> read_quality();
     Task<Result<void>> read_environment();
     Task<Result<void>> measure();
-    void take_displacement(const IdsReply& reply, MonotonicTime at);
+    void take_displacement(const IdsReply& reply, const PlacedTime& placed);
     void judge_jump(double metres, MonotonicTime at);
     void lose_datum(Fault fault, std::string sentence);
-    void hand_up(int channel, std::optional<double> value, MonotonicTime at);
+    void hand_up(int channel, std::optional<double> value, const PlacedTime& placed);
 
     IdsSetup setup_;
     std::vector<Channel> channels_;
@@ -134,14 +135,14 @@ void Ids::lose_datum(Fault fault, std::string sentence) {
     last_metres_.reset();
 }
 
-void Ids::hand_up(int channel, std::optional<double> value, MonotonicTime at) {
+void Ids::hand_up(int channel, std::optional<double> value, const PlacedTime& placed) {
     ++counters_.samples;
-    context_.sink->take(value ? Sample{channel, at, *value}
-                              : Sample::bad(channel, at, Quality::absent));
+    context_.sink->take(sample_at(channel, placed, value));
 }
 
 /// Replies to requests that were given up come late; their numbers tell.
 Task<Result<Ids::Timed>> Ids::await_reply(std::int64_t id, MonotonicTime sent) {
+    MonotonicTime read_at = sent;
     for (;;) {
         while (!lines_.empty()) {
             const std::string line = std::exchange(lines_.front(), {});
@@ -155,14 +156,14 @@ Task<Result<Ids::Timed>> Ids::await_reply(std::int64_t id, MonotonicTime sent) {
             if (!reply) co_return tl::unexpected<Error>(reply.error());
             ++counters_.frames;
             if (reply->id != id) continue;
-            const MonotonicTime now = context_.scheduler->now();
-            co_return Timed{*std::move(reply), sent + (now - sent) / 2};
+            co_return Timed{*std::move(reply), placed_between(sent, read_at)};
         }
         const auto arrived = co_await link_->read_some(sent + link_patience);
         if (!arrived) {
             if (arrived.error().fault == Fault::link_timeout) ++counters_.timeouts;
             co_return tl::unexpected<Error>(arrived.error());
         }
+        read_at = arrived->read_at;
         counters_.bad_frames += framer_->feed(
             arrived->bytes, [&](std::string_view line) { lines_.emplace_back(line); });
     }
@@ -215,7 +216,8 @@ Task<Result<void>> Ids::await_measurement() {
         if (!asked) co_return tl::unexpected<Error>(asked.error());
         const std::string mode = text_of(asked->reply, 0);
         if (mode == measuring) co_return Result<void>{};
-        context_.sink->take(Sample::bad(ids_displacement, asked->at, Quality::absent, 0, epoch_));
+        context_.sink->take(
+            Sample::bad(ids_displacement, asked->placed.at, Quality::absent, 0, epoch_));
         const bool idle = mode == "system idle";
         if (std::exchange(told, mode) != mode)
             context_.sink->note(Fault::signal_error,
@@ -271,7 +273,7 @@ void Ids::judge_jump(double metres, MonotonicTime at) {
     last_at_ = at;
 }
 
-void Ids::take_displacement(const IdsReply& reply, MonotonicTime at) {
+void Ids::take_displacement(const IdsReply& reply, const PlacedTime& placed) {
     ++counters_.samples;
     const auto picometres = whole_number_of(reply, 0);
     if (reply.error_number != 0 || !picometres) {
@@ -281,22 +283,24 @@ void Ids::take_displacement(const IdsReply& reply, MonotonicTime at) {
                                                       ": look at the beam");
         signal_lost_ = true;
         return context_.sink->take(
-            Sample::bad(ids_displacement, at, Quality::beam_lost, 0, epoch_));
+            Sample::bad(ids_displacement, placed.at, Quality::beam_lost, 0, epoch_));
     }
     told_error_ = 0;
     if (std::exchange(signal_lost_, false))
         lose_datum(Fault::datum_lost, "the signal is back, its zero is not");
     const double metres = static_cast<double>(*picometres) * metres_per_picometre;
-    judge_jump(metres, at);
+    judge_jump(metres, placed.at);
     datum_in_use_ = true;
-    context_.sink->take(Sample{ids_displacement, at, metres, 0, epoch_});
+    Sample sample{ids_displacement, placed.at, metres, 0, epoch_};
+    sample.time_uncertainty = placed.uncertainty;
+    context_.sink->take(sample);
 }
 
 Task<Result<void>> Ids::read_displacement() {
     const auto reply =
         co_await ask("com.attocube.ids.displacement.getAxisDisplacement", setup_.axis - 1);
     if (!reply) co_return tl::unexpected<Error>(reply.error());
-    take_displacement(reply->reply, reply->at);
+    take_displacement(reply->reply, reply->placed);
     co_return Result<void>{};
 }
 
@@ -306,7 +310,7 @@ Task<Result<void>> Ids::read_quality() {
     if (!reply) co_return tl::unexpected<Error>(reply.error());
     const auto permille =
         reply->reply.error_number == 0 ? number_of(reply->reply, 0) : std::nullopt;
-    hand_up(ids_contrast, permille ? std::optional{*permille / 10} : std::nullopt, reply->at);
+    hand_up(ids_contrast, permille ? std::optional{*permille / 10} : std::nullopt, reply->placed);
     co_return Result<void>{};
 }
 
@@ -316,7 +320,8 @@ Task<Result<void>> Ids::read_environment() {
         if (!reply) co_return tl::unexpected<Error>(reply.error());
         const auto value =
             reply->reply.error_number == 0 ? number_of(reply->reply, 0) : std::nullopt;
-        hand_up(row.channel, value ? std::optional{*value * row.scale} : std::nullopt, reply->at);
+        hand_up(row.channel, value ? std::optional{*value * row.scale} : std::nullopt,
+                reply->placed);
     }
     co_return Result<void>{};
 }

@@ -83,6 +83,7 @@ public:
         reply.words.resize(static_cast<std::size_t>(request.count));
         const auto function =
             request.function == 4 ? ::modbus_read_input_registers : ::modbus_read_registers;
+        reply.asked_at = monotonic_now();
         const int got = function(context_, request.address, request.count, reply.words.data());
         const int error_number = errno;
         reply.read_at = monotonic_now();

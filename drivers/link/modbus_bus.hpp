@@ -25,7 +25,8 @@ struct ModbusRead {
 
 struct ModbusWords {
     std::vector<std::uint16_t> words;
-    MonotonicTime read_at; ///< taken on the bus thread, right after the reply
+    MonotonicTime asked_at; ///< taken on the bus thread, right before the request
+    MonotonicTime read_at;  ///< the same, right after the reply
 };
 
 /// Thread-safe in `read` (called on the loop, served on the bus thread); construction and

@@ -11,6 +11,7 @@
 #include <array>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -111,6 +112,14 @@ TEST(Counter, ReadsEventsFromAPipeAndEndsWithIt) {
     // 1000 counts of a corner cube, four in a cycle: 1000 * 632.991 nm / 8.
     EXPECT_NEAR(sink.samples[0].value().value(), 1000 * 632.991e-9 / 8, 1e-12);
     EXPECT_EQ(nanoseconds_of(sink.samples[0].at), now_ns);
+    // An interrupt within 50 us, before or after: rectangular (GUM 4.3.7).
+    EXPECT_NEAR(seconds_of(sink.samples[0].time_uncertainty), 50e-6 / std::sqrt(3.0), 1e-9);
+    std::memcpy(record.data(), literal.data(), 8); // the stamp of another clock
+    ASSERT_EQ(::write(writer, record.data(), record.size()), 24);
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return sink.samples.size() == 2; }));
+    EXPECT_GE(sink.samples[1].at, sink.samples[0].at) << "its arrival";
+    EXPECT_EQ(sink.samples[1].time_uncertainty, Duration{}) << "nothing is known of its age";
+    EXPECT_EQ(sink.notes, std::vector{Fault::bad_frame});
     ::close(writer);
     ASSERT_TRUE(testing::loop_until(loop, [&] { return ended.has_value(); }));
     EXPECT_EQ(*ended, Fault::link_closed);

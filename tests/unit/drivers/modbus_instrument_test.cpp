@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <sys/socket.h>
@@ -273,6 +274,23 @@ TEST(ModbusSensorTcp, ReadsACometFromAForeignServer) {
     EXPECT_NEAR(air.sink.samples[0].value().value(), 23.1, 1e-12);
     EXPECT_NEAR(air.sink.samples[1].value().value(), 45.6, 1e-12);
     EXPECT_NEAR(air.sink.samples[2].value().value(), 101320, 1e-9);
+}
+
+TEST(ModbusSensorTcp, PlacesAReadingBetweenItsRequestAndItsAnswer) {
+    TcpServer server;
+    server.serve();
+    Station station;
+    const MonotonicTime begin = station.scheduler.now();
+    const auto& air = station.start(profile_keys("comet-t7510") + server.keys());
+    ASSERT_TRUE(station.until([&] { return air.sink.samples.size() >= 3; }));
+    const MonotonicTime end = station.scheduler.now();
+    for (const Sample& sample : air.sink.samples) {
+        // sqrt(3) of its u(t) is half of the time between request and answer (GUM 4.3.7).
+        const Duration half = from_seconds(seconds_of(sample.time_uncertainty) * std::sqrt(3.0));
+        EXPECT_GT(half, Duration{});
+        EXPECT_GE(sample.at - half, begin - Duration{2});
+        EXPECT_LE(sample.at + half, end + Duration{2});
+    }
 }
 
 TEST(ModbusSensorTcp, TellsAnAddressOffsetThatIsWrongByTheSerialNumber) {
