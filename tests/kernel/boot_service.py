@@ -6,8 +6,10 @@ import os
 import re
 import signal
 import sys
+import time
 from pathlib import Path
 
+import guest_clock
 from guest import check, expect, load_modules, run, run_checks, wait_until
 from usb_station import LINKS, Undisturbed, UsbStation, bench
 from truth import BOUNDED, compare  # of the whole-run tests, as bench
@@ -46,6 +48,8 @@ class ServiceStation(UsbStation):
 
     def __init__(self):
         super().__init__()
+        self.clock = guest_clock.GuestClock()
+        self.taken = {}  # of some steps: the monotonic times between which they were asked for and became durable
         self.station["station"]["state_directory"] = "/var/lib/axiscal"
         self.station["console"].pop("socket")
         self.station["console"].pop("group")  # as a station file that names none: axiscal
@@ -102,6 +106,28 @@ class ServiceStation(UsbStation):
 
     def pid(self):
         return int(shown("axiscald", "MainPID")["MainPID"])
+
+    def begin_run(self):
+        """The one run of this boot: the checks share it. The CNC stands still after four points."""
+        self.write_program()
+        self.go_to_datum()
+        self.sim("hold 4")
+        self.arm()
+        self.wait_for_points(4)
+
+    def take_points(self, count):
+        """So many more points; then the CNC stands still again."""
+        done, began_ns = self.run()["step"], time.monotonic_ns()
+        self.sim(f"hold {done + count}")
+        self.wait_for_points(done + count)
+        self.taken |= {step: (began_ns, time.monotonic_ns()) for step in range(done, done + count)}
+
+    def told(self):
+        """What a person would see of a disturbance, and what systemd would."""
+        status = self.status()
+        return {"instruments": {one["name"]: one["state"] for one in status["instruments"]}, "notes": status["notes"],
+                "alarm": status["outbox"]["alarm"], "run": status["run"]["state"], "fault": status["run"]["fault"],
+                "unit": shown("axiscald", "MainPID", "NRestarts", "SubState")}
 
 
 @check("ServiceIsReadyBeforeAnyInstrumentIsPluggedIn")
@@ -200,33 +226,46 @@ def inside(script):
     return Path("/run/inside.out").read_text()
 
 
+@check("ClockSetToAndFroALeapAndAnotherZoneDisturbNothing")
+def clock_set(station):
+    """In mid-run, two points after each: an hour forward, a leap second at a midnight, back, another time zone. The
+    run goes on in the next checks, and the one after them looks for the times of these points."""
+    station.begin_run()
+    told, clock = station.told(), station.clock
+    with Undisturbed(station, *LINKS, *DIRECT), clock.right_at_the_end():
+        for change in (clock.an_hour_forward, clock.through_a_leap_second, clock.back, clock.to_another_zone):
+            change()
+            station.take_points(2)
+            station.wait_until_good(*LINKS, *DIRECT)
+    now = station.told()
+    expect(now == told, f"{told} became {now}")
+
+
 @check("RunHoldsWhileASensorIsUnpluggedAndGoesOnWhenItIsBack")
 def sensor_unplugged(station):
-    """The CNC stands after its fourth point until the sensor's last value is too old. The fifth request is refused and
+    """The CNC stands after a point until the sensor's last value is too old. Its next request is refused and
     told why, and nothing is acknowledged; once the sensor is back the CNC asks again (docs/trigger.md, rule 7)."""
-    station.write_program()
-    station.go_to_datum()
-    station.sim("hold 4")
-    station.arm()
-    station.wait_for_points(4)
+    if not station.run():  # the check before did not come so far
+        station.begin_run()
+    done = station.run()["step"]
     since = len(journal().splitlines())
     with Undisturbed(station, *(name for name in (*LINKS, *DIRECT) if name != "material")):
         station.usb("unplug material")
         try:
             station.wait_for_state("material", GONE)
             wait_until("its last value is too old", lambda: station.value("material", "contact 1") is None)
-            station.sim("hold 8")
+            station.sim(f"hold {done + 4}")
             refused = station.wait_for_refusal("environment_stale")
-            expect("'material/contact 1'" in refused["sentence"] and refused["step"] == 4, f"{refused}")
-            seen = wait_until("the CNC has read the refusal", lambda: (s := station.sim("status"))["fault_sequence"] == 5 and s)
-            expect(seen["result"] == 4 and seen["done"] == 4, f"the CNC has read {seen}")
+            expect("'material/contact 1'" in refused["sentence"] and refused["step"] == done, f"{refused}")
+            seen = wait_until("the CNC has read the refusal", lambda: (s := station.sim("status"))["fault_sequence"] == done + 1 and s)
+            expect(seen["result"] == 4 and seen["done"] == done, f"the CNC has read {seen}")
         finally:
             station.usb("plug material")
         wait_until(f"udev made {LINKS['material']} again", Path(LINKS["material"]).exists)
         station.wait_until_good("material")
         station.foreign_request(0)
-        station.foreign_request(5)
-        wait_until("the fifth point is taken", lambda: station.run()["step"] >= 5)
+        station.foreign_request(done + 1)
+        wait_until("the point is taken", lambda: station.run()["step"] > done)
     told = wait_until("the journal says that it is back", lambda: told_of("material", since, "is available."))
     print("\n".join(told))
     gone = [line for line in told if any(f"material is {state}." in line for state in GONE)]
@@ -235,9 +274,11 @@ def sensor_unplugged(station):
 
 @check("RunGoesOnAfterTheWatchdogKilledTheDaemon")
 def watchdog(station):
-    """The run of the check before."""
+    """The run of the checks before."""
+    if not station.run():
+        station.begin_run()
     station.sim("go")
-    station.wait_for_points(9)
+    station.wait_for_points(station.run()["step"] + 1)
     run_id, pid = station.run()["id"], station.pid()
     os.kill(pid, signal.SIGSTOP)
     wait_until("systemd restarts the daemon", lambda: shown("axiscald", "NRestarts")["NRestarts"] == "1", WATCHDOG_S)
@@ -260,6 +301,22 @@ def watchdog(station):
     station.sim("truth truth.json")
     missed = compare(json.loads((station.folder / "truth.json").read_text()), certificate)
     expect(not set(missed) & set(BOUNDED), f"outside of the truth: {', '.join(missed)}")
+
+
+@check("RunAndCertificateKeepTheirTimesWhateverTheClockWasSetTo")
+def times_kept(station):
+    """Of the run above: no sample is missing, each point stands where it was taken, and on paper it does so in UTC by
+    the clock tie of the opening, whatever the clock said at that moment."""
+    opened, closed, points = guest_clock.read_run(station.run()["file"])
+    counts = (len(points), len(station.taken))
+    expect(counts == (20, 8), f"of {counts[0]} points {counts[1]} were taken while the clock was set, not 8 of 20")
+    guest_clock.judge_samples(points)
+    guest_clock.judge_points(points, station.taken)
+    guest_clock.judge_ties(station.clock, opened, closed)
+    folder = next(PUBLISHED.rglob("certificate.json")).parent
+    table = wait_until("its table is on the share", lambda: next(folder.glob("certificate.csv"), None)).read_text()
+    certificate = json.loads((folder / "certificate.json").read_text())
+    guest_clock.judge_papers(station.clock, opened, closed, points, certificate, table)
 
 
 @check("KilledDaemonIsBackAtOnce")
