@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Runs one part program of `axiscal program` on a LinuxCNC without a screen, then shuts it down.
 #
-#   run_linuxcnc.sh --program FILE --shape SHAPE --port PORT --positions PIPE --scratch DIR
+#   run_linuxcnc.sh --program FILE --shape SHAPE {--port PORT|--serial LINE} --positions PIPE --scratch DIR
 #   run_linuxcnc.sh --program FILE --block FILE --scratch DIR
 #
 #   --program    LinuxCNC dialect, axes X, Y and Z; with --block one of `axiscal probing program`
 #   --shape      single-register | coil-and-index: as in the station file's [trigger]
 #   --port       the station's Modbus TCP port on this computer; mb2hal is its client
+#   --serial     the serial line to the station instead, 115200 8N1: mb2hal is its Modbus RTU master. A name of
+#                31 characters at most, from --scratch on where it is no whole path
 #   --positions  named pipe (made when missing) that gets the 1 kHz position stream; something must
 #                read it before: axiscal-simulate --positions PIPE
 #   --block      three axes with a touch probe instead: X, Y, Z of the block's corner in mm and DELAY_00 to
@@ -24,10 +26,10 @@ set -euo pipefail
 usage() { sed -n '4,5p' "$0" >&2; exit 2; }
 refuse() { echo "run_linuxcnc: $1" >&2; exit "${2:-1}"; }
 
-program='' shape='' port='' positions='' scratch='' block=''
+program='' shape='' port='' serial='' positions='' scratch='' block=''
 while [ $# -gt 0 ]; do
     case "$1" in
-    --program | --shape | --port | --positions | --scratch | --block) [ $# -ge 2 ] || usage ;;
+    --program | --shape | --port | --serial | --positions | --scratch | --block) [ $# -ge 2 ] || usage ;;
     *) usage ;;
     esac
     printf -v "${1#--}" %s "$2"
@@ -36,7 +38,9 @@ done
 [ -n "$program" ] && [ -n "$scratch" ] || usage
 kind=machine
 [ -z "$block" ] || kind=probe
-[ "$kind" = probe ] || { [ -n "$shape" ] && [ -n "$port" ] && [ -n "$positions" ]; } || usage
+[ "$kind" = probe ] || { [ -n "$shape" ] && [ -n "$port$serial" ] && [ -n "$positions" ]; } || usage
+[ -z "$port" ] || [ -z "$serial" ] || usage
+[ ${#serial} -le 31 ] || refuse "mb2hal cuts the name of a serial line off after 31 characters: $serial" 2
 home=$(cd "$(dirname "$0")" && pwd)
 [ "$kind" = probe ] || [ -f "$home/$shape.hal" ] || refuse "--shape is single-register or coil-and-index, not \"$shape\"" 2
 [ -f "$program" ] || refuse "there is no program $program" 2
@@ -92,7 +96,12 @@ fi
 fill() { sed -e "s#@HOME@#$home#g; s#@PROGRAM@#$program#g; s#@SCRATCH@#$scratch#g; s#@POSITIONS@#$positions#g; s#@SHAPE@#$shape#g" "$1"; }
 fill "$home/$kind.ini.in" >"$scratch/machine.ini"
 [ -z "$block" ] || { printf '\n[BLOCK]\n'; cat "$block"; } >>"$scratch/machine.ini"
-[ "$kind" = probe ] || sed -e "s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/" "$home/$shape.mb2hal.ini" >"$scratch/mb2hal.ini"
+to_station="s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/"
+if [ -n "$serial" ]; then # as docs/trigger.md says
+    line="SERIAL_PORT=$serial\nSERIAL_BAUD=115200\nSERIAL_BITS=8\nSERIAL_PARITY=none\nSERIAL_STOP=1\nSERIAL_DELAY_MS=0"
+    to_station="s/^LINK_TYPE=.*/LINK_TYPE=serial/; s#^TCP_IP=.*#$line#; /^TCP_PORT=/d"
+fi
+[ "$kind" = probe ] || sed -e "$to_station" "$home/$shape.mb2hal.ini" >"$scratch/mb2hal.ini"
 printf 'T1 P1 D1 Z0\n' >"$scratch/tool.tbl"
 : >"$scratch/machine.var"
 : >"$scratch/cnc.events"

@@ -1,6 +1,7 @@
 """LinuxCNC, axiscald and the simulated instruments on one bench: what the tests beside it share.
 
-A missing LinuxCNC is a failure unless AXISCAL_MAY_SKIP names linuxcnc (then exit 77)."""
+A missing LinuxCNC, or socat where a test needs it, is a failure unless AXISCAL_MAY_SKIP names
+linuxcnc (then exit 77)."""
 import json
 import os
 import pathlib
@@ -15,6 +16,8 @@ import time
 PATIENCE_S = 30  # only ends a failing test
 RUN_LIMIT_S = 300
 OTHERS_LIMIT_S = 250  # another bench may have LinuxCNC just now
+PACKAGES = {"linuxcnc": "linuxcnc-uspace", "socat": "socat"}
+OVER_TCP = '\ntransport = "tcp"\nhost = "127.0.0.1"\nport = @PORT@\n'  # in each station file
 
 
 def until(condition, what, alive, patience_s=PATIENCE_S):
@@ -42,6 +45,8 @@ class Bench:
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="axiscal-peer-"))
         self.scratch.chmod(0o711)  # LinuxCNC's real-time part is another user
         self.port = free_port()
+        self.wire = ["--port", self.port]  # of run_linuxcnc.sh
+        self.changes = {}  # of the station file's text
         self.programs = {"axiscald": build / "bin/axiscald",
                          "axiscal": build / "bin/axiscal",
                          "simulate": build / "bin/axiscal-simulate"}
@@ -85,12 +90,24 @@ class Bench:
 
     def write_station(self):
         text = self.station.read_text()
+        for words, others in self.changes.items():
+            assert words in text, f"{self.station} does not say {words}"
+            text = text.replace(words, others)
         for key, value in {"SCRATCH": self.scratch, "SHARE": self.scratch / "share",
                            "SHAPE": self.shape, "PORT": self.port}.items():
             text = text.replace(f"@{key}@", str(value))
         station = self.scratch / "station.toml"
         station.write_text(text)
         return station
+
+    def lay_serial_line(self):
+        """The trigger on Modbus RTU instead of TCP: a pseudo terminal at each end, socat between.
+        It keeps both open itself, so that it stays, as a cable does, when the station leaves it."""
+        ends = [self.scratch / name for name in ("station.tty", "cnc.tty")]
+        socat = self.start("socat", *(f"pty,raw,echo=0,link={end}" for end in ends))
+        until(lambda: all(end.exists() for end in ends), "the serial line", [socat])
+        self.changes[OVER_TCP] = f'\ntransport = "rtu"\nserial_port = "{ends[0]}"\nbaud = 115200\n'
+        self.wire = ["--serial", ends[1].name]  # LinuxCNC lives in the scratch folder
 
     def start_station(self, station):
         daemon = self.start(self.programs["axiscald"], "--config", station)
@@ -100,7 +117,7 @@ class Bench:
     def start_cnc(self, program, pipe):
         """@returns LinuxCNC, waiting at the datum."""
         cnc = self.start(self.source / "tools/linuxcnc/run_linuxcnc.sh", "--program", program,
-                         "--shape", self.shape, "--port", self.port, "--positions", pipe,
+                         "--shape", self.shape, *self.wire, "--positions", pipe,
                          "--scratch", self.scratch)
         until(lambda: self.said("cnc.events", "waiting"), "the program at its datum", self.running,
               OTHERS_LIMIT_S)
@@ -147,12 +164,15 @@ def leftovers(scratch):
     return [*programs.splitlines(), *map(str, scratch.glob("axiscal-cnc.*"))]
 
 
-def run_in_bench(test):
-    """For main(): test(bench) with the arguments SOURCE_DIR BUILD_DIR SHAPE. @returns exit code."""
+def run_in_bench(test, *needed):
+    """For main(): test(bench) with the arguments SOURCE_DIR BUILD_DIR SHAPE. @returns exit code.
+
+    `needed` are programs besides LinuxCNC."""
     source, build, shape = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
-    if not shutil.which("linuxcnc"):
-        print("linuxcnc is not installed (apt-get install linuxcnc-uspace)")
+    missing = [name for name in ("linuxcnc", *needed) if not shutil.which(name)]
+    if missing:
+        print(f"not installed: {missing[0]} (apt-get install {PACKAGES[missing[0]]})")
         return 77 if "linuxcnc" in os.environ.get("AXISCAL_MAY_SKIP", "").split(",") else 1
     with Bench(source, build, shape) as bench:
         test(bench)

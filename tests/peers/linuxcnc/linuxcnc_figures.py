@@ -10,13 +10,13 @@ FIGURES = {"A", "A_forward", "A_backward", "E", "E_forward", "E_backward", "M",
            "R", "R_forward", "R_backward", "B", "B_mean"}
 
 
-def judge_points(run_file):
+def judge_points(run_file, wanted=POINTS):
     with contextlib.closing(sqlite3.connect(f"file:{run_file}?mode=ro", uri=True)) as run:
         points = run.execute("SELECT sequence, step, planned_step, target_index, direction, approach,"
                              " origin FROM point ORDER BY link").fetchall()
         plan = run.execute("SELECT step, target_index, direction, approach FROM plan_point"
                            " ORDER BY step").fetchall()
-    assert [point[0] for point in points] == list(range(1, POINTS + 1)), "requests in order"
+    assert [point[0] for point in points] == list(range(1, wanted + 1)), "requests in order"
     assert [(point[1], *point[3:6]) for point in points] == plan, "the points that were planned"
     assert all(point[1] == point[2] for point in points), "none out of its turn"
     assert {point[6] for point in points} == {"cnc"}, f"asked by {({p[6] for p in points})}"

@@ -37,25 +37,37 @@ def link_anew(bench):
                        timeout=PATIENCE_S)
 
 
-def restart(bench):
-    daemon, cnc, program = bench.begin_run()
+def kill_in_mid_program(bench, daemon, cnc):
+    """A new axiscald takes the place of the old one. @returns the run as it was."""
     until(lambda: run_of(bench)["done"] >= BEFORE, f"{BEFORE} points", [daemon, cnc])
     before = run_of(bench)
     daemon.kill()
     daemon.wait(PATIENCE_S)
     bench.running.remove(daemon)
     bench.start_station(bench.scratch / "station.toml")
-    link_anew(bench)
+    return before
+
+
+def reach_the_end(bench, cnc, before):
+    """The same run, whole. @returns the folder of its certificate."""
     assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(bench.scratch / 'cnc.events').read_text()}"
     bench.axiscal("watch", "--until-published", limit_s=PATIENCE_S)
     assert run_of(bench)["id"] == before["id"], "another run"
     folder = next((bench.scratch / "state/outbox").iterdir())
-    judge_certificate(folder, bench.truth(program))
     told = json.dumps(json.loads((folder / "certificate.json").read_text())["run"]["events"])
     assert "recorded nothing" in told, f"the interruption is not told: {told}"
     left = leftovers(bench.scratch)
     assert not left, f"left behind: {left}"
     print(f"killed after {before['done']} points, the same run went on to its end")
+    return folder
 
 
-sys.exit(run_in_bench(restart))
+def restart(bench):
+    daemon, cnc, program = bench.begin_run()
+    before = kill_in_mid_program(bench, daemon, cnc)
+    link_anew(bench)
+    judge_certificate(reach_the_end(bench, cnc, before), bench.truth(program))
+
+
+if __name__ == "__main__":
+    sys.exit(run_in_bench(restart))
