@@ -9,17 +9,20 @@
 //                Empty where the kernel itself has read wrong checksums (5 times), since 5.8.
 // [temperature]  millidegrees alone; empty while a conversion of all sensors is going on.
 //
-// Every reading blocks in the kernel: a thread owns the files, the loop only awaits it.
+// Every reading blocks in the kernel: a thread of the link reads the files, the loop only awaits
+// it.
 
 #include "drivers/environment/environment_ds18b20.hpp"
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
 #include "drivers/environment/w1_text.hpp"
-#include "drivers/link/blocking_files.hpp"
 
 #include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace axiscal {
 namespace {
@@ -28,10 +31,20 @@ namespace {
 constexpr Duration conversion_half = std::chrono::milliseconds{375};
 /// So many readings in a row without a value are no single disturbance.
 constexpr int worth_telling = 3;
+constexpr Duration open_patience = std::chrono::seconds{2};
+/// The kernel ends every reading by itself, and a real link waits for that; this bounds what waits
+/// for a tape.
+constexpr Duration reading_patience = std::chrono::seconds{10};
+
+/// What stood in a file, and when it was asked for and there.
+struct W1Reading {
+    std::string text;
+    MonotonicTime begun_at, read_at;
+};
 
 struct W1Setup {
     std::vector<std::string> sensors; ///< "28-0000075b3c2a"
-    std::string folder;
+    LinkSettings link;                ///< the folder of all sensors
     bool with_scratchpad = true;
     Duration poll_period{};
 };
@@ -56,9 +69,10 @@ public:
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
 
 private:
-    Task<Result<int>> round(InstrumentContext context);
+    Task<Result<int>> round(ByteLink& link, InstrumentContext context);
+    Task<Result<W1Reading>> read(ByteLink& link, Scheduler& scheduler, std::size_t sensor);
     [[nodiscard]] std::string file_of(const std::string& sensor) const;
-    std::optional<Error> take(std::size_t sensor, const FileText& file, SampleSink& sink);
+    std::optional<Error> take(std::size_t sensor, const W1Reading& file, SampleSink& sink);
     std::optional<Error> misread(std::size_t sensor, const Error& error);
     void count(Fault fault);
 
@@ -66,11 +80,28 @@ private:
     std::vector<Channel> channels_;
     std::vector<int> unread_; ///< readings in a row that gave no value, for each sensor
     InstrumentCounters counters_;
-    std::unique_ptr<BlockingFiles> files_; ///< made with the first run, kept: it outlives its tasks
 };
 
 std::string Ds18b20::file_of(const std::string& sensor) const {
-    return setup_.folder + "/" + sensor + (setup_.with_scratchpad ? "/w1_slave" : "/temperature");
+    return sensor + (setup_.with_scratchpad ? "/w1_slave" : "/temperature");
+}
+
+/// @errors Fault::not_found where the sensor is not; link_closed when the link is.
+Task<Result<W1Reading>> Ds18b20::read(ByteLink& link, Scheduler& scheduler, std::size_t sensor) {
+    W1Reading file;
+    file.begun_at = scheduler.now();
+    const MonotonicTime latest = file.begun_at + reading_patience;
+    const std::string name = file_of(setup_.sensors[sensor]);
+    const auto letters = std::as_bytes(std::span{name});
+    std::vector<std::byte> bytes{letters.begin(), letters.end()};
+    const auto asked = co_await link.write_all(std::move(bytes), latest);
+    if (!asked) co_return tl::unexpected<Error>(asked.error());
+    const auto answer = co_await link.read_some(latest);
+    if (!answer) co_return tl::unexpected<Error>(answer.error());
+    for (const std::byte letter : answer->bytes)
+        file.text += std::to_integer<char>(letter);
+    file.read_at = answer->read_at;
+    co_return file;
 }
 
 void Ds18b20::count(Fault fault) {
@@ -90,7 +121,7 @@ std::optional<Error> Ds18b20::misread(std::size_t sensor, const Error& error) {
 
 /// The value is that of a conversion between the beginning and the end of the reading.
 /// @return why there is none, for people
-std::optional<Error> Ds18b20::take(std::size_t sensor, const FileText& file, SampleSink& sink) {
+std::optional<Error> Ds18b20::take(std::size_t sensor, const W1Reading& file, SampleSink& sink) {
     const int channel = static_cast<int>(sensor);
     const MonotonicTime at = file.begun_at + (file.read_at - file.begun_at) / 2;
     const auto value =
@@ -110,13 +141,15 @@ std::optional<Error> Ds18b20::take(std::size_t sensor, const FileText& file, Sam
 }
 
 /// How many sensors there are. What is wrong with any is one note a round: while it stays the same,
-/// it is one line in a log. The files outlive every task of this instrument.
-Task<Result<int>> Ds18b20::round(InstrumentContext context) {
+/// it is one line in a log.
+Task<Result<int>> Ds18b20::round(ByteLink& link, InstrumentContext context) {
     int present = 0;
     std::optional<Error> wrong;
     for (std::size_t i = 0; i < setup_.sensors.size(); ++i) {
-        std::string path = file_of(setup_.sensors[i]);
-        const auto file = co_await files_->read(std::move(path));
+        const auto file = co_await read(link, *context.scheduler, i);
+        const bool ended = !file && (file.error().fault == Fault::link_closed ||
+                                     file.error().fault == Fault::internal);
+        if (ended) co_return tl::unexpected<Error>(file.error());
         std::optional<Error> this_one;
         if (file) {
             ++present;
@@ -135,17 +168,20 @@ Task<Result<int>> Ds18b20::round(InstrumentContext context) {
 }
 
 Task<Result<void>> Ds18b20::run(InstrumentContext context) {
-    if (!files_) files_ = std::make_unique<BlockingFiles>(context.scheduler->executor());
+    const MonotonicTime latest = context.scheduler->now() + open_patience;
+    auto opened = co_await context.links->open(setup_.link, latest);
+    if (!opened) co_return tl::unexpected<Error>(opened.error());
+    const std::unique_ptr<ByteLink> link = *std::move(opened);
     std::string serials;
     for (const std::string& sensor : setup_.sensors)
         serials += (serials.empty() ? "" : " ") + sensor;
     context.sink->identify(Identity{"Maxim", "DS18B20", serials, ""});
     MonotonicTime next = context.scheduler->now();
     for (;;) {
-        const auto present = co_await round(context);
+        const auto present = co_await round(*link, context);
         if (!present) co_return tl::unexpected<Error>(present.error());
         if (*present == 0)
-            co_return fail(Fault::link_closed, "none of the sensors is in " + setup_.folder +
+            co_return fail(Fault::link_closed, "none of the sensors is in " + setup_.link.path +
                                                    ": is the 1-Wire adapter plugged in, and are "
                                                    "ds2490 and w1_therm loaded?");
         next = std::max(next + setup_.poll_period, context.scheduler->now());
@@ -187,7 +223,8 @@ std::unique_ptr<Instrument> make_ds18b20(const InstrumentConfig& /*config*/, Set
     check_sensors(setup.sensors, options);
     setup.with_scratchpad =
         options.choice("file", {"w1_slave", "temperature"}, "w1_slave") == "w1_slave";
-    setup.folder = options.text("sysfs", "/sys/bus/w1/devices");
+    setup.link.kind = LinkSettings::Kind::files;
+    setup.link.path = options.text("sysfs", "/sys/bus/w1/devices");
     setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{100},
                                          std::chrono::seconds{60}, std::chrono::seconds{2});
     return std::make_unique<Ds18b20>(std::move(setup));

@@ -20,7 +20,6 @@
 #include "drivers/appearance.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/laser/counter_record.hpp"
-#include "drivers/link/counter_link.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +36,7 @@ constexpr Duration clock_tolerance = std::chrono::seconds{10};
 /// latency of the interrupt, one that is read there is younger by the reading. Taken as +-50 us,
 /// rectangular [N]: u(t) = 50 us / sqrt(3).
 constexpr Duration stamp_uncertainty = std::chrono::nanoseconds{28'868};
+constexpr Duration open_patience = std::chrono::seconds{2};
 
 struct EventName {
     std::string_view name;
@@ -50,8 +50,7 @@ constexpr std::array event_names{
 };
 
 struct CounterSetup {
-    std::string device;
-    CounterWatch watch{};
+    LinkSettings link;
     std::uint8_t count = 0, event = COUNTER_EVENT_INDEX;
     int bits = 32, sign = 1;
     double metres_per_count = 0;
@@ -143,7 +142,8 @@ void Counter::take(const CounterRecord& record, MonotonicTime read_at, SampleSin
 }
 
 Task<Result<void>> Counter::run(InstrumentContext context) {
-    auto opened = open_counter(*context.scheduler, setup_.device, setup_.watch);
+    const MonotonicTime latest = context.scheduler->now() + open_patience;
+    auto opened = co_await context.links->open(setup_.link, latest);
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     const std::unique_ptr<ByteLink> link = *std::move(opened);
     context.sink->identify(Identity{"Linux", "counter", "", ""});
@@ -212,11 +212,12 @@ const Appearance counter_appearance{
 
 std::unique_ptr<Instrument> make_counter(const InstrumentConfig& /*config*/, Settings& options) {
     CounterSetup setup;
-    setup.device = options.text("device");
+    setup.link.kind = LinkSettings::Kind::counter;
+    setup.link.path = options.text("device");
     setup.count = static_cast<std::uint8_t>(options.integer("count", 0, 255, 0));
     setup.event = read_event(options);
     const auto channel = static_cast<std::uint8_t>(options.integer("event_channel", 0, 255, 0));
-    setup.watch = {
+    setup.link.watch = {
         COUNTER_COMPONENT_COUNT, COUNTER_SCOPE_COUNT, setup.count, 0, setup.event, channel};
     setup.bits = static_cast<int>(options.integer("bits", 8, 64));
     read_scale(options, setup);

@@ -4,7 +4,9 @@
 #include "drivers/link/usb_place.hpp"
 #include "drivers/scheduler.hpp"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,8 +39,18 @@ public:
 
 /// Where a link leads, as the station file says it.
 struct LinkSettings {
-    enum class Kind : std::uint8_t { serial, tcp, usb, hid, can } kind = Kind::serial;
-    std::string path; ///< serial: /dev/serial/by-id/...; can: the interface, can0
+    enum class Kind : std::uint8_t {
+        serial,
+        tcp,
+        usb,
+        hid,
+        can,
+        counter,
+        files
+    } kind = Kind::serial;
+    /// serial: /dev/serial/by-id/...; can: the interface, can0; counter: the device, /dev/counter0;
+    /// files: the folder in which they are
+    std::string path;
     int baud = 115200;
     char parity = 'N';
     int data_bits = 8, stop_bits = 1;
@@ -47,7 +59,11 @@ struct LinkSettings {
     std::string host;
     int port = 0;
     UsbPlace usb; ///< usb, hid
-    /// "serial /dev/ttyACM0 115200 8N1" | "tcp host:port" | "USB 0cd5:0006 port 1-2" | "CAN can0"
+    /// counter: what is to be told, as <linux/counter.h> has it: component type, scope, parent, id;
+    /// event; channel
+    std::array<std::uint8_t, 6> watch{};
+    /// "serial /dev/ttyACM0 115200 8N1" | "tcp host:port" | "USB 0cd5:0006 port 1-2" | "CAN can0" |
+    /// "counter /dev/counter0" | "files below /sys/bus/w1/devices"
     [[nodiscard]] std::string describe() const;
 };
 
@@ -57,7 +73,8 @@ public:
     virtual ~LinkOpener() = default;
     virtual Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                          MonotonicTime deadline) = 0;
-    /// A USB device that speaks in transfers of its own. `open` gives HID reports as bytes.
+    /// A USB device that speaks in transfers of its own. `open` gives HID reports as bytes, and the
+    /// texts of files as file_link.hpp tells.
     /// @errors as `choose_usb`; Fault::link_closed where there is no USB; busy while it is in use.
     virtual Task<Result<std::unique_ptr<UsbLink>>> open_usb(const LinkSettings& settings,
                                                             MonotonicTime deadline);

@@ -3,14 +3,12 @@
 
 #include "drivers/link/byte_link.hpp"
 
-#include <array>
-#include <cstdint>
+#include <memory>
+#include <string>
 
 namespace axiscal {
 
-/// What is to be told, as <linux/counter.h> has it: component type, scope, parent, id; event;
-/// channel.
-using CounterWatch = std::array<std::uint8_t, 6>;
+using CounterWatch = decltype(LinkSettings::watch);
 
 /// Opens `path`, adds the watch and enables the events; a named pipe in its place needs neither
 /// (tests). Loop-bound.

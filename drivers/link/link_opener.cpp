@@ -1,6 +1,7 @@
 #include "drivers/link/link_opener.hpp"
 
 #include "drivers/link/can_link.hpp"
+#include "drivers/link/counter_link.hpp"
 #include "drivers/link/hid_link.hpp"
 #include "drivers/link/serial_link.hpp"
 #include "drivers/link/tcp_link.hpp"
@@ -10,7 +11,8 @@ namespace axiscal {
 
 RealLinkOpener::RealLinkOpener(Scheduler& scheduler)
     : scheduler_{scheduler}
-    , buses_{scheduler.executor()} {}
+    , buses_{scheduler.executor()}
+    , files_{scheduler.executor()} {}
 
 RealLinkOpener::~RealLinkOpener() {
     for (auto& [path, porter] : porters_)
@@ -27,6 +29,9 @@ Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings&
         auto hid = co_await open_hid(scheduler_, threads_, settings.usb, deadline);
         co_return hid;
     }
+    if (settings.kind == LinkSettings::Kind::counter)
+        co_return open_counter(scheduler_, settings.path, settings.watch);
+    if (settings.kind == LinkSettings::Kind::files) co_return files_.open(settings.path);
     if (settings.kind == LinkSettings::Kind::usb || settings.kind == LinkSettings::Kind::can)
         co_return fail(Fault::internal, settings.describe() + " is no stream of bytes");
     auto& porter = porters_[settings.path];

@@ -1,8 +1,9 @@
 #pragma once
-// Opens real links: serial lines, TCP connections, USB and HID devices, CAN buses, shared Modbus
-// lines. Loop-bound.
+// Opens real links: serial lines, TCP connections, USB and HID devices, CAN buses, the kernel's
+// counters and files, shared Modbus lines. Loop-bound.
 
 #include "drivers/link/arrival.hpp"
+#include "drivers/link/file_link.hpp"
 #include "drivers/link/modbus_bus.hpp"
 #include "drivers/link/tty_porter.hpp"
 #include "drivers/link/work_thread.hpp"
@@ -34,6 +35,7 @@ private:
     Scheduler& scheduler_;
     std::map<std::string, std::shared_ptr<TtyPorter>> porters_; ///< by path
     ModbusBuses buses_;
+    FileLinks files_;
     WorkThreads threads_;
 };
 

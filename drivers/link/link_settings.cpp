@@ -39,6 +39,8 @@ std::string LinkSettings::describe() const {
     if (kind == Kind::tcp) return "tcp " + host + ":" + std::to_string(port);
     if (kind == Kind::usb || kind == Kind::hid) return usb.describe();
     if (kind == Kind::can) return "CAN " + path;
+    if (kind == Kind::counter) return "counter " + path;
+    if (kind == Kind::files) return "files below " + path;
     return "serial " + path + " " + std::to_string(baud) + " " + std::to_string(data_bits) +
            parity + std::to_string(stop_bits);
 }

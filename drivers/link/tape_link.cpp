@@ -66,6 +66,11 @@ Result<void> parse_line(std::string_view line, Tape& tape) {
     return {};
 }
 
+bool is_of_endpoint(const TapeEntry& entry, std::optional<int> endpoint) {
+    if (!endpoint || entry.direction != TapeEntry::Direction::in) return true;
+    return !entry.bytes.empty() && std::to_integer<int>(entry.bytes.front()) == *endpoint;
+}
+
 } // namespace
 
 Result<Tape> parse_tape(std::string_view text) {
@@ -114,11 +119,12 @@ Task<Result<void>> TapePlayerLink::write_all(std::vector<std::byte> bytes,
     co_return player_.play_out(bytes);
 }
 
-Task<Result<TimedBytes>> TapePlayer::play_in(MonotonicTime deadline) {
+Task<Result<TimedBytes>> TapePlayer::play_in(MonotonicTime deadline, std::optional<int> endpoint) {
     if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
     const TapeEntry& entry = tape_.entries[next_];
     const MonotonicTime when = *begin_ + entry.offset;
-    if (entry.direction == TapeEntry::Direction::out || when > deadline) {
+    if (entry.direction == TapeEntry::Direction::out || when > deadline ||
+        !is_of_endpoint(entry, endpoint)) {
         co_await scheduler_.sleep_until(deadline);
         co_return fail(Fault::link_timeout, "the tape is silent");
     }
@@ -188,6 +194,8 @@ Task<Result<TimedBytes>> TapeRecorderLink::read_some(MonotonicTime deadline) {
         tape_.write(TapeEntry::Direction::in, arrived->read_at, arrived->bytes);
     else if (arrived.error().fault == Fault::link_closed)
         tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
+    else if (arrived.error().fault == Fault::not_found || arrived.error().fault == Fault::refused)
+        tape_.write(TapeEntry::Direction::refused, scheduler_.now(), {});
     co_return arrived;
 }
 

@@ -5,13 +5,14 @@
 // origin = device | vendor-document | simulator), then one line per transfer:
 //     <direction> <offset_ns> <hex>
 // with direction '<' from the instrument, '>' to it, '!' the link closed, 'x' the device refused
-// (STALL; both without hex). Offsets are monotonic and count from the first opening. '#' begins a
-// comment line.
+// (STALL, or there is no such file; both without hex). Offsets are monotonic and count from the
+// first opening. '#' begins a comment line.
 //
 // USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
 // endpoints '>' and '<' begin with the endpoint's address.
 // CAN frames: four bytes of identifier, the high one first (80000000: 29 bits, 40000000:
 // a remote frame, with as many bytes of 0 as it asks for), then the data.
+// Files of the kernel: '>' has the file's name below their folder, '<' its text, perhaps empty.
 
 #include "drivers/link/byte_link.hpp"
 
@@ -66,7 +67,9 @@ public:
     /// What links of this player are made of: the next entry must be to, or from, the instrument.
     /// @errors Fault::link_timeout when nothing comes before the deadline, link_closed at '!' and
     /// at the end, refused at 'x'.
-    Task<Result<TimedBytes>> play_in(MonotonicTime deadline);
+    /// @param endpoint  of USB bulk transfers, which wait in pipes of their own: one of another
+    /// endpoint is silence here, and stays
+    Task<Result<TimedBytes>> play_in(MonotonicTime deadline, std::optional<int> endpoint = {});
     /// The same where the kernel stamps and keeps: all that has come by now, at least one, each
     /// with the tape's own time.
     Task<Result<std::vector<TimedBytes>>> play_all_in(MonotonicTime deadline);

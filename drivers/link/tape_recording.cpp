@@ -16,7 +16,8 @@ constexpr Duration patience = std::chrono::seconds{5};     // to open the instru
 constexpr Duration before_again = std::chrono::seconds{1}; // after it could not be opened
 constexpr Duration very_long = std::chrono::hours{24};     // a relay waits until somebody speaks
 
-constexpr std::array<std::string_view, 5> kind_names{"serial", "tcp", "usb", "hid", "can"};
+constexpr std::array<std::string_view, 7> kind_names{"serial", "tcp",     "usb",  "hid",
+                                                     "can",    "counter", "files"};
 
 /// Until either side is closed.
 Task<void> pass_on(Scheduler& scheduler, ByteLink& from, ByteLink& to) {

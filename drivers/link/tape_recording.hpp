@@ -1,6 +1,6 @@
 #pragma once
 // Records whatever an instrument opens: serial and TCP links, HID reports, USB transfers, CAN
-// frames, Modbus lines. Loop-bound.
+// frames, Modbus lines, records of a counter, files of the kernel. Loop-bound.
 
 #include "drivers/link/modbus_bus.hpp"
 #include "drivers/link/near_wire.hpp"
@@ -31,7 +31,8 @@ public:
     Task<Result<std::unique_ptr<CanLink>>> open_can(const LinkSettings& settings,
                                                     MonotonicTime deadline) override;
     [[nodiscard]] ModbusBuses* modbus_buses() override { return &buses_; }
-    /// What was opened last: "serial", "tcp", "usb", "hid" or "can"; empty before.
+    /// What was opened last: "serial", "tcp", "usb", "hid", "can", "counter" or "files"; empty
+    /// before.
     [[nodiscard]] std::string_view wire() const { return wire_; }
 
 private:

@@ -48,10 +48,8 @@ TapeUsbLink::bulk_out(int endpoint, std::vector<std::byte> bytes, MonotonicTime 
 
 Task<Result<TimedBytes>>
 TapeUsbLink::bulk_in(int endpoint, std::size_t /*longest*/, MonotonicTime deadline) {
-    auto packet = co_await player_.play_in(deadline);
+    auto packet = co_await player_.play_in(deadline, endpoint);
     if (!packet) co_return packet;
-    if (packet->bytes.empty() || packet->bytes.front() != static_cast<std::byte>(endpoint))
-        co_return fail(Fault::internal, "the driver reads another endpoint than the tape has");
     packet->bytes.erase(packet->bytes.begin());
     co_return packet;
 }

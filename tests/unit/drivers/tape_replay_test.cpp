@@ -1,6 +1,7 @@
 // Every instrument's tape under virtual time, compared with its expectation to the last digit.
 #include "drivers/link/tape_link.hpp"
 #include "drivers/link/tape_recording.hpp"
+#include "drivers/link/usb_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/source_dir.hpp"
@@ -106,6 +107,9 @@ const std::string plane_mirror = umd_keys + "fold = \"plane mirror\"\n";
 const std::string usb_keys = "link = \"usb:any\"\n";
 const std::string ballbar_keys = "link = \"usb:470012345\"\nscale_length = \"1 mm\"\n";
 const std::string can_keys = "link = \"can:can0\"\n";
+const std::string w1_keys = "sensors = [\"28-0000075b3c2a\", \"28-0000075b3c2b\"]\n";
+const std::string counter_keys = "device = \"/dev/counter0\"\nevent = \"capture\"\nbits = 16\n"
+                                 "resolution = \"0.5 um\"\nfastest = \"0.5 m/s\"\n";
 const std::string line_keys = "link = \"serial:/dev/null\"\n";
 const std::string ids_keys = "link = \"tcp:192.168.1.1:9090\"\nair = \"corrected here\"\n"
                              "wavelength = \"1530 nm\"\nfastest = \"0.5 m/s\"\n"
@@ -138,7 +142,9 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"temper-serial", "temper-serial", line_keys},
                       TapeCase{"canopen-404-cantrans", "canopen-404", can_keys},
                       TapeCase{"canopen-406-temposonics", "canopen-406", can_keys},
-                      TapeCase{"labjack-u6-stream", "labjack-u6", ballbar_keys}),
+                      TapeCase{"labjack-u6-stream", "labjack-u6", ballbar_keys},
+                      TapeCase{"ds18b20", "ds18b20", w1_keys},
+                      TapeCase{"counter-capture", "counter", counter_keys}),
     [](const auto& which) {
         std::string name = which.param.tape;
         std::erase(name, '-');
@@ -171,6 +177,32 @@ Task<void> play(TapePlayer& player, Scheduler& scheduler, std::ostream& copy) {
         const auto arrived = co_await link.read_some(scheduler.now() + std::chrono::seconds{1});
         if (!arrived && arrived.error().fault == Fault::link_closed) co_return;
     }
+}
+
+Task<void> read_both_endpoints(TapePlayer& player, Scheduler& scheduler, std::string& told) {
+    const LinkSettings nowhere;
+    const auto opened = co_await player.open_usb(nowhere, scheduler.now());
+    co_await scheduler.sleep_for(std::chrono::milliseconds{10});
+    for (const int endpoint : {0x82, 0x83, 0x82}) {
+        const MonotonicTime deadline = scheduler.now() + std::chrono::milliseconds{20};
+        const auto packet = co_await (*opened)->bulk_in(endpoint, 64, deadline);
+        told += packet ? std::to_string(std::to_integer<int>(packet->bytes.at(0))) + " "
+                       : std::string{fault_name(packet.error().fault)} + " ";
+    }
+}
+
+// 2026-11-22: a driver that was a few milliseconds late met the packet of the other endpoint, which
+// ended its session and was lost to the next one.
+TEST(Tape, KeepsAPacketForTheEndpointThatItCameFrom) {
+    const auto tape = parse_tape("origin = simulator\n< 5000000 8301\n< 6000000 8202\n");
+    ASSERT_TRUE(tape);
+    testing::VirtualScheduler scheduler;
+    TapePlayer player{scheduler, *tape};
+    std::string told;
+    boost::asio::co_spawn(scheduler.executor(), read_both_endpoints(player, scheduler, told),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::seconds{1});
+    EXPECT_EQ(told, "link_timeout 1 2 ");
 }
 
 TEST(Tape, IsRecordedAsItWasPlayed) {

@@ -2,6 +2,8 @@
 // sheet (its table of temperatures and its power-on state).
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/environment/w1_text.hpp"
+#include "drivers/link/link_opener.hpp"
+#include "drivers/link/tape_recording.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
@@ -12,6 +14,8 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <span>
+#include <sstream>
 
 namespace axiscal::w1_text_test {
 namespace {
@@ -92,7 +96,7 @@ protected:
         boost::asio::co_spawn(loop, run(), boost::asio::detached);
     }
     Task<void> run() {
-        const InstrumentContext context{&scheduler_, nullptr, &sink};
+        const InstrumentContext context{&scheduler_, &links_, &sink};
         const auto result = co_await instrument_->run(context);
         ended = result ? Fault::none : result.error().fault;
     }
@@ -110,6 +114,7 @@ protected:
 
 private:
     AsioScheduler scheduler_{loop};
+    RealLinkOpener links_{scheduler_};
     testing::ScratchFolder folder_;
     std::unique_ptr<Instrument> instrument_;
 };
@@ -161,6 +166,51 @@ TEST_F(Thermometers, EndWhenNoneIsThereAndGoOnWhenOneIs) {
     ASSERT_TRUE(testing::loop_until(loop, [&] { return ended.has_value(); }));
     EXPECT_EQ(*ended, Fault::link_closed);
     EXPECT_EQ(sink.samples.at(0).quality(), Quality::absent);
+}
+
+Task<void> read_files(LinkOpener& links,
+                      LinkSettings folder,
+                      MonotonicTime latest,
+                      std::vector<std::string>& told) {
+    const auto link = co_await links.open(folder, latest);
+    const std::vector<std::string> names{"there", "empty", "nowhere"};
+    for (const std::string& name : names) {
+        const auto letters = std::as_bytes(std::span{name});
+        std::vector<std::byte> bytes{letters.begin(), letters.end()};
+        co_await (*link)->write_all(std::move(bytes), latest);
+        const auto text = co_await (*link)->read_some(latest);
+        told.push_back(text ? std::to_string(text->bytes.size())
+                            : std::string{fault_name(text.error().fault)});
+    }
+    told.emplace_back("end");
+}
+
+TEST(FilesOfTheKernel, StandOnATapeWithTheirNamesAndWhatIsNotThere) {
+    const testing::ScratchFolder folder;
+    std::ofstream{folder.path() + "/there"} << "ab";
+    std::ofstream{folder.path() + "/empty"} << "";
+    boost::asio::io_context loop;
+    AsioScheduler scheduler{loop};
+    RealLinkOpener real{scheduler};
+    std::ostringstream lines;
+    RecordingOpener recorder{scheduler, real, lines};
+    LinkSettings settings;
+    settings.kind = LinkSettings::Kind::files;
+    settings.path = folder.path();
+    std::vector<std::string> told;
+    boost::asio::co_spawn(
+        loop, read_files(recorder, settings, scheduler.now() + std::chrono::seconds{10}, told),
+        boost::asio::detached);
+    ASSERT_TRUE(testing::loop_until(loop, [&] { return told.size() == 4; }));
+    EXPECT_EQ(told, (std::vector<std::string>{"2", "0", "not_found", "end"}));
+    EXPECT_EQ(recorder.wire(), "files");
+    const auto tape = parse_tape("origin = simulator\n" + lines.str());
+    ASSERT_TRUE(tape) << lines.str();
+    std::string directions;
+    for (const TapeEntry& entry : tape->entries)
+        directions += static_cast<char>(entry.direction);
+    EXPECT_EQ(directions, "><><>x");
+    EXPECT_EQ(tape->entries.at(0).bytes.size(), 5U); // "there"
 }
 
 TEST(Ds18b20, RefusesNamesThatTheKernelDoesNotGive) {
