@@ -83,6 +83,7 @@ struct Daemon {
         parts.config = std::move(loaded.config);
         parts.roles = std::move(loaded.roles);
         parts.instruments = std::move(loaded.instruments);
+        parts.tapes = std::move(loaded.tapes);
         parts.port = std::move(port);
         parts.boot_id = boot_id();
         parts.report_program = sibling_program("axiscal-report");

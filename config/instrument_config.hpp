@@ -31,6 +31,7 @@ struct InstrumentConfig {
     std::string name;   ///< role here: "laser", "air", "material"
     std::string driver; ///< registry name
     std::string serial, certificate_number, calibrated_on, due_on;
+    std::string tape; ///< full path of what is played in place of its link; empty: an instrument
     std::vector<ChannelConfig> channels;
     int line = 0; ///< in the station file, for messages
 };

@@ -92,6 +92,15 @@ void read_channels(Settings& instrument, InstrumentConfig& config) {
     }
 }
 
+void read_tape_path(Settings& instrument, InstrumentConfig& config) {
+    config.tape = instrument.text("tape", "");
+    const bool relative = !config.tape.empty() && config.tape.front() != '/';
+    if (relative)
+        instrument.refuse("tape", "\"" + config.tape +
+                                      "\" is no full path, and axiscald is started in a folder of "
+                                      "its own: begin it with \"/\"");
+}
+
 void check_name(Settings& instrument,
                 const InstrumentConfig& config,
                 const StationConfig& station) {
@@ -115,6 +124,7 @@ void read_instruments(Settings root, StationConfig& config) {
         instrument.name = table.text("name");
         instrument.driver = table.text("driver");
         instrument.serial = table.text("serial", "");
+        read_tape_path(table, instrument);
         read_certificate_dates(table, instrument);
         read_channels(table, instrument);
         check_name(table, instrument, config);

@@ -71,6 +71,8 @@ struct InstrumentDriver {
     std::unique_ptr<Instrument> (*make)(const InstrumentConfig& config,
                                         Settings& options) = nullptr;
     const Appearance* shows = nullptr; ///< how it is found when plugged in; null: it is not
+    /// Why no tape can stand in for its link, with the way out; empty: one can.
+    std::string_view no_tape = {};
 };
 
 } // namespace axiscal

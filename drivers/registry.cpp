@@ -24,6 +24,10 @@
 namespace axiscal {
 namespace {
 
+constexpr std::string_view speaks_itself =
+    "libmodbus opens its line itself: play the tape on a wire, with axiscal replay --link PATH "
+    "(RTU) or --port N (TCP), and name that wire in `link`";
+
 constexpr std::array drivers{
     InstrumentDriver{"umd", "uMD0/uMD1/uMD2 laser or scale counter, serial ASCII", make_umd,
                      &umd_appearance},
@@ -54,7 +58,7 @@ constexpr std::array drivers{
                      "ballbar or gauge: CiA 406 linear transducer (Temposonics) on a CAN bus",
                      make_canopen_406, &canopen_406_appearance},
     InstrumentDriver{"modbus", "any Modbus sensor with a profile, RTU or TCP", make_modbus,
-                     &modbus_appearance},
+                     &modbus_appearance, speaks_itself},
 };
 
 template <class Names> std::string list_of(const Names& names) {

@@ -106,7 +106,8 @@ nlohmann::ordered_json to_json(const InstrumentView& view) {
     const InstrumentCounters& counters = view.counters;
     return {{"name", view.name},
             {"driver", view.driver},
-            {"state", name_of(view.state)},
+            {"state", shown_state(view)},
+            {"tape", view.tape},
             {"maker", view.identity.maker},
             {"model", view.identity.model},
             {"serial", view.identity.serial},

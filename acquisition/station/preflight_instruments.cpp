@@ -19,6 +19,9 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
     std::string wrong;
     for (const std::string& name : facts.unavailable)
         join(wrong, name + " is not there");
+    for (const InstrumentConfig& instrument : facts.config.instruments)
+        if (!instrument.tape.empty())
+            join(wrong, instrument.name + " is a tape, no instrument (no reason overrides this)");
     for (const SensorFacts& sensor : facts.sensors)
         if (!sensor.fresh)
             join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");

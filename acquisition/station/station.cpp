@@ -84,9 +84,14 @@ CaptureConfig in_readings(CaptureConfig capture, const RotarySetup& rotary) {
 /// const-built.
 void seat_all(Supervisor& supervisor,
               const StationConfig& config,
-              std::vector<std::unique_ptr<Instrument>> instruments) {
-    for (std::size_t i = 0; i < instruments.size(); ++i)
-        supervisor.add(config.instruments[i], std::move(instruments[i]));
+              std::vector<std::unique_ptr<Instrument>> instruments,
+              std::map<std::string, Tape> tapes) {
+    for (std::size_t i = 0; i < instruments.size(); ++i) {
+        std::optional<Tape> tape;
+        if (const auto found = tapes.find(config.instruments[i].name); found != tapes.end())
+            tape = std::move(found->second);
+        supervisor.add(config.instruments[i], std::move(instruments[i]), std::move(tape));
+    }
 }
 
 } // namespace
@@ -102,7 +107,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , port_{std::move(parts.port)}
     , journal_{scheduler, parts.journal_thread}
     , history_{history_limits(config_)}
-    , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments)),
+    , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments), std::move(parts.tapes)),
               watched(roles_, supervisor_.channels()))}
     , latest_(supervisor_.channels().size())
     , logged_(supervisor_.channels().size())
@@ -215,7 +220,9 @@ void Station::log_environment(int channel, const Sample& sample) {
 }
 
 void Station::on_instrument_state(const InstrumentView& view) {
-    record_instrument(view.name + " is " + std::string{name_of(view.state)} + ".", Fault::none);
+    const bool plays = view.state == InstrumentState::available && !view.tape.empty();
+    const std::string how = plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
+    record_instrument(view.name + " " + how + ".", Fault::none);
 }
 
 void Station::on_instrument_note(const InstrumentView& view) {

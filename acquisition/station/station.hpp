@@ -26,6 +26,7 @@
 
 #include <boost/asio/cancellation_signal.hpp>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct StationParts {
     StationConfig config;
     StationRoles roles;
     std::vector<std::unique_ptr<Instrument>> instruments;
+    std::map<std::string, Tape> tapes; ///< by instrument, of those that are none
     std::unique_ptr<TriggerPort> port;
     std::string config_hash, boot_id;
     std::string report_program = "axiscal-report";
@@ -198,6 +200,7 @@ private:
     Task<void> certify_left_over(StoredRuns stored);
     [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
+    [[nodiscard]] Result<void> plays_no_tape() const;
     [[nodiscard]] Result<void> ready_to_measure() const;
 
     // station_preflight.cpp

@@ -34,7 +34,20 @@ Result<RunPlan> Station::plan_for(const ArmRequest& request) const {
                   "'" + request.pass + "' is not planned; there is " + known);
 }
 
+/// No reason overrides this: whatever part the instrument has, a record beside its tape would read
+/// as one of instruments.
+Result<void> Station::plays_no_tape() const {
+    for (const InstrumentConfig& instrument : config_.instruments)
+        if (!instrument.tape.empty())
+            return fail(Fault::refused,
+                        instrument.name + " is the tape " + instrument.tape +
+                            ", no instrument: a station with a tape measures nothing; take the "
+                            "line `tape` out of the station file and start axiscald again");
+    return {};
+}
+
 Result<void> Station::ready_to_measure() const {
+    AXISCAL_CHECK(plays_no_tape());
     if (!roles_.laser && !reads_polygon())
         return refuse(Fault::bad_request, "pass",
                       "this station has a ballbar and no laser: 'axiscal arm --pass circular'");

@@ -16,6 +16,7 @@ constexpr Duration bar_limit = std::chrono::seconds{2}; ///< an older reading is
 } // namespace
 
 Result<void> Station::ready_for_circles() const {
+    AXISCAL_CHECK(plays_no_tape());
     if (drift_open())
         return fail(Fault::busy, "drift test " + drift_->run_id +
                                      " is going on; let it end or 'axiscal abort' it first");

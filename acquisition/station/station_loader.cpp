@@ -5,9 +5,52 @@
 #include "drivers/registry.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace axiscal {
 namespace {
+
+Result<std::string> text_of_tape(const std::string& path) {
+    std::error_code error; // a folder, a pipe or a device would be read for ever
+    const bool is_file = std::filesystem::is_regular_file(path, error);
+    std::ifstream file{path, std::ios::binary};
+    if (!is_file || !file)
+        return fail(Fault::bad_configuration,
+                    "cannot read " + path +
+                        ": is the file there, and may the user of axiscald read it and enter its "
+                        "folder?");
+    return std::string{std::istreambuf_iterator<char>{file}, {}};
+}
+
+Result<Tape> tape_of(const InstrumentConfig& config) {
+    AXISCAL_TRY(const InstrumentDriver* const driver, find_driver(config.driver));
+    if (!driver->no_tape.empty())
+        return fail(Fault::bad_configuration, std::string{driver->no_tape});
+    AXISCAL_TRY(const std::string text, text_of_tape(config.tape));
+    AXISCAL_TRY(Tape tape, parse_tape(text));
+    const auto made_with = tape.header.find("driver");
+    if (made_with != tape.header.end() && made_with->second != config.driver)
+        return fail(Fault::bad_configuration, config.tape + " is a tape for the driver \"" +
+                                                  made_with->second + "\", not for \"" +
+                                                  config.driver + "\"");
+    return tape;
+}
+
+/// Before anything is opened, so that `axiscal check-config` tells what is wrong with a tape.
+void load_tapes(LoadedStation& station) {
+    for (std::size_t i = 0; i < station.instruments.size(); ++i) {
+        const InstrumentConfig& config = station.config.instruments[i];
+        Settings& options = station.config.instrument_options[i];
+        if (!station.instruments[i] || config.tape.empty() || options.refused("tape")) continue;
+        auto tape = tape_of(config);
+        if (tape)
+            station.tapes.emplace(config.name, *std::move(tape));
+        else
+            options.refuse("tape", tape.error().detail);
+    }
+}
 
 /// Readings are corrected for air and must count wavelengths.
 void check_laser(const Instrument& laser, const AxisConfig& axis, Settings root) {
@@ -69,6 +112,7 @@ tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string
     station.config = read_station(*document);
     station.instruments =
         make_instruments(station.config.instruments, station.config.instrument_options);
+    load_tapes(station);
     std::vector<Refusal> refusals = document->finish();
     if (refusals.empty()) {
         check_together(station, document->root());

@@ -4,8 +4,11 @@
 #include "acquisition/station/roles.hpp"
 #include "config/station_config.hpp"
 #include "drivers/instrument.hpp"
+#include "drivers/link/tape_link.hpp"
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace axiscal {
@@ -14,7 +17,8 @@ struct LoadedStation {
     StationConfig config;
     std::vector<std::unique_ptr<Instrument>> instruments; ///< as config.instruments
     StationRoles roles;
-    std::vector<RunPlan> passes; ///< with seed 0 where the file names none
+    std::vector<RunPlan> passes;       ///< with seed 0 where the file names none
+    std::map<std::string, Tape> tapes; ///< by instrument, of those that are none
 };
 
 /// Reads, makes the instruments (opens nothing), resolves roles, plans the cycle.

@@ -66,6 +66,19 @@ private:
     std::optional<LinkSettings> missing_; ///< of the first opening, where all failed
 };
 
+/// A tape and its player, in the place of an instrument's link.
+struct SeatedTape {
+    SeatedTape(Scheduler& scheduler, Tape of)
+        : tape{std::move(of)}
+        , player{scheduler, tape} {}
+    SeatedTape(const SeatedTape&) = delete;
+    SeatedTape& operator=(const SeatedTape&) = delete;
+    ~SeatedTape() = default;
+
+    Tape tape;
+    TapePlayer player;
+};
+
 const ChannelConfig* find_stated(const InstrumentConfig& config, const std::string& channel) {
     const auto found = std::ranges::find(config.channels, channel, &ChannelConfig::channel);
     return found == config.channels.end() ? nullptr : &*found;
@@ -80,6 +93,11 @@ std::string_view name_of(InstrumentState state) {
     case InstrumentState::faulty: return "faulty";
     }
     return "?";
+}
+
+std::string_view shown_state(const InstrumentView& view) {
+    const bool plays = !view.tape.empty() && view.state == InstrumentState::available;
+    return plays ? "tape" : name_of(view.state);
 }
 
 bool StationChannel::certified() const {
@@ -116,9 +134,10 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
 
 /// One instrument, its view and the sink through which it speaks.
 struct Supervisor::Seat final : SampleSink {
-    Seat(Supervisor& owner, std::unique_ptr<Instrument> of)
+    Seat(Supervisor& owner, std::unique_ptr<Instrument> of, std::unique_ptr<SeatedTape> played)
         : supervisor{owner}
-        , links{owner.links_}
+        , tape{std::move(played)}
+        , links{tape ? static_cast<LinkOpener&>(tape->player) : owner.links_}
         , instrument{std::move(of)} {}
 
     void take(const Sample& sample) override {
@@ -149,6 +168,12 @@ struct Supervisor::Seat final : SampleSink {
         if (!std::exchange(outage_told, true)) told_at.reset();
         note(error.fault, describe(error));
     }
+    [[nodiscard]] bool is_played_out() const { return tape && tape->player.at_end(); }
+    /// Told however soon it comes: nothing follows it.
+    void end_of_tape() {
+        told_at.reset();
+        note(Fault::link_closed, "the tape is at its end");
+    }
     void note(Fault fault, std::string sentence) override {
         const MonotonicTime now = supervisor.scheduler_.now();
         const bool again = fault == told_fault && sentence == told_note;
@@ -164,6 +189,7 @@ struct Supervisor::Seat final : SampleSink {
     }
 
     Supervisor& supervisor;
+    std::unique_ptr<SeatedTape> tape; ///< null: an instrument
     RememberingOpener links;
     std::unique_ptr<Instrument> instrument;
     int first_channel = 0;
@@ -183,11 +209,16 @@ Supervisor::Supervisor(Scheduler& scheduler, LinkOpener& links, SupervisorListen
 
 Supervisor::~Supervisor() = default;
 
-void Supervisor::add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument) {
-    auto seat = std::make_unique<Seat>(*this, std::move(instrument));
+void Supervisor::add(const InstrumentConfig& config,
+                     std::unique_ptr<Instrument> instrument,
+                     std::optional<Tape> tape) {
+    std::unique_ptr<SeatedTape> played;
+    if (tape) played = std::make_unique<SeatedTape>(scheduler_, *std::move(tape));
+    auto seat = std::make_unique<Seat>(*this, std::move(instrument), std::move(played));
     seat->first_channel = static_cast<int>(channels_.size());
     seat->view.name = config.name;
     seat->view.driver = config.driver;
+    seat->view.tape = config.tape;
     seat->view.since = scheduler_.now();
     const int index = static_cast<int>(seats_.size());
     for (StationChannel& channel :
@@ -213,6 +244,10 @@ Task<void> Supervisor::keep_running(Seat& seat) {
         seat.last_good.reset();
         if (!ended) seat.end_with(ended.error());
         set_state(seat, InstrumentState::unavailable);
+        if (seat.is_played_out()) {
+            seat.end_of_tape();
+            co_return;
+        }
         const bool ran_well = scheduler_.now() - begun > longest_pause;
         pause = ran_well ? first_pause : std::clamp(2 * pause, first_pause, longest_pause);
         // Who uses a node that has just come is settled a moment later: tried soon again.

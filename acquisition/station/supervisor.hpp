@@ -3,6 +3,7 @@
 
 #include "config/instrument_config.hpp"
 #include "drivers/instrument.hpp"
+#include "drivers/link/tape_link.hpp"
 #include "drivers/scheduler.hpp"
 
 #include <memory>
@@ -38,6 +39,7 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
 
 struct InstrumentView {
     std::string name, driver;
+    std::string tape; ///< full path of what is played in place of its link; empty: an instrument
     InstrumentState state = InstrumentState::unavailable;
     MonotonicTime since;
     Identity identity;
@@ -47,6 +49,9 @@ struct InstrumentView {
     std::string last_note;
     std::uint64_t repeats = 0; ///< notes that came since and were not told
 };
+
+/// "unavailable", "available", "faulty"; "tape" for what would be available, but is a tape's. Pure.
+std::string_view shown_state(const InstrumentView& view);
 
 class SupervisorListener {
 public:
@@ -68,7 +73,10 @@ public:
     Supervisor& operator=(const Supervisor&) = delete;
 
     /// The configuration was checked against the driver (make_instruments).
-    void add(const InstrumentConfig& config, std::unique_ptr<Instrument> instrument);
+    /// @param tape  played to the driver in place of its link, once, from the first opening on
+    void add(const InstrumentConfig& config,
+             std::unique_ptr<Instrument> instrument,
+             std::optional<Tape> tape = {});
     /// Spawns one task an instrument; each runs until the loop stops, for good.
     void start();
     /// Without a good value for ten seconds an instrument is faulty when it still sends something,

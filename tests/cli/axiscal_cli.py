@@ -32,7 +32,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
-            "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild"],
+            "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild", "--block"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},
         "unit": "mm", "readings": "positions", "targets": [0, 100, 200, 300, 400],
@@ -466,6 +466,11 @@ class Doctor(Scratch):
     def test_an_instrument_that_is_not_plugged_in(self):
         self.broken_by(lambda text: text.replace(f"{self.folder}/air", f"{self.folder}/nothing"), "wire", '"air"')
 
+    def test_a_tape_in_the_place_of_an_instrument(self):
+        tape = os.path.join(SOURCE, "tests", "traces", "dracal-vcp-pth450.tape")
+        driver = 'driver = "dracal-vcp"\n'
+        self.broken_by(lambda text: text.replace(driver, f'{driver}tape = "{tape}"\n'), "station", '"air" is the tape')
+
     def test_a_certificate_that_ended(self):
         self.broken_by(lambda text: text.replace("2099-02-10", "2026-03-01"), "certificate", '"laser"')
 
@@ -595,7 +600,35 @@ class Tapes(Scratch):
         self.expect(1, "replay", os.path.join(self.folder, "nothing.tape"))
         self.assertIn("driver", self.expect(3, "replay", "--print", self.file("y.tape", "origin = device\n")).stderr)
         tape, _ = self.paths("temper-x")
-        self.assertIn("--print", self.expect(3, "replay", tape).stderr)
+        told = self.expect(3, "replay", tape).stderr
+        self.assertIn("--print", told)
+        self.assertIn("--block", told)
+
+    def test_a_tape_tells_the_block_with_which_the_daemon_plays_it(self):
+        tape, _ = self.paths("temper-x")
+        block = self.expect(0, "replay", os.path.relpath(tape), "--block", "stick").stdout
+        station = self.file("bench.toml", example_text() + block)
+        self.expect(0, "check-config", station)
+        self.assertIn(f'tape = "{tape}"', block)
+        self.assertIn("is the tape", self.expect(3, "record", "--config", station, "--instrument", "stick", "--out",
+                                                 os.path.join(self.folder, "copy.tape")).stderr)
+        self.assertIn("libmodbus", self.expect(3, "replay", self.paths("modbus-m-7015")[0], "--block", "screw").stderr)
+
+    def test_a_tape_that_cannot_stand_in_is_refused_with_its_line(self):
+        tape, _ = self.paths("temper-x")
+        block = self.expect(0, "replay", tape, "--block", "stick").stdout
+        damaged = self.file("damaged.tape", "origin = device\n< 5 0g\n")
+        nowhere = os.path.join(self.folder, "nowhere.tape")
+        for path, word in ((damaged, "tape line 2"), (nowhere, "cannot read"), (self.folder, "cannot read"),
+                           ("near.tape", "no full path"), (self.paths("umd2-homodyne")[0], 'the driver "umd"')):
+            station = self.file("bench.toml", example_text() + block.replace(tape, path))
+            line = next(number for number, text in enumerate(self.text(station).split("\n"), 1) if text.startswith("tape"))
+            told = self.expect(3, "check-config", station)
+            self.assertIn(f"bench.toml:{line}:", told.stdout + told.stderr)
+            self.assertIn(word, told.stdout + told.stderr)
+        modbus = example_text().replace('driver = "modbus"\n', f'driver = "modbus"\ntape = "{tape}"\n')
+        told = self.expect(3, "check-config", self.file("bench.toml", modbus))
+        self.assertIn("libmodbus", told.stdout + told.stderr)
 
     def transfers(self, name):
         """(direction, bytes) of a tape."""

@@ -31,10 +31,22 @@ std::string running_kernel() {
     return kernel.release;
 }
 
+/// A tape in an instrument's place is accepted, and keeps the station from measuring.
+std::vector<Finding> findings_of_accepted(const StationConfig& config, const std::string& file) {
+    std::vector<Finding> found{{Health::good, "station", file + " is accepted", ""}};
+    for (const InstrumentConfig& instrument : config.instruments)
+        if (!instrument.tape.empty())
+            found.push_back({Health::broken, "station",
+                             "\"" + instrument.name + "\" is the tape " + instrument.tape +
+                                 ", no instrument: no run is armed",
+                             "sudo editor " + file + ", take out the line tape = ..."});
+    return found;
+}
+
 /// What is wrong with the station file, or that it is right.
 std::vector<Finding> findings_of(const tl::expected<LoadedStation, std::vector<Refusal>>& station,
                                  const std::string& file) {
-    if (station) return {{Health::good, "station", file + " is accepted", ""}};
+    if (station) return findings_of_accepted(station->config, file);
     if (!std::filesystem::exists(file))
         return {{Health::broken, "station", "there is no station file " + file,
                  "sudo install -m 640 -g axiscal /usr/share/axiscal/station.example.toml " + file +

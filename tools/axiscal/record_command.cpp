@@ -150,8 +150,7 @@ int keep(const RecordRequest& request,
     if (transfers.empty())
         return refused("nothing passed over the wire of \"" + request.instrument +
                            "\": is it plugged in, and is axiscald stopped (sudo systemctl stop "
-                           "axiscald)? Instruments behind files of the kernel (1-Wire, counter) "
-                           "have no wire that could be recorded",
+                           "axiscald)?",
                        exit_failed);
     std::ofstream file{request.tape, std::ios::binary};
     file << header_text(header_of(request, recording, config, driver)) << "\n" << transfers;
@@ -189,6 +188,11 @@ int command_record(const RecordRequest& request, bool json) {
         return refused("the station has no instrument \"" + request.instrument + "\"; it has " +
                            names_of(station->config),
                        exit_refused);
+    if (!found->tape.empty())
+        return refused(
+            "\"" + found->name + "\" is the tape " + found->tape +
+                " itself: take the line `tape` out of its block to record the instrument",
+            exit_refused);
     const auto seat = static_cast<std::size_t>(found - configs.begin());
     Recording recording{std::move(station->instruments[seat])};
     recording.run(

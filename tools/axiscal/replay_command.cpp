@@ -16,6 +16,7 @@
 #include <boost/asio/use_awaitable.hpp>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -154,8 +155,9 @@ int on_a_wire(const ReplayRequest& request, const Tape& tape, bool json) {
     const std::string kind = wire_of(request, tape);
     if (kind != "pty" && kind != "tcp")
         return std::cerr << "a device on " << kind
-                         << " cannot be stood for by a terminal or a port: axiscal replay --print "
-                            "plays it through its driver\n",
+                         << " cannot be stood for by a terminal or a port: axiscal replay --block "
+                            "NAME prints the lines of a station file with which axiscald plays it "
+                            "itself, axiscal replay --print plays it through its driver here\n",
                exit_refused;
     boost::asio::io_context loop{1};
     AsioScheduler scheduler{loop};
@@ -176,12 +178,22 @@ int on_a_wire(const ReplayRequest& request, const Tape& tape, bool json) {
     return played.result ? exit_ok : refused(played.result.error(), exit_disagrees);
 }
 
+int tell_block(const ReplayRequest& request, const Tape& tape) {
+    std::error_code error;
+    const auto path = std::filesystem::absolute(request.tape, error);
+    const auto block = block_text(tape, request.block, path.lexically_normal().string());
+    if (!block) return refused(block.error(), exit_refused);
+    std::cout << *block;
+    return exit_ok;
+}
+
 } // namespace
 
 int command_replay(const ReplayRequest& request, bool json) {
     const auto tape = read_tape(request.tape);
     if (!tape)
         return refused(tape.error(), tape.error().fault == Fault::io ? exit_failed : exit_refused);
+    if (!request.block.empty()) return tell_block(request, *tape);
     const bool inside = request.print || !request.expected.empty() || !request.rebuild.empty();
     return inside ? through_the_driver(request, *tape) : on_a_wire(request, *tape, json);
 }

@@ -171,6 +171,8 @@ std::string instruments_text(const Json& instruments) {
                 instrument.at("bad_frames").get<unsigned long long>(),
                 instrument.at("checksum_errors").get<unsigned long long>(),
                 instrument.at("restarts").get<unsigned long long>());
+        if (const auto tape = instrument.value("tape", std::string{}); !tape.empty())
+            text += "             no instrument: plays " + tape + "\n";
         if (!instrument.at("note").get<std::string>().empty())
             text += "             " + instrument.at("note").get<std::string>() + "\n";
     }

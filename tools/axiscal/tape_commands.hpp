@@ -25,6 +25,7 @@ struct ReplayRequest {
     bool fast = false, hold = false;
     bool print = false;
     std::string expected, rebuild; ///< expectation to be compared with, or to be written
+    std::string block; ///< name of an instrument: print its block of a station file and end
 };
 /// Plays on a wire, or, with `print`, `expected` or `rebuild`, through the driver in this process
 /// and in virtual time. Exit 3 when the tape is none, 7 when an expectation is not met or the other

@@ -12,8 +12,8 @@ A good tape holds the start, a while of usual readings, and what goes wrong in p
 pulled, cable out and in again. The header keeps maker, model, serial number, firmware, who, when, and the
 driver's keys of the station file; no other instrument is touched. docs/add-an-instrument.md tells what
 becomes of it.
-Serial, TCP, Modbus, USB, HID and CAN instruments can be recorded; those that the kernel reads for us (1-Wire,
-counter) have no wire of their own.)";
+Every instrument can be recorded: serial, TCP, Modbus, USB, HID, CAN, and those that the kernel reads for us (the
+texts of 1-Wire sensors, the records of a counter).)";
 
 constexpr const char* replay_footer =
     R"(Examples, on a wire for the unmodified daemon (serial and TCP instruments):
@@ -21,6 +21,10 @@ constexpr const char* replay_footer =
   axiscal replay ids.tape --port 9090            then: link = "tcp:127.0.0.1:9090"
 It waits for what the daemon must write, and answers as late as on the tape (--fast: at once). Exit 7 when
 the daemon writes something else.
+By the unmodified daemon itself, without a wire (USB, HID, CAN, 1-Wire, counter; all but Modbus):
+  axiscal replay stick.tape --block stick >> bench.toml   then: axiscald --config bench.toml
+The daemon plays it once, from its start, with the tape's times; the instrument's state is then "tape", and no run
+is armed on such a station.
 Through the driver, in this process and in virtual time:
   axiscal replay --print air.tape                what the driver makes of it
   axiscal replay air.tape --expect air.expected  exit 7 with the first line that differs
@@ -61,6 +65,8 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
     play->add_flag("--print", replay.print, "print what the driver makes of it; no wire");
     play->add_option("--expect", replay.expected, "compare that with a file; no wire");
     play->add_option("--rebuild", replay.rebuild, "write that to a file; no wire");
+    play->add_option("--block", replay.block,
+                     "print the [[instrument]] block of this name with which axiscald plays it");
     teach(*play, replay_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_disagrees});
     play->callback([&] { chosen = [&] { return command_replay(options.replay, options.json); }; });
 }

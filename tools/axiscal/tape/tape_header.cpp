@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <iomanip>
 #include <sstream>
 
 namespace axiscal {
 namespace {
 
 constexpr std::string_view key_prefix = "key.";
-constexpr std::array<std::string_view, 6> of_the_station{
-    "name", "driver", "serial", "certificate_number", "calibrated_on", "due_on"};
+constexpr std::array<std::string_view, 7> of_the_station{
+    "name", "driver", "serial", "certificate_number", "calibrated_on", "due_on", "tape"};
 
 std::string trimmed(const std::string& text) {
     const auto begin = text.find_first_not_of(" \t\r");
@@ -97,6 +98,23 @@ Result<std::unique_ptr<Instrument>> instrument_of(const Tape& tape) {
         refusals += (refusals.empty() ? "" : "; ") + refusal.key + ": " + refusal.reason;
     if (!refusals.empty() || !made.front()) return fail(Fault::bad_request, refusals);
     return std::move(made.front());
+}
+
+Result<std::string>
+block_text(const Tape& tape, const std::string& name, const std::string& full_path) {
+    if (const auto named = tape.header.find("driver"); named != tape.header.end()) {
+        AXISCAL_TRY(const InstrumentDriver* const driver, find_driver(named->second));
+        if (!driver->no_tape.empty()) return fail(Fault::bad_request, std::string{driver->no_tape});
+    }
+    AXISCAL_CHECK(instrument_of(tape)); // it tells its driver, and the keys are right
+    std::ostringstream block;
+    block << "\n[[instrument]]\nname = " << std::quoted(name)
+          << "\ndriver = " << std::quoted(tape.header.at("driver"))
+          << "\ntape = " << std::quoted(full_path) << "   # no instrument: nothing is measured\n";
+    for (const auto& [key, value] : tape.header)
+        if (key.starts_with(key_prefix))
+            block << key.substr(key_prefix.size()) << " = " << value << "\n";
+    return block.str();
 }
 
 } // namespace axiscal

@@ -24,4 +24,9 @@ std::string header_text(const HeaderLines& lines);
 /// @errors Fault::bad_request when it does not, naming what is missing or refused.
 Result<std::unique_ptr<Instrument>> instrument_of(const Tape& tape);
 
+/// The [[instrument]] block of a station file with which axiscald plays the tape at `full_path` to
+/// its driver. @errors as instrument_of; Fault::bad_request where no tape can stand in, too.
+Result<std::string>
+block_text(const Tape& tape, const std::string& name, const std::string& full_path);
+
 } // namespace axiscal
