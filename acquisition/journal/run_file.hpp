@@ -66,7 +66,7 @@ public:
     ~RunFileWriter(); ///< leaves the run open, to be resumed
 
     /// Gives the log of commits its full length before the first of them: each then overwrites, and
-    /// its sync waits for the data alone. Saves about a third of the time until a point is durable.
+    /// its sync waits for the data alone.
     void reserve_log() const;
 
     /// One transaction, in the order preflight, retakes, exclusions, circular, streams, chunks,

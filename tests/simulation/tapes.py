@@ -109,7 +109,9 @@ def without_a_wire(b):
             if channel["quality"] in ("none", "stale"):
                 continue
             shown = f"{channel['instrument']}/{channel['channel']}: {channel['value']} {channel['quality']}"
-            expect(channel["instrument"] in expected, f"no tape gives {shown}")
+            if channel["instrument"] not in expected:
+                expect(channel["value"] is None, f"no tape gives {shown}")
+                continue
             said = expected[channel["instrument"]][0][channel["channel"]]
             expect(any(is_said(channel, words) for words in said), f"{shown} is not one of {said}")
         tapes = [one for one in status["instruments"] if one["name"] in expected]
