@@ -31,8 +31,8 @@ try:
 except as_root.NoRoot as why:
     sys.exit(f"told: {{why}}")
 open(tempfile.mkdtemp() + "/left", "w")
-print(sys.argv[1], os.environ["AXISCAL_PLANTED"], os.environ["PATH"], tempfile.gettempdir(), flush=True)
-try:
+try:  # before the words: whoever reads them may end it at once
+    print(sys.argv[1], os.environ["AXISCAL_PLANTED"], os.environ["PATH"], tempfile.gettempdir(), flush=True)
     time.sleep({sleep_s})
 finally:
     open({ended!r}, "w")
