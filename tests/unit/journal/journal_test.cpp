@@ -249,6 +249,42 @@ TEST(Journal, RunsUnderAVirtualClockInTheCallersThread) {
     EXPECT_EQ(run.closed.before, monotonic_from_ns(2'000'000'000)); // starts at 1 s
 }
 
+/// Up to the size at which SQLite folds its log back by itself: 1000 pages.
+TEST(Journal, GivesTheLogItsWholeLengthBeforeTheFirstPoint) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal"), log = path + "-wal";
+    constexpr std::uintmax_t whole = 32 + 1000 * (24 + 4096); // file format of SQLite, section 4.1
+    Station station;
+    RandomRun random{7};
+    RunRecord run = random.header();
+    ASSERT_TRUE(station.run(station.journal.open(path, run)));
+    EXPECT_EQ(std::filesystem::file_size(log), whole);
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value())); // zeros are no records
+    for (int step = 0; step < 20; ++step) {
+        run.points.push_back(random.point(step));
+        ASSERT_TRUE(station.receipt(station.journal.commit(run.points.back())));
+    }
+    EXPECT_EQ(std::filesystem::file_size(log), whole);
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+}
+
+TEST(Journal, CarriesARunWhereTheLogFindsNoRoomForItsLength) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    const int status = in_child([&] {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{2'000'000, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        Station station;
+        RandomRun random{7};
+        EXPECT_TRUE(station.run(station.journal.open(path, random.header())));
+        EXPECT_EQ(std::filesystem::file_size(path + "-wal"), 0U); // what was begun is given back
+        EXPECT_TRUE(station.receipt(station.journal.commit(random.point(0))));
+    });
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(read_run_file(path)->points.size(), 1U);
+}
+
 // The disk is full for this process: its file-size limit makes every growth fail.
 TEST(Journal, NeverAcknowledgesAgainAfterTheDiskWasFull) {
     const ScratchFolder scratch;
