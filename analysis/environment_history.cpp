@@ -28,7 +28,8 @@ EnvironmentHistory::EnvironmentHistory(const RunRecord& run)
     : vacuum_wavelength_{run.laser.vacuum_wavelength}
     , stated_co2_ppm_{run.air.co2_ppm}
     , oldest_{run.air.oldest} {
-    const auto shelf_of = [this](const ChannelRecord& record) -> std::vector<Channel>* {
+    const auto shelf_of = [&](const ChannelRecord& record) -> std::vector<Channel>* {
+        if (sits_on_scale(run, record.id)) return &scale_;
         const bool in_material = record.medium == Medium::material;
         switch (record.kind) {
         case ChannelKind::temperature:
@@ -107,6 +108,11 @@ Result<AirState> EnvironmentHistory::air_at(MonotonicTime at, const std::string&
 Result<Temperature> EnvironmentHistory::material_at(MonotonicTime at,
                                                     const std::string& what) const {
     AXISCAL_TRY(const double celsius, mean_of(material_, "material temperature", at, what));
+    return Temperature::celsius(celsius);
+}
+
+Result<Temperature> EnvironmentHistory::scale_at(MonotonicTime at, const std::string& what) const {
+    AXISCAL_TRY(const double celsius, mean_of(scale_, "scale temperature", at, what));
     return Temperature::celsius(celsius);
 }
 

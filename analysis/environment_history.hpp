@@ -25,6 +25,8 @@ public:
     /// Air temperature, pressure and humidity must be measured; CO2 is AirSetup's where it is not.
     [[nodiscard]] Result<AirState> air_at(MonotonicTime at, const std::string& what) const;
     [[nodiscard]] Result<Temperature> material_at(MonotonicTime at, const std::string& what) const;
+    /// Of the scale that measures the axis (RunRecord::scale).
+    [[nodiscard]] Result<Temperature> scale_at(MonotonicTime at, const std::string& what) const;
 
 private:
     struct Channel {
@@ -38,7 +40,7 @@ private:
                                          MonotonicTime at,
                                          const std::string& what) const;
 
-    std::vector<Channel> air_temperature_, pressure_, humidity_, carbon_dioxide_, material_;
+    std::vector<Channel> air_temperature_, pressure_, humidity_, carbon_dioxide_, material_, scale_;
     Length vacuum_wavelength_;
     double stated_co2_ppm_;
     Duration oldest_;

@@ -1,5 +1,7 @@
 #include "analysis/run_record.hpp"
 
+#include <algorithm>
+
 namespace axiscal {
 
 std::string_view name_of(AxisKind kind) {
@@ -80,6 +82,11 @@ std::string_view name_of(EventKind kind) {
     case EventKind::instrument: return "instrument";
     }
     return "?";
+}
+
+bool sits_on_scale(const RunRecord& run, int channel) {
+    return run.scale &&
+           std::ranges::find(run.scale->channels, channel) != run.scale->channels.end();
 }
 
 Result<void> check_complete(const RunRecord& run) {

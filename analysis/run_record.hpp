@@ -125,6 +125,15 @@ struct MaterialSetup {
     ExpansionForm form = ExpansionForm::first_order;
 };
 
+/// A linear scale in the place of the laser: while it is at 20 degC it gives true lengths.
+struct ScaleSetup {
+    Length resolution;     ///< of one count
+    Expansion coefficient; ///< alpha_S
+    std::optional<Expansion> standard_uncertainty;
+    std::optional<TemperatureDifference> temperature_width; ///< full width, of its temperature
+    std::vector<int> channels; ///< ChannelRecord::id of the temperatures on it
+};
+
 struct AirSetup {
     AirFormula formula = AirFormula::ciddor;
     double co2_ppm = 450;
@@ -177,8 +186,8 @@ struct Statements {
 struct DatumRecord {
     std::string id; ///< "<laser serial>/<epoch>/<n>"
     MonotonicTime at;
-    Length coordinate;       ///< machine coordinate there
-    Length reading;          ///< mean displacement in vacuum wavelengths, sign as counted
+    Length coordinate; ///< machine coordinate there
+    Length reading;    ///< mean displacement in vacuum wavelengths or by the scale, sign as counted
     std::uint32_t epoch = 0; ///< of the laser's counter
     Length spread;
     double slope_um_per_s = 0;
@@ -255,6 +264,8 @@ struct RunRecord {
     MaterialSetup material;
     AirSetup air;
     std::optional<RotarySetup> rotary; ///< of a rotary axis: how its angle was measured
+    /// The reference is this scale: of `laser` instrument and sign count, of `air` the age alone.
+    std::optional<ScaleSetup> scale;
     std::optional<UncertaintySetup> uncertainty;
     Statements statements;
     std::vector<InstrumentRecord> instruments;
@@ -265,6 +276,9 @@ struct RunRecord {
     std::vector<EnvironmentReading> environment; ///< by time, ascending
     std::vector<EventRecord> events;
 };
+
+/// The channel is a temperature of the scale that measures the axis, none of the machine.
+bool sits_on_scale(const RunRecord& run, int channel);
 
 /// Every planned cell filled exactly once, each point under one datum, steps in order.
 /// @errors Fault::incomplete_run naming the first missing step; Fault::datum_lost when datums

@@ -46,6 +46,10 @@ Result<void> check_setup(const RunRecord& run) {
             "how its angle was measured");
     if (!rotary && run.rotary)
         return fail(Fault::bad_run_file, "a linear axis has no artefact of angles");
+    if (rotary && run.scale)
+        return fail(Fault::bad_run_file, "a rotary axis is not measured by a linear scale");
+    if (run.scale && !std::isfinite(run.scale->coefficient.si()))
+        return fail(Fault::bad_run_file, "the expansion coefficient of the scale is not a number");
     if (run.laser.sign != 1 && run.laser.sign != -1)
         return fail(Fault::bad_run_file, "the sign of the laser is neither +1 nor -1");
     if (!(run.laser.dead_path >= Length{}))
@@ -57,11 +61,12 @@ Result<void> check_setup(const RunRecord& run) {
 
 /// One point on its way: axis coordinates in the three stages.
 struct CompensatedPoint {
-    Length uncorrected;   ///< as if in vacuum
-    Length air_corrected; ///< in air, along the axis
+    Length uncorrected; ///< as if in vacuum, or as the scale counts
+    Length true_length; ///< along the axis, with the machine as warm as it is
     Length at_20C;
     double n_minus_1 = 0;
     Temperature material;
+    Temperature scale; ///< of the scale that measured it
 };
 
 /// Carries what is the same for all points of a run, and gathers the remarks. Pure.
@@ -86,6 +91,20 @@ public:
         if (!std::isfinite(point.reading.si()))
             return fail(Fault::bad_run_file, what + ": the reading is not a number");
         if (run_.rotary) return angle_of(point, at, what);
+        return run_.scale ? by_scale(point, at, what) : by_laser(point, at, what);
+    }
+
+    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+
+private:
+    /// An autocollimator counts no wavelengths, nor does a scale.
+    [[nodiscard]] bool needs_air() const {
+        if (run_.scale) return false;
+        return !run_.rotary || run_.rotary->method == AngleMethod::indexing_table;
+    }
+
+    Result<CompensatedPoint>
+    by_laser(const PointRecord& point, MonotonicTime at, const std::string& what) {
         CompensatedPoint out;
         AXISCAL_TRY(out.n_minus_1, refractivity_at(at, what));
         AXISCAL_TRY(out.material, environment_.material_at(at, what));
@@ -94,18 +113,26 @@ public:
             displacement_in_air(vacuum, out.n_minus_1, n_minus_1_at_datum_, run_.laser.dead_path) *
             cosine_factor_;
         out.uncorrected = coordinate_of(vacuum * cosine_factor_);
-        out.air_corrected = coordinate_of(in_air);
-        out.at_20C = coordinate_of(displacement_at_20C(in_air, run_.material.coefficient,
-                                                       out.material, run_.material.form));
+        carry_to_20C(out, in_air);
         return out;
     }
 
-    [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+    Result<CompensatedPoint>
+    by_scale(const PointRecord& point, MonotonicTime at, const std::string& what) {
+        CompensatedPoint out;
+        AXISCAL_TRY(out.scale, environment_.scale_at(at, what));
+        AXISCAL_TRY(out.material, environment_.material_at(at, what));
+        const Length counted = point.reading - datum_.reading;
+        out.uncorrected = coordinate_of(counted);
+        carry_to_20C(out, displacement_by_scale(counted, run_.scale->coefficient, out.scale));
+        return out;
+    }
 
-private:
-    /// An autocollimator counts no wavelengths.
-    [[nodiscard]] bool needs_air() const {
-        return !run_.rotary || run_.rotary->method == AngleMethod::indexing_table;
+    /// `length`: true displacement since the datum, with the machine as warm as it is.
+    void carry_to_20C(CompensatedPoint& out, Length length) const {
+        out.true_length = coordinate_of(length);
+        out.at_20C = coordinate_of(displacement_at_20C(length, run_.material.coefficient,
+                                                       out.material, run_.material.form));
     }
 
     /// Air acts on the rest alone; an angle does not expand.
@@ -127,7 +154,7 @@ private:
         for (const auto* found : {&in_vacuum, &in_air})
             if (!*found) return fail(Fault::bad_run_file, what + ": " + found->error().detail);
         out.uncorrected = *in_vacuum;
-        out.air_corrected = out.at_20C = *in_air;
+        out.true_length = out.at_20C = *in_air;
         return out;
     }
 
@@ -163,20 +190,33 @@ void remark_on_artefact(const RotarySetup& setup, std::vector<std::string>& rema
                                "they are taken as 0.");
 }
 
+ScaleSummary summary_of_scale(const ScaleSetup& scale) {
+    ScaleSummary summary;
+    summary.resolution_um = scale.resolution.in(um);
+    summary.expansion_per_K = scale.coefficient.si();
+    if (scale.standard_uncertainty)
+        summary.expansion_standard_uncertainty_per_K = scale.standard_uncertainty->si();
+    return summary;
+}
+
 CompensationSummary summary_of_setup(const RunRecord& run) {
     CompensationSummary summary;
-    summary.air_formula = name_of(run.air.formula);
-    summary.vacuum_wavelength_nm = run.laser.vacuum_wavelength.in(nm);
+    if (!run.scale) {
+        summary.air_formula = name_of(run.air.formula);
+        summary.vacuum_wavelength_nm = run.laser.vacuum_wavelength.in(nm);
+    }
     if (run.rotary) { // the rest keeps the values of a length that does not expand
         summary.material_first_degC = summary.material_last_degC =
             reference_temperature.in_celsius();
         remark_on_artefact(*run.rotary, summary.remarks);
         return summary;
     }
+    if (run.scale) summary.scale = summary_of_scale(*run.scale);
     summary.expansion_form = name_of(run.material.form);
     summary.expansion_per_K = run.material.coefficient.si();
     if (run.material.standard_uncertainty)
         summary.expansion_standard_uncertainty_per_K = run.material.standard_uncertainty->si();
+    if (run.scale) return summary;
     summary.dead_path_mm = run.laser.dead_path.in(mm);
     summary.cosine_factor = cosine_factor_of(run.laser);
     return summary;
@@ -186,14 +226,18 @@ void add_to_summary(CompensationSummary& summary, const CompensatedPoint& point,
     if (summary.after.empty()) {
         summary.refractive_index_minus_1_first = point.n_minus_1;
         summary.material_first_degC = point.material.in_celsius();
+        if (summary.scale) summary.scale->first_degC = point.scale.in_celsius();
     }
+    if (summary.scale) summary.scale->last_degC = point.scale.in_celsius();
     summary.refractive_index_minus_1_last = point.n_minus_1;
     summary.material_last_degC = point.material.in_celsius();
-    summary.before.push_back((point.air_corrected - target).in(mm));
+    summary.before.push_back((point.true_length - target).in(mm));
     summary.after.push_back((point.at_20C - target).in(mm));
-    const double air_mm = abs(point.air_corrected - point.uncorrected).in(mm);
-    const double material_mm = abs(point.at_20C - point.air_corrected).in(mm);
-    summary.largest_air_correction = std::max(summary.largest_air_correction, air_mm);
+    const double reference_mm = abs(point.true_length - point.uncorrected).in(mm);
+    const double material_mm = abs(point.at_20C - point.true_length).in(mm);
+    double& largest =
+        summary.scale ? summary.scale->largest_correction : summary.largest_air_correction;
+    largest = std::max(largest, reference_mm);
     summary.largest_material_correction =
         std::max(summary.largest_material_correction, material_mm);
 }
@@ -307,6 +351,10 @@ double cosine_factor_of(const LaserSetup& laser) {
     if (!(laser.beam_walk_travel > Length{})) return 1;
     const double tangent = laser.beam_walk / (laser.beam_walk_travel * 2);
     return std::sqrt(1 + tangent * tangent);
+}
+
+Length displacement_by_scale(Length counted, Expansion coefficient, Temperature scale) {
+    return counted * (1 + (coefficient * (scale - reference_temperature)).si());
 }
 
 Length displacement_at_20C(Length displacement,

@@ -1,6 +1,6 @@
 #pragma once
-// From vacuum-wavelength readings to deviations at 20 degC: the only road from a run to metrics.
-// Pure.
+// From readings in vacuum wavelengths, or of a linear scale, to deviations at 20 degC: the only
+// road from a run to metrics. Pure.
 
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/quantity/quantity.hpp"
@@ -15,6 +15,13 @@
 
 namespace axiscal {
 
+/// What a linear scale in the laser's place did; its largest correction in the result's unit.
+struct ScaleSummary {
+    double resolution_um = 0, expansion_per_K = 0;
+    std::optional<double> expansion_standard_uncertainty_per_K;
+    double first_degC = 0, last_degC = 0, largest_correction = 0;
+};
+
 /// What compensation did to the readings; deviations in the result's unit before and after.
 struct CompensationSummary {
     std::string air_formula, expansion_form;
@@ -23,8 +30,9 @@ struct CompensationSummary {
     double expansion_per_K = 0;
     std::optional<double> expansion_standard_uncertainty_per_K;
     double dead_path_mm = 0, cosine_factor = 1, vacuum_wavelength_nm = 0;
-    /// per plan order: deviation with nominal vacuum->air (air corrected) but not to 20 degC, and
-    /// after.
+    std::optional<ScaleSummary> scale; ///< then nothing was done for air, and nothing is told of it
+    /// per plan order: deviation corrected for air, or for the scale's own expansion, but not to
+    /// 20 degC, and after.
     std::vector<double> before, after;
     double largest_air_correction = 0, largest_material_correction = 0; ///< result unit
     std::vector<std::string> remarks; ///< e.g. air outside the range of the formula
@@ -42,6 +50,10 @@ Length displacement_in_air(Length vacuum_displacement,
 /// 1 / cos(gamma) of a beam whose return spot walks by e over the travel L; a retroreflector
 /// doubles the walk, so tan(gamma) = e / (2 L). Without a travel: 1.
 double cosine_factor_of(const LaserSetup& laser);
+
+/// True length of what a scale counts: it grows itself, and its counts with it, so that
+/// D (1 + alpha_S (T_S - 20 degC)).
+Length displacement_by_scale(Length counted, Expansion coefficient, Temperature scale);
 
 /// What `displacement` would be with the material at 20 degC: D (1 - alpha dT) first order,
 /// D / (1 + alpha dT) exact. They differ by D (alpha dT)^2.
@@ -66,6 +78,8 @@ struct Compensated {
 /// and step when a channel's nearer reading is further than AirSetup::oldest, or when a kind has no
 /// channel; bad_run_file for values that cannot be; refused for a rotary axis of which nothing says
 /// how its angle was measured.
+/// Of a linear scale (RunRecord::scale) nothing is corrected for air, dead path or beam; the
+/// displacement is displacement_by_scale() with the scale's temperature of the point's time.
 /// Of a rotary axis (RunRecord::rotary) position is that of rotary_position() with the air of the
 /// point's time and the artefact at the position of its target; nothing expands, unit "deg".
 Result<Compensated> compensate_to_20C(const RunRecord& run);

@@ -50,6 +50,8 @@ void MissingRows::gather_header_evidence() {
 void MissingRows::gather_evidence_of_optional_tables() {
     if (count_of("uncertainty") == 0 && count_of("uncertainty_target") > 0) miss("uncertainty", "");
     if (count_of("rotary") == 0 && count_of("rotary_deviation") > 0) miss("rotary", "");
+    if (count_of("linear_scale") == 0 && count_of("linear_scale_sensor") > 0)
+        miss("linear_scale", "");
     for (const int channel : corrected_)
         if (!calibrated_.contains(channel))
             miss("channel_calibration", "channel=" + std::to_string(channel));
@@ -66,12 +68,15 @@ bool MissingRows::fits_header(const Hole& hole, std::string_view name) const {
     const auto belongs_to = [&](std::string_view owner) {
         return name.starts_with(owner) && name != owner;
     };
-    for (const std::string_view owner : {"uncertainty", "rotary", "alignment", "probing"}) {
+    for (const std::string_view owner :
+         {"uncertainty", "rotary", "linear_scale", "alignment", "probing"}) {
         if (name == owner && count_of(owner) > 0) return false;
         if (belongs_to(owner) && count_of(owner) == 0 && hole.alone) return false;
     }
     if (name == "channel_correction" && calibrated_.empty() && hole.alone) return false;
     if (name.starts_with("rotary") && !rotary_axis_) return false;
+    if (name.starts_with("linear_scale") && rotary_axis_) return false;
+    if (name == "linear_scale" && hole.alone) return false; // its sensors would tell
     if (name == "drift" || name.starts_with("probing"))
         return count_of("drift") == 0 && count_of("plan_target") == 0 && !is_circular();
     if (name == "eve_source") return count_of(name) == 0 && count_of("uncertainty") > 0;

@@ -30,6 +30,10 @@ inline constexpr std::array tables{
           "run_out",
           "trrriiit", 4},
     Table{"rotary_deviation", "deviation_arcsec", "r", 4},
+    Table{"linear_scale",
+          "resolution_m, coefficient_per_K, standard_uncertainty_per_K, temperature_width_K",
+          "rrRR", 5},
+    Table{"linear_scale_sensor", "channel", "i", 5},
     Table{"uncertainty",
           "device_U_m, device_U_per_m, device_k, device_width_m, device_width_per_m, "
           "misalignment_m, misalignment_rad, temperature_width_K, expansion_width_per_K, eve_m, "

@@ -78,6 +78,12 @@ template <class Amount> Value si_or_nothing(const std::optional<Amount>& amount)
     return amount ? Value{amount->si()} : Value{};
 }
 
+ChainedRow row_of_scale(const ScaleSetup& scale) {
+    const auto& [resolution, coefficient, uncertainty, temperature_width, channels] = scale;
+    return chained("linear_scale", {resolution.si(), coefficient.si(), si_or_nothing(uncertainty),
+                                    si_or_nothing(temperature_width)});
+}
+
 ChainedRow row_of_uncertainty(const UncertaintySetup& setup) {
     const auto& [device_U, device_k, device_width, misalignment, misalignment_angle,
                  temperature_width, expansion_width, eve, eve_model, targets] = setup;
@@ -164,6 +170,11 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
         rows.push_back(row_of_rotary(*header.rotary));
         for (const double deviation : header.rotary->deviations_arcsec)
             rows.push_back(chained("rotary_deviation", {deviation}));
+    }
+    if (header.scale) {
+        rows.push_back(row_of_scale(*header.scale));
+        for (const int channel : header.scale->channels)
+            rows.push_back(chained("linear_scale_sensor", {whole(channel)}));
     }
     if (header.uncertainty) {
         rows.push_back(row_of_uncertainty(*header.uncertainty));

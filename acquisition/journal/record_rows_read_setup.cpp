@@ -111,6 +111,21 @@ void read_rotary_deviation(RunRecord& run, RowReader& in) {
     run.rotary->deviations_arcsec.push_back(in.real());
 }
 
+void read_linear_scale(RunRecord& run, RowReader& in) {
+    ScaleSetup scale;
+    scale.resolution = in.length();
+    scale.coefficient = Expansion::from_si(in.real());
+    read_optional(scale.standard_uncertainty, in);
+    read_optional(scale.temperature_width, in);
+    if (run.scale) return in.reject("stands there twice");
+    run.scale = std::move(scale);
+}
+
+void read_linear_scale_sensor(RunRecord& run, RowReader& in) {
+    if (!run.scale) run.scale.emplace(); // the writer checks each row by itself
+    run.scale->channels.push_back(in.number<int>());
+}
+
 void read_uncertainty(RunRecord& run, RowReader& in) {
     UncertaintySetup setup;
     read_optional(setup.device_U.fixed, in);

@@ -47,7 +47,8 @@ struct DiskBack {
     MonotonicTime at;
 };
 /// By what share a reading in vacuum wavelengths exceeds the length at 20 degC, from fresh air and
-/// material readings: n (1 + alpha (T - 20 degC)) - 1; or why it is not known (environment_stale)
+/// material readings: n (1 + alpha (T - 20 degC)) - 1, by a linear scale (1 + alpha (T - 20 degC))
+/// over the same of the scale, - 1; or why it is not known (environment_stale)
 /// or may not be used (environment_outside).
 /// Until the first one the environment counts as stale.
 struct EnvironmentNow {

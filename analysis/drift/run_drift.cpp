@@ -68,23 +68,39 @@ public:
 
     /// Coordinate of the axis; the first call fixes where it stands.
     Result<Length> coordinate(const EnvironmentReading& reading) {
-        AXISCAL_TRY(const AirState air, environment_.air_at(reading.at, "drift"));
         AXISCAL_TRY(const Temperature material, environment_.material_at(reading.at, "drift"));
-        AXISCAL_TRY(const Refractivity index, refractivity_of(run_.air.formula, air));
-        if (!first_m_) first_m_ = reading.value, n0_minus_1_ = index.n_minus_1;
-        const Length vacuum = from_datum_ * (1 + n0_minus_1_) + metre(reading.value - *first_m_);
-        const Length in_air =
-            displacement_in_air(vacuum, index.n_minus_1, n0_minus_1_, run_.laser.dead_path) *
-            cosine_;
+        AXISCAL_TRY(const Length length, run_.scale ? by_scale(reading) : by_laser(reading));
         const Length at_20C =
-            displacement_at_20C(in_air, run_.material.coefficient, material, run_.material.form);
+            displacement_at_20C(length, run_.material.coefficient, material, run_.material.form);
         return at_20C * static_cast<double>(run_.laser.sign);
     }
 
 private:
+    Result<Length> by_laser(const EnvironmentReading& reading) {
+        AXISCAL_TRY(const AirState air, environment_.air_at(reading.at, "drift"));
+        AXISCAL_TRY(const Refractivity index, refractivity_of(run_.air.formula, air));
+        if (!first_m_) first_m_ = reading.value, n0_minus_1_ = index.n_minus_1;
+        const Length vacuum = from_datum_ * (1 + n0_minus_1_) + metre(reading.value - *first_m_);
+        return displacement_in_air(vacuum, index.n_minus_1, n0_minus_1_, run_.laser.dead_path) *
+               cosine_;
+    }
+
+    /// As if the scale had been zeroed at the datum: (D_0 / (1 + s_0) + V - V_0) (1 + s).
+    Result<Length> by_scale(const EnvironmentReading& reading) {
+        AXISCAL_TRY(const Temperature scale, environment_.scale_at(reading.at, "drift"));
+        const Expansion alpha = run_.scale->coefficient;
+        if (!first_m_) {
+            first_m_ = reading.value;
+            counted_at_first_ =
+                from_datum_ / displacement_by_scale(metre(1), alpha, scale).in(metre);
+        }
+        const Length counted = counted_at_first_ + metre(reading.value - *first_m_);
+        return displacement_by_scale(counted, alpha, scale);
+    }
+
     const RunRecord& run_;
     EnvironmentHistory environment_;
-    Length from_datum_;
+    Length from_datum_, counted_at_first_;
     double cosine_;
     std::optional<double> first_m_;
     double n0_minus_1_ = 0;
@@ -120,7 +136,7 @@ Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
     if (run.plan.axis_kind == AxisKind::rotary)
         return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
     if (!laser_channel_of(run))
-        return fail(Fault::bad_run_file, "the drift test holds no channel of its laser");
+        return fail(Fault::bad_run_file, "the drift test holds no channel of its laser or scale");
     if (setup.interval <= Duration{} || setup.duration < setup.interval)
         return fail(Fault::bad_run_file, "the interval of the drift test cannot be");
     return {};

@@ -28,7 +28,7 @@ struct RunDrift {
     DriftSeries axis;
     DriftRange eve;        ///< over the whole test: E_VE and u_EVE = E_VE / (2 sqrt 3)
     DriftRange window;     ///< largest within any window: ETVE
-    DriftRange as_read;    ///< E_VE of the bare readings, in vacuum wavelengths
+    DriftRange as_read;    ///< E_VE of the bare readings, in vacuum wavelengths or by the scale
     double end_change = 0; ///< last against first
     int missing = 0;       ///< intervals without a good reading of the laser
     int without_air = 0;   ///< readings of the laser that no fresh air or material belongs to
@@ -40,7 +40,8 @@ struct RunDrift {
 /// test began: with D_0 the distance of the place of rest from the datum and n_0 the index then,
 /// V* = n_0 D_0 + (V - V_0),   D = (V* - (n - n_0) L_d) / n / cos,   D_20 by material,
 /// drift = sign (D_20 - D_20 of the first reading). So air and material act on the whole path, as
-/// they do while the axis is measured there.
+/// they do while the axis is measured there. By a linear scale with its strain s and that of the
+/// begin s_0: D = (D_0 / (1 + s_0) + V - V_0) (1 + s).
 /// @errors Fault::incomplete_run for a test that was not closed as complete, or with fewer than
 /// two usable readings; Fault::refused for a rotary axis; Fault::bad_run_file.
 Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup);

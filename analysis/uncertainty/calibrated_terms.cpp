@@ -83,6 +83,32 @@ std::optional<double> sensitivity_of(const RunRecord& run, const AirKind& kind) 
     return (above->n_minus_1 - below->n_minus_1) / (2 * kind.step);
 }
 
+/// Full width of a temperature, K, from the sensors that `is_of_kind` picks.
+template <class IsOfKind>
+std::optional<double> width_of_sensors_K(const RunRecord& run,
+                                         const IsOfKind& is_of_kind,
+                                         const std::string& whose,
+                                         std::vector<std::string>& remarks) {
+    const auto u_K = worst_of(run, is_of_kind, 0);
+    if (!u_K) return std::nullopt;
+    const double width_K = 2 * std::sqrt(3.0) * *u_K;
+    remarks.push_back("Uncertainty: the width of the " + whose +
+                      " temperature is not stated; taken as "
+                      "2 \u221A3 u = " +
+                      written("%.3f", width_K) +
+                      " K of the sensors' certificates. Contact and the places between the sensors "
+                      "are not in it.");
+    return width_K;
+}
+
+double expanded_um_of_scale(double scale_m, std::vector<std::string>& remarks) {
+    const double expanded_um = calibrated_k * scale_m * 1e6;
+    remarks.push_back("Uncertainty: the device is not stated; taken from the certificate of the "
+                      "scale, U = " +
+                      written("%.3f", expanded_um) + " \u00B5m (k = 2) over the length.");
+    return expanded_um;
+}
+
 } // namespace
 
 std::optional<double>
@@ -92,6 +118,7 @@ calibrated_device_um(const RunRecord& run, double length_m, std::vector<std::str
     };
     const auto laser_m = worst_of(run, is_laser, length_m);
     if (!laser_m) return std::nullopt;
+    if (run.scale) return expanded_um_of_scale(*laser_m, remarks);
     double variance_um2 = std::pow(*laser_m * 1e6, 2);
     for (const AirKind& kind : air_kinds) {
         const auto is_kind = [&](const ChannelRecord& c) {
@@ -117,19 +144,17 @@ calibrated_device_um(const RunRecord& run, double length_m, std::vector<std::str
 
 std::optional<double> calibrated_temperature_width_K(const RunRecord& run,
                                                      std::vector<std::string>& remarks) {
-    const auto is_material = [](const ChannelRecord& c) {
-        return c.kind == ChannelKind::temperature && c.medium == Medium::material;
+    const auto is_material = [&](const ChannelRecord& c) {
+        return c.kind == ChannelKind::temperature && c.medium == Medium::material &&
+               !sits_on_scale(run, c.id);
     };
-    const auto u_K = worst_of(run, is_material, 0);
-    if (!u_K) return std::nullopt;
-    const double width_K = 2 * std::sqrt(3.0) * *u_K;
-    remarks.push_back(
-        "Uncertainty: the width of the material's temperature is not stated; taken as "
-        "2 \u221A3 u = " +
-        written("%.3f", width_K) +
-        " K of the sensors' certificates. Contact and the places between the sensors "
-        "are not in it.");
-    return width_K;
+    return width_of_sensors_K(run, is_material, "material's", remarks);
+}
+
+std::optional<double> calibrated_scale_width_K(const RunRecord& run,
+                                               std::vector<std::string>& remarks) {
+    const auto is_scale = [&](const ChannelRecord& c) { return sits_on_scale(run, c.id); };
+    return width_of_sensors_K(run, is_scale, "scale's", remarks);
 }
 
 } // namespace axiscal

@@ -17,7 +17,7 @@ inline constexpr double calibrated_k = 2;
 /// the run makes of them at 20 degC, 101325 Pa and 50 % (ISO 230-2, annex A: the device with its
 /// sensors). Several sensors of one kind count like their worst. Empty without the laser's U, and
 /// where one kind of air sensor has none: it would be too small. What was used, or what is missing,
-/// is added to `remarks`.
+/// is added to `remarks`. Of a linear scale in the laser's place: of its own certificate alone.
 std::optional<double>
 calibrated_device_um(const RunRecord& run, double length_m, std::vector<std::string>& remarks);
 
@@ -26,5 +26,9 @@ calibrated_device_um(const RunRecord& run, double length_m, std::vector<std::str
 /// says so. Empty where one material sensor has no U.
 std::optional<double> calibrated_temperature_width_K(const RunRecord& run,
                                                      std::vector<std::string>& remarks);
+
+/// The same of the sensors on the scale that measures the axis.
+std::optional<double> calibrated_scale_width_K(const RunRecord& run,
+                                               std::vector<std::string>& remarks);
 
 } // namespace axiscal

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <utility>
 
 namespace axiscal {
@@ -24,6 +25,16 @@ constexpr std::array needed_terms{
     NeededTerm{UncertaintyTerm::machine_expansion, "expansion",
                "the width of the expansion coefficient"},
     NeededTerm{UncertaintyTerm::environment, "drift", "E_VE of a drift test"}};
+constexpr std::array needed_terms_of_scale{
+    NeededTerm{UncertaintyTerm::device, "device", "the expanded uncertainty of the scale"},
+    NeededTerm{UncertaintyTerm::misalignment, "alignment", "the misalignment of the scale"},
+    needed_terms[2],
+    needed_terms[3],
+    needed_terms[4],
+    NeededTerm{UncertaintyTerm::device_temperature, "scale temperature",
+               "the width of the scale's temperature"},
+    NeededTerm{UncertaintyTerm::device_expansion, "scale expansion",
+               "the standard uncertainty of the scale's expansion coefficient"}};
 
 std::optional<double> over_length(const DeviceLimit& limit, double length_m) {
     if (!limit.stated()) return std::nullopt;
@@ -36,10 +47,12 @@ std::optional<double> number_of(const std::optional<Amount>& amount, Unit unit) 
     return amount ? std::optional{amount->in(unit)} : std::nullopt;
 }
 
-std::optional<double> largest_offset_of(const RunRecord& run) {
+/// Of the machine's material, or of the scale that measures it.
+std::optional<double> largest_offset_of(const RunRecord& run, bool of_scale) {
     std::optional<double> largest;
     for (const ChannelRecord& channel : run.channels) {
-        if (channel.kind != ChannelKind::temperature || channel.medium != Medium::material)
+        if (channel.kind != ChannelKind::temperature || channel.medium != Medium::material ||
+            sits_on_scale(run, channel.id) != of_scale)
             continue;
         for (const EnvironmentReading& reading : run.environment)
             if (reading.channel == channel.id)
@@ -78,6 +91,19 @@ UncertaintyStatement statement_of_angle(const UncertaintySetup& setup) {
     return s;
 }
 
+/// A scale grows by its own temperature.
+void add_scale(UncertaintyStatement& s, const RunRecord& run, std::vector<std::string>& remarks) {
+    const ScaleSetup& scale = *run.scale;
+    s.device_alpha_um_per_m_K = scale.coefficient.in(um_per_m_kelvin);
+    s.device_temperature_width_K = number_of(scale.temperature_width, kelvin);
+    if (!s.device_temperature_width_K)
+        s.device_temperature_width_K = calibrated_scale_width_K(run, remarks);
+    s.device_temperature_offset_K = largest_offset_of(run, true);
+    if (scale.standard_uncertainty)
+        s.device_alpha_width_um_per_m_K =
+            2 * std::sqrt(3.0) * scale.standard_uncertainty->in(um_per_m_kelvin);
+}
+
 UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>& remarks) {
     const UncertaintySetup setup = run.uncertainty.value_or(UncertaintySetup{});
     if (run.plan.axis_kind == AxisKind::rotary) return statement_of_angle(setup);
@@ -98,23 +124,23 @@ UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>
     s.temperature_width_K = number_of(setup.temperature_width, kelvin);
     if (!s.temperature_width_K)
         s.temperature_width_K = calibrated_temperature_width_K(run, remarks);
-    s.temperature_offset_K = largest_offset_of(run);
+    s.temperature_offset_K = largest_offset_of(run, false);
     s.alpha_width_um_per_m_K = expansion_width_of(run, remarks);
     s.eve = number_of(setup.eve, um);
     s.eve_model = setup.eve_model;
+    if (run.scale) add_scale(s, run, remarks);
     return s;
 }
 
 /// A U without one of its terms would be too small: R and B need the environment, the others all.
-void drop_incomplete(UncertaintyBudget& budget) {
+void drop_incomplete(UncertaintyBudget& budget, bool all) {
     const bool drift = budget.find(UncertaintyTerm::environment) != nullptr;
-    const bool all = budget.not_stated.empty();
     std::erase_if(budget.parameters, [&](const ParameterUncertainty& figure) {
         return !drift || (figure.systematic != 0 && !all);
     });
 }
 
-std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s) {
+std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s, bool by_scale) {
     if (s.axis_kind == AxisKind::rotary) {
         std::vector<MissingTerm> missing;
         if (!s.device_U && !s.device_width)
@@ -122,12 +148,18 @@ std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s) {
         if (!s.eve) missing.push_back({"drift", "E_VE of a drift test"});
         return missing;
     }
-    const std::array stated{s.device_U || s.device_width, s.misalignment_mm || s.misalignment_rad,
-                            s.temperature_width_K.has_value(), s.alpha_width_um_per_m_K.has_value(),
-                            s.eve.has_value()};
+    const std::array stated{s.device_U || s.device_width,
+                            s.misalignment_mm || s.misalignment_rad,
+                            s.temperature_width_K.has_value(),
+                            s.alpha_width_um_per_m_K.has_value(),
+                            s.eve.has_value(),
+                            s.device_temperature_width_K.has_value(),
+                            s.device_alpha_width_um_per_m_K.has_value()};
+    const std::span<const NeededTerm> needed =
+        by_scale ? std::span<const NeededTerm>{needed_terms_of_scale} : needed_terms;
     std::vector<MissingTerm> missing;
-    for (std::size_t i = 0; i < needed_terms.size(); ++i)
-        if (!stated[i]) missing.push_back({needed_terms[i].name, needed_terms[i].words});
+    for (std::size_t i = 0; i < needed.size(); ++i)
+        if (!stated[i]) missing.push_back({needed[i].name, needed[i].words});
     return missing;
 }
 
@@ -152,7 +184,7 @@ RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, int approa
     RunUncertainty out;
     std::vector<std::string> remarks;
     if (!run.plan.targets.empty()) out.statement = statement_of(run, remarks);
-    out.missing = missing_terms_of(out.statement);
+    out.missing = missing_terms_of(out.statement, run.scale.has_value());
     if (!run.uncertainty) return out;
     if (approaches < run.plan.approaches)
         remarks.push_back("Uncertainty: the budget is made with n = " + std::to_string(approaches) +
@@ -165,7 +197,8 @@ RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, int approa
             {"budget", "a budget (" + budget.error().field + " " + budget.error().detail + ")"});
         return out;
     }
-    drop_incomplete(*budget);
+    // The budget knows of a scale's own terms only where they are stated.
+    drop_incomplete(*budget, budget->not_stated.empty() && out.missing.empty());
     out.budget = *std::move(budget);
     return out;
 }

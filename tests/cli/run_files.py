@@ -9,8 +9,8 @@ import re
 import sqlite3
 import struct
 
-SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4")]
-IDENTITY, FORMAT = 0x4158434C, 4
+SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4", "5")]
+IDENTITY, FORMAT = 0x4158434C, 5
 NAMES_OF_COLUMNS = "record_columns.hpp"
 
 
@@ -34,7 +34,7 @@ def canonical(table, values):
 
 
 def new_file(path, source):
-    """An empty run file of format 4, with every table."""
+    """An empty run file of format 5, with every table."""
     base = sqlite3.connect(path)
     for name in SCHEMAS:
         with open(os.path.join(source, "acquisition", "journal", name), encoding="utf-8") as schema:
@@ -122,7 +122,7 @@ def with_synchronisation(rows):
 
 
 def linear(reference):
-    """The reference run in format 4, with all that a header can hold of a positioning run."""
+    """The reference run in format 5, with all that a header can hold of a positioning run."""
     rows = with_synchronisation(read(reference))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),
@@ -216,6 +216,13 @@ def rotary(reference):
     plan[0] = "rotary"
     put_behind(rows, "air", [("rotary", ["indexing_table", 45.0, 0.03261, 10.0, 2 * 10**8, 0, 1, "not stated"]),
                              *(("rotary_deviation", [0.5 * i]) for i in range(8))])
+    return rows
+
+
+def scale(reference):
+    """The reference run, as of an axis that a linear scale measured; one of its sensors sits on the scale."""
+    rows = with_synchronisation(read(reference))
+    put_behind(rows, "air", [("linear_scale", [1e-7, 8.5e-6, 0.5e-6, None]), ("linear_scale_sensor", [5])])
     return rows
 
 

@@ -22,17 +22,18 @@ from run_files import chain_anew, columns_of, make_room, rows_of
 
 AXISCAL, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")  # of format 1
-KINDS = ("linear", "revised", "circular", "rotary", "probing", "drift")
+KINDS = ("linear", "revised", "circular", "rotary", "scale", "probing", "drift")
 # What the schema holds to be unique gets another value in a copied row.
 NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement", "name"): "name || '2'",
-            ("channel_calibration", "channel"): "channel + 100", ("point", "step"): "step + 1000",
+            ("channel_calibration", "channel"): "channel + 100", ("linear_scale_sensor", "channel"): "channel + 100",
+            ("point", "step"): "step + 1000",
             ("stream", "id"): "id + 100", ("retake", "number"): "number + 100",
             ("retake_point", "step"): "step + 1000", ("exclusion", "step"): "step + 1000",
             ("synchronisation", "step"): "step + 1000"}
 # A row of these leaves no trace in others, or stands where several can: then each is named.
 ALIKE = {"environment", "event", "exclusion", "closing", "preflight", "uncertainty_target", "instrument",
          "channel_calibration", "channel_correction", "alignment", "alignment_place", "eve_source", "rotary",
-         "rotary_deviation", "probing_touch"}
+         "rotary_deviation", "linear_scale_sensor", "probing_touch"}
 
 
 def other(value):
@@ -55,7 +56,7 @@ class Verify(unittest.TestCase):
         self.path = os.path.join(self.folder, "run.axiscal")
 
     def make_whole(self, path):
-        """The reference run in format 4, with rows of every kind that a positioning run has and a result."""
+        """The reference run in format 5, with rows of every kind that a positioning run has and a result."""
         run_files.write(path, SOURCE, run_files.linear(RUN))
         told = self.verify(path)
         self.assertEqual(told["findings"], [])

@@ -6,7 +6,10 @@
 namespace axiscal::testing {
 
 /// Without rows in them: their links would be missed.
+inline const std::string drop_format_5 =
+    "DROP TABLE linear_scale; DROP TABLE linear_scale_sensor; ";
 inline const std::string drop_format_4 =
+    drop_format_5 +
     "DROP TABLE channel_calibration; DROP TABLE channel_correction; DROP TABLE probing; "
     "DROP TABLE probing_touch; DROP TABLE stream_block_time; DROP TABLE circular_start; "
     "DROP TABLE synchronisation; "

@@ -135,6 +135,26 @@ TEST(RunFile, ChainsHowAnAngleWasMeasured) {
     }
 }
 
+TEST(RunFile, ChainsTheScaleThatMeasuredTheAxis) {
+    const ScratchFolder scratch;
+    RunRecord run = RandomRun{26}.header();
+    run.scale = ScaleSetup{um(0.1), um_per_m_kelvin(8.5), um_per_m_kelvin(0.5), {}, {7, 5}};
+    for (const std::string change :
+         {"UPDATE linear_scale SET resolution_m = 1e-6",
+          "UPDATE linear_scale SET coefficient_per_K = 1e-5",
+          "UPDATE linear_scale SET temperature_width_K = 0.1", "DELETE FROM linear_scale",
+          "UPDATE linear_scale_sensor SET channel = 4 WHERE channel = 7",
+          "DELETE FROM linear_scale_sensor WHERE channel = 5"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        const auto read = read_run_file(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(run.scale, read->scale));
+        run_sql(path, change);
+        EXPECT_FALSE(read_run_file(path)) << change;
+    }
+}
+
 TEST(RunFile, RefusesAFarRestInParts) {
     const ScratchFolder scratch;
     const auto path = scratch.file("r.axiscal");

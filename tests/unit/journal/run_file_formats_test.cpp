@@ -14,6 +14,7 @@ namespace axiscal::run_file_formats_test {
 namespace {
 
 using testing::drop_format_4;
+using testing::drop_format_5;
 using testing::RandomRun;
 using testing::read_bytes;
 using testing::refusal_of;
@@ -97,6 +98,23 @@ TEST(RunFile, OfFormat3IsReadAndGoesOnAsFormat3) {
     ASSERT_TRUE(writer->close(true, "done", run.closed));
     EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\3", 4}));
     EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+    EXPECT_TRUE(summarize_run_file(path));
+}
+
+TEST(RunFile, OfFormat4IsReadAndGoesOnAsFormat4) {
+    const ScratchFolder scratch;
+    RandomRun random{26};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord run = random.header();
+    ASSERT_TRUE(RunFileWriter::create(path, run));
+    run_sql(path, drop_format_5 + "PRAGMA user_version=4");
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    run.complete = true, run.closing_reason = "done", run.closed = random.tie();
+    ASSERT_TRUE(writer->close(true, "done", run.closed));
+    EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\4", 4}));
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+    EXPECT_FALSE(read_run_file(path)->scale);
     EXPECT_TRUE(summarize_run_file(path));
 }
 
