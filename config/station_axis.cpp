@@ -127,6 +127,36 @@ void read_air(Settings air, StationConfig& config) {
     config.axis.air_humidity = roles.one("humidity", Medium::air);
 }
 
+/// A scale counts true lengths: what a beam needs would be misread beside it, so each is named.
+void refuse_beam_beside_scale(Settings axis) {
+    for (const char* key : {"laser", "dead_path", "beam_walk", "beam_walk_travel", "air"})
+        if (axis.has(key))
+            axis.refuse(key, "belongs to a laser, and [axis.scale] says that a linear scale "
+                             "measures this axis: leave one of them out");
+}
+
+void read_scale(Settings axis, StationConfig& config) {
+    using namespace std::chrono_literals;
+    refuse_beam_beside_scale(axis);
+    Settings table = axis.table("scale");
+    ScaleConfig scale;
+    const Expansion none, steepest = um_per_m_kelvin(100);
+    scale.setup.coefficient = table.expansion("coefficient", none, steepest);
+    if (table.has("standard_uncertainty"))
+        scale.setup.standard_uncertainty = table.expansion("standard_uncertainty", none, steepest);
+    if (table.has("temperature_width"))
+        scale.setup.temperature_width =
+            table.temperature_difference("temperature_width", kelvin(0), kelvin(50));
+    config.axis.air.oldest = table.duration("oldest", 1s, 1h, config.axis.air.oldest);
+    RoleReader roles{table, config};
+    config.axis.laser = roles.one("channel", Medium::none);
+    scale.temperature = roles.several("temperature", Medium::material);
+    if (scale.temperature.empty() && !table.refused("temperature"))
+        table.refuse("temperature", "names no sensor: without its temperature a scale's lengths "
+                                    "cannot be brought to 20 degC; name one that touches it");
+    config.axis.scale = std::move(scale);
+}
+
 void read_beam(Settings axis, AxisConfig& config) {
     config.dead_path = axis.length("dead_path", mm(0), farthest);
     config.beam_walk = axis.length("beam_walk", mm(0), mm(100), mm(0));
@@ -176,6 +206,11 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
         axis.refuse("travel_high", "must lie above travel_low: exchange or correct the limits");
     read_sign(axis, config.axis);
     if (cycle.axis_kind == AxisKind::rotary) return read_rotary(axis, config);
+    if (axis.has("scale")) {
+        read_scale(axis, config);
+        read_material(axis.table("material"), config);
+        return;
+    }
     read_beam(axis, config.axis);
     config.axis.laser = RoleReader{axis, config}.one("laser", Medium::none);
     read_material(axis.table("material"), config);

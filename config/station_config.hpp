@@ -102,9 +102,16 @@ struct AngleConfig {
     InstrumentRecord artefact;
 };
 
+/// A linear scale that measures the axis in the laser's place; AxisConfig::laser names its channel.
+struct ScaleConfig {
+    ScaleSetup setup; ///< without resolution and ids of channels, which the station resolves
+    std::vector<RoleConfig> temperature;
+};
+
 struct AxisConfig {
     std::string name = "X";
-    RoleConfig laser; ///< empty: StationConfig::circles_alone(), or a polygon
+    /// Of the reference: laser, or scale. Empty: StationConfig::circles_alone(), or a polygon.
+    RoleConfig laser;
     int sign = 1;
     Length dead_path, beam_walk, beam_walk_travel;
     MaterialSetup material;
@@ -113,6 +120,7 @@ struct AxisConfig {
     std::vector<RoleConfig> material_temperature;
     std::string program_axis = "X";   ///< axis letter in part programs
     std::optional<AngleConfig> angle; ///< of a rotary axis
+    std::optional<ScaleConfig> scale; ///< then nothing is asked of beam and air
 };
 
 struct ConsoleConfig {

@@ -54,6 +54,9 @@ public:
         double optical_fold = 2;
     };
     [[nodiscard]] virtual std::optional<Optics> optics() const { return std::nullopt; }
+    /// Length of one count of a linear scale; empty for a laser, and for what is no incremental
+    /// scale.
+    [[nodiscard]] virtual std::optional<Length> resolution() const { return std::nullopt; }
     /// Where the device's own sample number begins again (65536 for 16 bits); 0: it does not.
     [[nodiscard]] virtual std::uint64_t count_modulus() const { return 0; }
     /// Counts from where it was: its zero holds only while it counts on. Every interferometer does,

@@ -33,6 +33,7 @@ std::string_view name_of(EnvironmentRole role) {
     case EnvironmentRole::air_pressure: return "air pressure";
     case EnvironmentRole::air_humidity: return "air humidity";
     case EnvironmentRole::material_temperature: return "material temperature";
+    case EnvironmentRole::scale_temperature: return "scale temperature";
     }
     return "?";
 }

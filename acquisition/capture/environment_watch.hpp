@@ -15,7 +15,8 @@ enum class EnvironmentRole : std::uint8_t {
     air_temperature,
     air_pressure,
     air_humidity,
-    material_temperature
+    material_temperature,
+    scale_temperature ///< of the scale that measures the axis
 };
 std::string_view name_of(EnvironmentRole role); ///< "air temperature"
 

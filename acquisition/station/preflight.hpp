@@ -23,6 +23,7 @@ struct SensorFacts {
     bool fresh = false;
     std::string quality; ///< "good", "stale", ...
     const SensorLog* log = nullptr;
+    bool on_scale = false; ///< of the scale that measures the axis, none of the machine
 };
 
 /// Everything that the checks look at.

@@ -9,7 +9,8 @@ namespace axiscal::preflight_checks {
 namespace {
 
 std::string length_of(const PreflightFacts& facts) {
-    return facts.circular ? "the ballbar" : "the laser";
+    if (facts.circular) return "the ballbar";
+    return facts.config.axis.scale ? "the scale" : "the laser";
 }
 
 } // namespace
@@ -43,6 +44,8 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
     if (facts.typed) return passed("strength", "A person reads the autocollimator.");
     if (!lowest && facts.circular)
         return passed("strength", "The ballbar does not tell the strength of its signal.");
+    if (!lowest && facts.config.axis.scale)
+        return passed("strength", "The scale does not tell the strength of its signal.");
     if (!lowest) return passed("strength", "The laser does not tell the strength of its signal.");
     const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
     if (*lowest >= limit) return passed("strength", seen + ".");

@@ -115,7 +115,7 @@ PreflightRecord check_sensors(const PreflightFacts& facts) {
     const double limit_K = facts.config.preflight.sensor_difference.in(kelvin);
     const SensorFacts *lowest = nullptr, *highest = nullptr;
     for (const SensorFacts& sensor : facts.sensors) {
-        if (sensor.medium != Medium::material || !sensor.log->newest()) continue;
+        if (sensor.medium != Medium::material || sensor.on_scale || !sensor.log->newest()) continue;
         if (lowest == nullptr || *sensor.log->newest() < *lowest->log->newest()) lowest = &sensor;
         if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
             highest = &sensor;

@@ -40,14 +40,45 @@ find(const RoleConfig& role, const Wanted& wanted, const std::vector<StationChan
                                               known_channels(channels));
 }
 
-/// A laser counts from where it was switched on: a table by its reading would hit by chance.
-Result<void> check_laser(int id, const std::vector<StationChannel>& channels) {
+const char* reference_key(const AxisConfig& axis) {
+    return axis.scale ? "axis.scale.channel" : "axis.laser";
+}
+
+/// A laser or scale counts from where it was switched on: a table by its reading would hit by
+/// chance.
+Result<void>
+check_laser(int id, const std::string& key, const std::vector<StationChannel>& channels) {
     const auto laser = std::ranges::find(channels, id, &StationChannel::id);
     if (laser->calibration.corrections.empty() && laser->correction == 0) return {};
     return fail(Fault::bad_configuration,
-                "axis.laser = \"" + laser->instrument_name + "/" + laser->name +
+                key + " = \"" + laser->instrument_name + "/" + laser->name +
                     "\" has corrections, but its length begins where it was switched on: leave "
                     "them out, and state what its certificate says as uncertainty = \"0.4 um/m\"");
+}
+
+Result<std::vector<int>> find_all(const std::vector<RoleConfig>& roles,
+                                  const char* key,
+                                  const std::vector<StationChannel>& channels) {
+    std::vector<int> ids;
+    for (const RoleConfig& role : roles) {
+        AXISCAL_TRY(const int id,
+                    find(role, {key, ChannelKind::temperature, Medium::material}, channels));
+        ids.push_back(id);
+    }
+    return ids;
+}
+
+/// One sensor cannot be as warm as the scale and as the machine.
+Result<void> check_apart(const StationRoles& roles, const std::vector<StationChannel>& channels) {
+    for (const int id : roles.scale) {
+        if (std::ranges::find(roles.material, id) == roles.material.end()) continue;
+        const auto shared = std::ranges::find(channels, id, &StationChannel::id);
+        return fail(Fault::bad_configuration,
+                    "\"" + shared->instrument_name + "/" + shared->name +
+                        "\" is named by axis.scale.temperature and by axis.material.temperature: "
+                        "it touches one of them; give the other a sensor of its own");
+    }
+    return {};
 }
 
 } // namespace
@@ -57,6 +88,7 @@ std::vector<int> StationRoles::environment() const {
     for (const auto& id : {air_temperature, air_pressure, air_humidity})
         if (id) ids.push_back(*id);
     ids.insert(ids.end(), material.begin(), material.end());
+    ids.insert(ids.end(), scale.begin(), scale.end());
     return ids;
 }
 
@@ -73,16 +105,17 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
                                    const std::vector<StationChannel>& channels) {
     StationRoles roles;
     const bool alone = axis.laser.instrument.empty(); // a ballbar, or an autocollimator
+    const bool without_air = alone || axis.scale;
     const auto fill = [&](std::optional<int>& id, const RoleConfig& role,
                           const Wanted& wanted) -> Result<void> {
-        if (alone && role.instrument.empty()) return {};
+        if (without_air && role.instrument.empty()) return {};
         AXISCAL_TRY(id, find(role, wanted, channels));
         return {};
     };
-    AXISCAL_CHECK(
-        fill(roles.laser, axis.laser, {"axis.laser", ChannelKind::displacement, Medium::none}));
+    AXISCAL_CHECK(fill(roles.laser, axis.laser,
+                       {reference_key(axis), ChannelKind::displacement, Medium::none}));
     if (roles.laser) {
-        AXISCAL_CHECK(check_laser(*roles.laser, channels));
+        AXISCAL_CHECK(check_laser(*roles.laser, reference_key(axis), channels));
     }
     AXISCAL_CHECK(fill(roles.air_temperature, axis.air_temperature,
                        {"axis.air.temperature", ChannelKind::temperature, Medium::air}));
@@ -90,13 +123,13 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
                        {"axis.air.pressure", ChannelKind::pressure, Medium::air}));
     AXISCAL_CHECK(fill(roles.air_humidity, axis.air_humidity,
                        {"axis.air.humidity", ChannelKind::humidity, Medium::air}));
-    for (const RoleConfig& role : axis.material_temperature) {
-        AXISCAL_TRY(const int id,
-                    find(role,
-                         {"axis.material.temperature", ChannelKind::temperature, Medium::material},
-                         channels));
-        roles.material.push_back(id);
+    AXISCAL_TRY(roles.material,
+                find_all(axis.material_temperature, "axis.material.temperature", channels));
+    if (axis.scale) {
+        AXISCAL_TRY(roles.scale,
+                    find_all(axis.scale->temperature, "axis.scale.temperature", channels));
     }
+    AXISCAL_CHECK(check_apart(roles, channels));
     if (roles.material.empty() && !alone && !axis.angle)
         return fail(Fault::bad_configuration, "axis.material.temperature names no sensor; the axis "
                                               "cannot be brought to 20 degC without one");

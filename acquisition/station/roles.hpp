@@ -11,13 +11,15 @@ namespace axiscal {
 
 /// Channel ids of the station.
 struct StationRoles {
-    std::optional<int> laser; ///< absent: the station measures circles alone
+    /// What measures the axis: a laser, or a scale. Absent: the station measures circles alone.
+    std::optional<int> laser;
     std::optional<int> air_temperature, air_pressure, air_humidity; ///< all, where there is a laser
-    std::vector<int> material;  ///< contact temperatures; at least one, where there is a laser
+    std::vector<int> material;  ///< contact temperatures; at least one, where a length is measured
+    std::vector<int> scale;     ///< temperatures on the scale that measures the axis
     std::optional<int> ballbar; ///< the length of a circular test's ballbar
     std::optional<int> bar_temperature; ///< of the sensor on it
     /// All environment channels that there are, in the order air temperature, pressure, humidity,
-    /// material...
+    /// material..., scale...; each once.
     [[nodiscard]] std::vector<int> environment() const;
     /// What a circular test looks at beside its ballbar: air and material temperatures, the bar's.
     [[nodiscard]] std::vector<int> of_circles() const;

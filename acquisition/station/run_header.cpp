@@ -35,6 +35,7 @@ LaserSetup laser_of(const RunHeaderParts& parts) {
     laser.sign = axis.sign;
     if (!parts.roles.laser) return laser;
     laser.instrument = axis.laser.instrument;
+    if (axis.scale) return laser; // which has no beam
     laser.dead_path = axis.dead_path;
     laser.beam_walk = axis.beam_walk;
     laser.beam_walk_travel = axis.beam_walk_travel;
@@ -45,6 +46,17 @@ LaserSetup laser_of(const RunHeaderParts& parts) {
         laser.optical_fold = optics->optical_fold;
     }
     return laser;
+}
+
+std::optional<ScaleSetup> scale_of(const RunHeaderParts& parts) {
+    const auto& stated = parts.config.axis.scale;
+    if (!stated || !parts.roles.laser) return std::nullopt;
+    ScaleSetup scale = stated->setup;
+    const int seat =
+        parts.supervisor.channels()[static_cast<std::size_t>(*parts.roles.laser)].instrument;
+    scale.resolution = parts.supervisor.instrument(seat).resolution().value_or(Length{});
+    scale.channels = parts.roles.scale;
+    return scale;
 }
 
 /// What the device says of itself, completed by what the station file states.
@@ -113,6 +125,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.material = config.axis.material;
     run.air = config.axis.air;
     if (config.axis.angle) run.rotary = config.axis.angle->setup;
+    run.scale = scale_of(parts);
     run.uncertainty = config.uncertainty;
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;

@@ -35,6 +35,8 @@ std::vector<WatchedChannel> watched(const StationRoles& roles,
     add(EnvironmentRole::air_humidity, roles.air_humidity);
     for (const int id : roles.material)
         add(EnvironmentRole::material_temperature, id);
+    for (const int id : roles.scale)
+        add(EnvironmentRole::scale_temperature, id);
     return list;
 }
 
@@ -202,7 +204,8 @@ void Station::take_reading(const Sample& sample) {
     if (!datum_ || !recording()) return;
     if (sample.epoch != datum_epoch_) {
         if (!std::exchange(datum_lost_told_, true))
-            feed(LaserFault{Fault::datum_lost, "The laser's counter lost its zero.", sample.at});
+            feed(LaserFault{Fault::datum_lost,
+                            "The " + reference_word() + "'s counter lost its zero.", sample.at});
         return;
     }
     const auto value = sample.value();
@@ -290,11 +293,25 @@ bool Station::run_open() const {
     return run_ && !run_->closed;
 }
 
+/// Of readings that watch_.check() has just found fresh.
+double Station::strain_now(EnvironmentRole role, Expansion coefficient, MonotonicTime now) const {
+    const Temperature temperature =
+        Temperature::celsius(*watch_.fresh_mean(role, now, config_.axis.air.oldest));
+    return (coefficient * (temperature - reference_temperature)).si();
+}
+
 Result<double> Station::live_scale_now() const {
     const MonotonicTime now = scheduler_.now();
     const Duration oldest = config_.axis.air.oldest;
     AXISCAL_CHECK(watch_.check(now, oldest));
     if (reads_polygon()) return 0.0; // an autocollimator counts no wavelengths
+    if (config_.axis.scale) {        // a scale that grows itself counts less
+        const double machine = strain_now(EnvironmentRole::material_temperature,
+                                          config_.axis.material.coefficient, now);
+        const double scale = strain_now(EnvironmentRole::scale_temperature,
+                                        config_.axis.scale->setup.coefficient, now);
+        return (1 + machine) / (1 + scale) - 1;
+    }
     AirState air;
     air.temperature =
         Temperature::celsius(*watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest));
@@ -304,10 +321,8 @@ Result<double> Station::live_scale_now() const {
     air.co2_ppm = config_.axis.air.co2_ppm;
     AXISCAL_TRY(const Refractivity refractivity, refractivity_of(config_.axis.air.formula, air));
     if (config_.axis.angle) return refractivity.n_minus_1; // an angle does not expand
-    const Temperature material = Temperature::celsius(
-        *watch_.fresh_mean(EnvironmentRole::material_temperature, now, oldest));
     const double growth =
-        (config_.axis.material.coefficient * (material - reference_temperature)).si();
+        strain_now(EnvironmentRole::material_temperature, config_.axis.material.coefficient, now);
     return refractivity.n_minus_1 + growth + refractivity.n_minus_1 * growth;
 }
 

@@ -296,6 +296,12 @@ private:
     [[nodiscard]] bool run_open() const;
     void refuse_on_port(std::uint16_t sequence, const Error& error);
     [[nodiscard]] Result<double> live_scale_now() const;
+    [[nodiscard]] double
+    strain_now(EnvironmentRole role, Expansion coefficient, MonotonicTime now) const;
+    /// "laser" | "scale": what measures the axis, for sentences.
+    [[nodiscard]] std::string reference_word() const {
+        return config_.axis.scale ? "scale" : "laser";
+    }
     [[nodiscard]] std::optional<double> position_now_mm(Length reading) const;
     /// A rotary axis whose angles a person reads off an autocollimator and types.
     [[nodiscard]] bool reads_polygon() const {

@@ -50,6 +50,8 @@ AlignmentView Station::alignment() const {
 
 Result<void> Station::align(AlignmentOrder order) {
     if (!roles_.laser) return fail(Fault::refused, "this station has no laser to align");
+    if (config_.axis.scale)
+        return fail(Fault::refused, "a linear scale measures the axis: it has no beam to align");
     if (order.action == AlignmentAction::begin) {
         if (config_.cycle.axis_kind == AxisKind::rotary)
             return fail(Fault::refused, "a rotary axis has no travel along the beam");

@@ -65,9 +65,11 @@ Result<void> Station::ready_to_measure() const {
     if (reads_polygon()) return {};
     const auto reading = history_.newest();
     if (!reading || now - reading->at > laser_limit)
-        return fail(Fault::link_timeout, "the laser (" + config_.axis.laser.instrument +
+        return fail(Fault::link_timeout, "the " + reference_word() + " (" +
+                                             config_.axis.laser.instrument +
                                              ") sends nothing; see 'axiscal devices'");
-    if (!reading->value()) return fail(Fault::beam_lost, "the laser shows no good signal now");
+    if (!reading->value())
+        return fail(Fault::beam_lost, "the " + reference_word() + " shows no good signal now");
     return {};
 }
 

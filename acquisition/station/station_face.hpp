@@ -37,7 +37,7 @@ struct AxisView {
     std::string name;
     AxisKind kind = AxisKind::linear; ///< rotary: mm stands for deg, um for 0.001 deg
     std::optional<double> position_mm, deviation_um; ///< needs a datum
-    std::optional<double> displacement_mm;           ///< raw, vacuum wavelengths
+    std::optional<double> displacement_mm;           ///< raw: vacuum wavelengths, or of a scale
     std::optional<double> strength_percent;
     std::optional<double> spread_um, slope_um_per_s; ///< over the last window
     bool still = false;

@@ -52,12 +52,18 @@ void load_tapes(LoadedStation& station) {
     }
 }
 
-/// Readings are corrected for air and must count wavelengths.
-void check_laser(const Instrument& laser, const AxisConfig& axis, Settings root) {
-    if (laser.optics()) return;
-    root.table("axis").refuse("laser", "\"" + axis.laser.instrument +
-                                           "\" gives true lengths, which must not be corrected for "
-                                           "air: name an interferometer");
+/// Readings of a laser are corrected for air and must count wavelengths, those of a scale are
+/// corrected for its own expansion and must be lengths.
+void check_reference(const Instrument& reference, const AxisConfig& axis, Settings root) {
+    const std::string name = "\"" + axis.laser.instrument + "\"";
+    if (axis.scale && !reference.resolution())
+        root.table("axis").table("scale").refuse(
+            "channel", name + " is no linear scale, for it states no resolution: name an "
+                              "instrument with `resolution`, or the laser as axis.laser");
+    if (axis.scale || reference.optics()) return;
+    root.table("axis").refuse("laser", name + " gives true lengths, which must not be corrected "
+                                              "for air: name an interferometer, or name a linear "
+                                              "scale in [axis.scale] instead");
 }
 
 /// What is wrong with the whole although every key is right by itself.
@@ -73,8 +79,8 @@ void check_together(LoadedStation& station, Settings root) {
         station.roles = *std::move(roles);
         if (const auto laser = station.roles.laser) {
             const int seat = channels[static_cast<std::size_t>(*laser)].instrument;
-            check_laser(*station.instruments[static_cast<std::size_t>(seat)], station.config.axis,
-                        root);
+            check_reference(*station.instruments[static_cast<std::size_t>(seat)],
+                            station.config.axis, root);
         }
     } else
         root.refuse("axis", describe(roles.error()));

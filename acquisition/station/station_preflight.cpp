@@ -26,6 +26,7 @@ SensorFacts Station::sensor_facts(int id) const {
     facts.name = channel.instrument_name + "/" + channel.name;
     facts.kind = channel.kind;
     facts.medium = channel.medium;
+    facts.on_scale = std::ranges::find(roles_.scale, id) != roles_.scale.end();
     facts.fresh = view.value.has_value();
     facts.quality = view.quality;
     facts.log = &sensor_logs_[static_cast<std::size_t>(id)];

@@ -69,6 +69,10 @@ public:
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
     [[nodiscard]] std::optional<Optics> optics() const override { return setup_.optics; }
+    [[nodiscard]] std::optional<Length> resolution() const override {
+        if (setup_.optics) return std::nullopt;
+        return metre(setup_.metres_per_count);
+    }
     [[nodiscard]] bool incremental() const override { return true; }
 
 private:

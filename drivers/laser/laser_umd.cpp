@@ -54,6 +54,7 @@ public:
         if (setup_.resolution) return std::nullopt;
         return Optics{setup_.wavelength, setup_.optical_fold};
     }
+    [[nodiscard]] std::optional<Length> resolution() const override { return setup_.resolution; }
     [[nodiscard]] bool incremental() const override { return true; }
     [[nodiscard]] std::uint64_t count_modulus() const override { return counter_.modulus(); }
 

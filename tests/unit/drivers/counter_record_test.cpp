@@ -130,6 +130,8 @@ TEST(Counter, IsAScaleOrALaserAndNotBoth) {
         "device = \"/dev/counter0\"\nevent = \"index\"\nbits = 32\nfastest = \"1 m/s\"\n";
     const auto scale = testing::instrument("counter", keys + "resolution = \"0.1 um\"\n");
     EXPECT_FALSE(scale->optics().has_value());
+    ASSERT_TRUE(scale->resolution());
+    EXPECT_DOUBLE_EQ(scale->resolution()->in(um), 0.1);
     EXPECT_TRUE(scale->incremental());
     EXPECT_EQ(testing::make_instrument("counter", keys).refusals.size(), 1U);
     EXPECT_EQ(testing::make_instrument("counter", keys + "resolution = \"0.1 um\"\nwavelength = "

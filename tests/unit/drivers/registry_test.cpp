@@ -41,6 +41,7 @@ TEST(Registry, MakesALaserWithItsOptics) {
     ASSERT_TRUE(made.instrument->optics());
     EXPECT_DOUBLE_EQ(made.instrument->optics()->vacuum_wavelength.in(nm), 632.991);
     EXPECT_EQ(made.instrument->optics()->optical_fold, 2);
+    EXPECT_FALSE(made.instrument->resolution());
     EXPECT_EQ(made.instrument->channels().front().name, "axis 1");
 }
 
@@ -49,6 +50,8 @@ TEST(Registry, MakesAUmdOnAScaleWithoutOpticsWhoseZeroHoldsOnlyWhileItCounts) {
         "umd", "link = \"serial:/dev/ttyACM0\"\nresolution = \"0.1 um\"\nfastest = \"30 m/min\"\n");
     EXPECT_EQ(all_refusals(made), "");
     EXPECT_FALSE(made.instrument->optics());
+    ASSERT_TRUE(made.instrument->resolution());
+    EXPECT_DOUBLE_EQ(made.instrument->resolution()->in(um), 0.1);
     EXPECT_TRUE(made.instrument->incremental());
     EXPECT_EQ(made.instrument->channels().front().name, "axis 1");
 }

@@ -181,6 +181,17 @@ TEST_F(Preflight, MaterialSensorsThatDisagreeAreNamed) {
 }
 
 // The air swings by 0.2 K with a period of three minutes; a sensor that hangs in it shows 90 %.
+TEST_F(Preflight, TheScalesSensorNeedNotAgreeWithThoseOfTheMachine) {
+    read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 24.5; });
+    config.axis.scale.emplace();
+    PreflightFacts by_scale = facts();
+    EXPECT_FALSE(named(judge_preflight(by_scale), "sensors").passed);
+    by_scale.sensors.back().on_scale = true;
+    EXPECT_TRUE(named(judge_preflight(by_scale), "sensors").passed);
+    EXPECT_EQ(named(judge_preflight(by_scale), "strength").verdict,
+              "The scale does not tell the strength of its signal.");
+}
+
 TEST_F(Preflight, AMaterialSensorThatFollowsTheAirIsNamed) {
     const auto swing = [](double minutes) { return 0.1 * std::sin(minutes * 2.1); };
     read([&](double minutes) { return 21 + swing(minutes); },

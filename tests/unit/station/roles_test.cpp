@@ -47,6 +47,22 @@ TEST_F(Roles, AreFoundByName) {
     EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
 }
 
+TEST_F(Roles, AScaleNeedsItsOwnTemperatureAndNoAir) {
+    axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
+    axis.scale = ScaleConfig{{}, {{"contacts", "2"}}};
+    const auto roles = resolve_roles(axis, channels);
+    ASSERT_TRUE(roles) << describe(roles.error());
+    EXPECT_EQ(roles->laser, 0);
+    EXPECT_FALSE(roles->air_temperature);
+    EXPECT_EQ(roles->material, (std::vector<int>{4}));
+    EXPECT_EQ(roles->scale, (std::vector<int>{5}));
+    EXPECT_EQ(roles->environment(), (std::vector<int>{4, 5}));
+    axis.scale->temperature = {{"contacts", "1"}}; // on the machine already
+    expect_refused(Fault::bad_configuration, "it touches one of them");
+    axis.scale->temperature = {{"air", "temperature"}};
+    expect_refused(Fault::wrong_medium, "axis.scale.temperature");
+}
+
 TEST_F(Roles, TheBallbarIsAnyChannelOfALength) {
     add("bar", "ballbar", ChannelKind::displacement, Medium::none);
     EXPECT_EQ(resolve_ballbar({"bar", "ballbar"}, channels).value(), 6);

@@ -59,6 +59,38 @@ TEST(StationLoader, RefusesAScaleInPlaceOfTheLaser) {
     const std::string told = refusals_of(text);
     EXPECT_NE(told.find("axis.laser"), std::string::npos) << told;
     EXPECT_NE(told.find("gives true lengths"), std::string::npos) << told;
+    EXPECT_NE(told.find("[axis.scale]"), std::string::npos) << told;
+}
+
+/// The example with [axis.scale] in the place of laser, beam and air.
+std::string example_by_scale() {
+    std::string text = example_with("laser = \"laser/axis 1\"\n", "");
+    const auto erase = [&text](const std::string& from, const std::string& to) {
+        const auto begin = text.find(from) + 1;
+        text.erase(begin, text.find(to, begin) - begin + 1);
+    };
+    erase("\ndead_path = ", "\n");
+    erase("\n[axis.air]\n", "\n[cycle]\n");
+    const std::string list = "[\"material/contact 1\", \"material/contact 2\"]";
+    text.replace(text.find(list), list.size(), "[\"material/contact 1\"]");
+    return text.insert(text.find("\n[cycle]\n"), "\n[axis.scale]\nchannel = \"laser/axis 1\"\n"
+                                                 "coefficient = \"8.5 um/(m*K)\"\n"
+                                                 "temperature = [\"material/contact 2\"]\n");
+}
+
+TEST(StationLoader, TakesAScaleThatStatesItsResolution) {
+    std::string text = example_by_scale();
+    const std::string laser = "wavelength = \"632.991354 nm\"", fold = "fold = \"corner cube\"\n";
+    text.replace(text.find(laser), laser.size(), "resolution = \"5 um\"");
+    text.erase(text.find(fold), fold.size());
+    EXPECT_EQ(refusals_of(text), "");
+}
+
+/// A laser's wavelengths would stand for lengths.
+TEST(StationLoader, RefusesALaserInPlaceOfTheScale) {
+    const std::string told = refusals_of(example_by_scale());
+    EXPECT_NE(told.find("axis.scale.channel"), std::string::npos) << told;
+    EXPECT_NE(told.find("states no resolution"), std::string::npos) << told;
 }
 
 } // namespace
