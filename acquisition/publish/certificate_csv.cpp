@@ -24,6 +24,7 @@ void append_head(std::string& csv, const Certificate& certificate) {
     line("started", certificate.started_utc);
     line("finished", certificate.finished_utc);
     line("standard", certificate.result.standard);
+    if (run.scale) line("reference", "linear scale");
     line("sign", "deviation = actual - target; B_mean = mean forward - mean backward");
     line("run_file_sha256", certificate.run_file_sha256);
     line("software_version", run.software_version);

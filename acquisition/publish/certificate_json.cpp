@@ -80,7 +80,7 @@ Json statement_of_angle(const std::optional<UncertaintySetup>& setup) {
     return object;
 }
 
-Json setup_of(const RunRecord& run) {
+Json beam_of(const RunRecord& run) {
     Json object;
     object["laser"]["instrument"] = stated_json(run.laser.instrument);
     object["laser"]["vacuum_wavelength_nm"] = run.laser.vacuum_wavelength.in(nm);
@@ -89,14 +89,37 @@ Json setup_of(const RunRecord& run) {
     object["laser"]["dead_path_mm"] = run.laser.dead_path.in(mm);
     object["laser"]["beam_walk_mm"] = run.laser.beam_walk.in(mm);
     object["laser"]["beam_walk_travel_mm"] = run.laser.beam_walk_travel.in(mm);
+    object["air"]["formula"] = name_of(run.air.formula);
+    object["air"]["co2_ppm"] = run.air.co2_ppm;
+    object["air"]["oldest_s"] = seconds_of(run.air.oldest);
+    return object;
+}
+
+/// In the place of laser and air, of which there is then nothing to tell.
+Json scale_of(const RunRecord& run) {
+    const ScaleSetup& scale = *run.scale;
+    Json object;
+    object["scale"]["instrument"] = stated_json(run.laser.instrument);
+    object["scale"]["sign"] = run.laser.sign;
+    object["scale"]["resolution_um"] = scale.resolution.in(um);
+    object["scale"]["expansion_per_K"] = scale.coefficient.si();
+    object["scale"]["standard_uncertainty_per_K"] =
+        scale.standard_uncertainty ? Json(scale.standard_uncertainty->si()) : Json{};
+    object["scale"]["temperature_width_K"] = stated(scale.temperature_width, kelvin);
+    object["scale"]["temperatures"] = Json::array();
+    for (const ChannelRecord& channel : run.channels)
+        if (sits_on_scale(run, channel.id)) object["scale"]["temperatures"].push_back(channel.name);
+    object["scale"]["oldest_s"] = seconds_of(run.air.oldest);
+    return object;
+}
+
+Json setup_of(const RunRecord& run) {
+    Json object = run.scale ? scale_of(run) : beam_of(run);
     object["material"]["expansion_per_K"] = run.material.coefficient.si();
     object["material"]["standard_uncertainty_per_K"] =
         run.material.standard_uncertainty ? Json(run.material.standard_uncertainty->si()) : Json{};
     object["material"]["feedback"] = stated_json(run.material.feedback);
     object["material"]["form"] = name_of(run.material.form);
-    object["air"]["formula"] = name_of(run.air.formula);
-    object["air"]["co2_ppm"] = run.air.co2_ppm;
-    object["air"]["oldest_s"] = seconds_of(run.air.oldest);
     object["uncertainty"] =
         run.rotary ? statement_of_angle(run.uncertainty) : statement_of(run.uncertainty);
     return object;
@@ -236,25 +259,45 @@ Json environment_of(const Certificate& certificate) {
     return object;
 }
 
+void add_scale_summary(Json& object, const ScaleSummary& scale) {
+    object["reference"] = "linear scale";
+    object["scale_resolution_um"] = scale.resolution_um;
+    object["scale_expansion_per_K"] = scale.expansion_per_K;
+    object["scale_expansion_standard_uncertainty_per_K"] =
+        stated_json(scale.expansion_standard_uncertainty_per_K);
+    object["scale_first_degC"] = scale.first_degC;
+    object["scale_last_degC"] = scale.last_degC;
+    object["largest_scale_correction"] = scale.largest_correction;
+}
+
+void add_air_summary(Json& object, const CompensationSummary& done) {
+    object["air_formula"] = done.air_formula;
+    object["vacuum_wavelength_nm"] = done.vacuum_wavelength_nm;
+    object["refractive_index_minus_1_first"] = done.refractive_index_minus_1_first;
+    object["refractive_index_minus_1_last"] = done.refractive_index_minus_1_last;
+}
+
 Json compensation_of(const Certificate& certificate) {
     const CompensationSummary& done = certificate.compensation;
     const std::string& provenance = certificate.result.provenance;
     Json object;
     object["state"] = provenance.substr(0, provenance.find(':'));
     object["reference_temperature_degC"] = reference_temperature.in_celsius();
-    object["air_formula"] = done.air_formula;
-    object["vacuum_wavelength_nm"] = done.vacuum_wavelength_nm;
-    object["refractive_index_minus_1_first"] = done.refractive_index_minus_1_first;
-    object["refractive_index_minus_1_last"] = done.refractive_index_minus_1_last;
+    if (done.scale)
+        add_scale_summary(object, *done.scale);
+    else
+        add_air_summary(object, done);
     object["expansion_form"] = done.expansion_form;
     object["expansion_per_K"] = done.expansion_per_K;
     object["expansion_standard_uncertainty_per_K"] =
         stated_json(done.expansion_standard_uncertainty_per_K);
     object["material_first_degC"] = done.material_first_degC;
     object["material_last_degC"] = done.material_last_degC;
-    object["dead_path_mm"] = done.dead_path_mm;
-    object["cosine_factor"] = done.cosine_factor;
-    object["largest_air_correction"] = done.largest_air_correction;
+    if (!done.scale) {
+        object["dead_path_mm"] = done.dead_path_mm;
+        object["cosine_factor"] = done.cosine_factor;
+        object["largest_air_correction"] = done.largest_air_correction;
+    }
     object["largest_material_correction"] = done.largest_material_correction;
     object["before"] = done.before;
     object["after"] = done.after;

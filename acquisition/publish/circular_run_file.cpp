@@ -42,7 +42,7 @@ std::vector<int> temperature_channels(const RunRecord& run, Medium medium, std::
     std::vector<int> ids;
     for (const ChannelRecord& channel : run.channels)
         if (channel.kind == ChannelKind::temperature && channel.medium == medium &&
-            channel.id != but)
+            channel.id != but && !sits_on_scale(run, channel.id))
             ids.push_back(channel.id);
     return ids;
 }

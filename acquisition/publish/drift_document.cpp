@@ -75,8 +75,13 @@ Json run_of(const DriftDocument& document) {
     statements["state"] = stated_json(said.state);
     statements["warm_up"] = stated_json(said.warm_up);
     statements["idle_axes"] = stated_json(said.idle_axes);
-    object["laser"] = run.laser.instrument;
-    object["dead_path_mm"] = run.laser.dead_path.in(mm);
+    if (run.scale) {
+        object["reference"] = "linear scale";
+        object["scale"] = run.laser.instrument;
+    } else {
+        object["laser"] = run.laser.instrument;
+        object["dead_path_mm"] = run.laser.dead_path.in(mm);
+    }
     object["datum_mm"] = run.plan.datum.in(mm);
     object["alignment"] = alignment_to_json(document.attachments.alignment);
     return object;

@@ -24,6 +24,8 @@ void draw_condition_pages(Sheet& sheet,
 /// The budget: what is stated, each term, each parameter, U against its target.
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 
+/// How a linear scale measured the axis; in the place of what is said of laser and air.
+void draw_scale(Sheet& sheet, const Certificate& certificate);
 /// How the angle of a rotary axis was measured; in the place of the compensation.
 void draw_angle(Sheet& sheet, const Certificate& certificate);
 

@@ -154,7 +154,9 @@ void draw_compensation_table(Sheet& sheet, const Certificate& certificate) {
     constexpr std::size_t rows_kept_together = 25;
     sheet.advance(4);
     sheet.require(60 + 14 * static_cast<double>(std::min(rows.size(), rows_kept_together)));
-    sheet.text("Mean deviation per target in air (before) and at 20 °C (after)", {7.5, true});
+    const std::string before = certificate.run.scale ? "by the scale at 20 °C" : "in air";
+    sheet.text("Mean deviation per target " + before + " (before) and at 20 °C (after)",
+               {7.5, true});
     sheet.table(columns, rows);
 }
 
@@ -181,7 +183,10 @@ std::string approach_travel_words(const RunPlan& plan) {
     return plan.overrun > Length{} ? coordinate_words(plan, plan.overrun, 3) : "not stated";
 }
 
-std::string beam_words(const LaserSetup& laser) {
+/// The scale stands under the compensation.
+std::string beam_words(const RunRecord& run) {
+    if (run.scale) return "none: the reference is a linear scale";
+    const LaserSetup& laser = run.laser;
     return fixed(laser.optical_fold, 0) + " passes, count " + (laser.sign > 0 ? "rises" : "falls") +
            " with the coordinate";
 }
@@ -205,7 +210,7 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
          {"Positions of idle axes", stated(said.idle_axes)},
          {"Note on the sensors", stated(said.sensor_note)},
          {"Station", stated(run.station)},
-         {"Beam", beam_words(run.laser)},
+         {"Beam", beam_words(run)},
          {"Alignment of the beam",
           certificate.attachments.alignment ? "recorded: see below" : "not recorded"}},
         2);
@@ -227,8 +232,12 @@ void draw_condition_pages(Sheet& sheet,
         draw_angle(sheet, certificate);
     } else {
         sheet.heading("Compensation to 20 °C", 120);
-        draw_compensation_summary(sheet, certificate);
-        draw_formulas(sheet, certificate);
+        if (certificate.run.scale) {
+            draw_scale(sheet, certificate);
+        } else {
+            draw_compensation_summary(sheet, certificate);
+            draw_formulas(sheet, certificate);
+        }
         draw_compensation_table(sheet, certificate);
     }
     draw_uncertainty(sheet, certificate);

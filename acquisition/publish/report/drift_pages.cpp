@@ -6,6 +6,7 @@
 #include "analysis/certificate_expiry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace axiscal {
@@ -60,8 +61,8 @@ void draw_figures(Sheet& sheet, const RunDrift& drift) {
          fixed_up(drift.eve.u_eve, decimals), "", ""},
         row("ETVE", "Largest range within any " + hour, drift.window),
         {"", "Last reading against the first", fixed(drift.end_change, decimals), "", ""},
-        {"", "Range as read, in vacuum wavelengths, without any compensation",
-         fixed(drift.as_read.range, decimals), "", ""}};
+        {"", "Range as read, without any compensation", fixed(drift.as_read.range, decimals), "",
+         ""}};
     sheet.advance(3);
     sheet.table({{"", "", Align::left},
                  {"Figure", "", Align::left},
@@ -77,7 +78,7 @@ std::string gaps_words(const RunDrift& drift) {
     if (drift.missing > 0)
         words = std::to_string(drift.missing) + " of " +
                 std::to_string(drift.setup.duration / drift.setup.interval) +
-                " intervals have no good reading of the laser. ";
+                " intervals have no good reading of the length. ";
     if (drift.without_air > 0)
         words += std::to_string(drift.without_air) +
                  " readings without fresh air or material beside them are left out.";
@@ -85,7 +86,7 @@ std::string gaps_words(const RunDrift& drift) {
 }
 
 void draw_rule(Sheet& sheet, const RunDrift& drift) {
-    sheet.text("E_VE: largest minus smallest coordinate of the resting axis, in air and at 20 °C, "
+    sheet.text("E_VE: largest minus smallest coordinate of the resting axis at 20 °C, "
                "as a run would have given it. ETVE: the same within an hour. Positive changes go "
                "towards + of the coordinate. What is left after the compensation is the "
                "environment's share: machine, set-up and sensors together.",
@@ -127,39 +128,63 @@ std::string expansion_words(const MaterialSetup& material) {
     return words + ", uncertainty not stated";
 }
 
+/// What read the resting axis; three fields each.
+std::array<StatedField, 3> fields_of_laser(const RunRecord& run) {
+    const bool ciddor = run.air.formula == AirFormula::ciddor;
+    return {{{"Vacuum wavelength", fixed(run.laser.vacuum_wavelength.in(nm), 6) + " nm"},
+             {"Air formula", air_formula_words(ciddor ? "ciddor" : "edlen") + ", CO\u2082 " +
+                                 fixed(run.air.co2_ppm, 0) + " ppm unless measured"},
+             {"Dead path L\u2080", fixed(run.laser.dead_path.in(mm), 1) + " mm"}}};
+}
+
+std::array<StatedField, 3> fields_of_scale(const ScaleSetup& scale) {
+    const std::string u = scale.standard_uncertainty
+                              ? fixed(scale.standard_uncertainty->si() * 1e6, 2) + " µm/(m·K)"
+                              : "not stated";
+    return {{{"Reference", "linear scale, " + fixed(scale.resolution.in(um), 4) + " µm a count"},
+             {"Coefficient of the scale", fixed(scale.coefficient.si() * 1e6, 2) + " µm/(m·K)"},
+             {"Its standard uncertainty", u}}};
+}
+
+std::string carried_words(bool by_scale) {
+    return by_scale ? "scale and material on the distance from the datum. "
+                    : "air on the whole path from the interferometer (dead path included), "
+                      "material on the distance from the datum. ";
+}
+
 void draw_setup(Sheet& sheet, const DriftDocument& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
     const RunDrift& drift = document.drift;
-    const bool ciddor = run.air.formula == AirFormula::ciddor;
+    const auto reference = run.scale ? fields_of_scale(*run.scale) : fields_of_laser(run);
     sheet.heading("Test and conditions");
-    sheet.fields(
-        {{"Place of rest", place_words(drift)},
-         {"Duration", duration_words(drift.setup.duration)},
-         {"Interval", duration_words(drift.setup.interval)},
-         {"Readings of the laser", std::to_string(drift.axis.times.size()) + " of " +
-                                       std::to_string(drift.setup.duration / drift.setup.interval)},
-         {"Vacuum wavelength", fixed(run.laser.vacuum_wavelength.in(nm), 6) + " nm"},
-         {"Air formula", air_formula_words(ciddor ? "ciddor" : "edlen") + ", CO\u2082 " +
-                             fixed(run.air.co2_ppm, 0) + " ppm unless measured"},
-         {"Expansion coefficient α", expansion_words(run.material)},
-         {"Feedback of the axis", stated(run.material.feedback)},
-         {"Dead path L\u2080", fixed(run.laser.dead_path.in(mm), 1) + " mm"},
-         {"Axis datum", fixed(run.plan.datum.in(mm), 4) + " mm"},
-         {"Warm-up", stated(said.warm_up)},
-         {"Positions of idle axes", stated(said.idle_axes)},
-         {"Offsets of the measuring line", stated(said.offsets)},
-         {"Note on the sensors", stated(said.sensor_note)},
-         {"Station", stated(run.station)},
-         {"Alignment of the beam",
-          document.attachments.alignment ? "recorded: see below" : "not recorded"}},
-        2);
+    sheet.fields({{"Place of rest", place_words(drift)},
+                  {"Duration", duration_words(drift.setup.duration)},
+                  {"Interval", duration_words(drift.setup.interval)},
+                  {"Readings of the length",
+                   std::to_string(drift.axis.times.size()) + " of " +
+                       std::to_string(drift.setup.duration / drift.setup.interval)},
+                  reference[0],
+                  reference[1],
+                  {"Expansion coefficient α", expansion_words(run.material)},
+                  {"Feedback of the axis", stated(run.material.feedback)},
+                  reference[2],
+                  {"Axis datum", fixed(run.plan.datum.in(mm), 4) + " mm"},
+                  {"Warm-up", stated(said.warm_up)},
+                  {"Positions of idle axes", stated(said.idle_axes)},
+                  {"Offsets of the measuring line", stated(said.offsets)},
+                  {"Note on the sensors", stated(said.sensor_note)},
+                  {"Station", stated(run.station)},
+                  {"Alignment of the beam",
+                   document.attachments.alignment ? "recorded: see below" : "not recorded"}},
+                 2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
     sheet.text(
-        "Each reading of the laser is a mean over the capture window of the station file and "
-        "is carried to 20 °C as every point of a run is, air on the whole path from the "
-        "interferometer (dead path included), material on the distance from the datum. "
-        "Other channels are as last read in each interval.",
+        "Each reading of the " + std::string{run.scale ? "scale" : "laser"} +
+            " is a mean over the capture window of the station file and is carried to 20 °C as "
+            "every point of a run is, " +
+            carried_words(run.scale.has_value()) +
+            "Other channels are as last read in each interval.",
         note_style);
 }
 

@@ -66,6 +66,21 @@ struct TermLine {
     std::string stated;
 };
 
+/// Of a scale that measured the axis, which is as warm as it is.
+void add_terms_of_scale(std::vector<TermLine>& lines, const UncertaintyStatement& s) {
+    using enum UncertaintyTerm;
+    lines[0].name = "Scale u_D";
+    lines[1].name = "Misalignment of the scale u_MIS";
+    lines.push_back(
+        {device_temperature, "Temperature of the scale u_M,D",
+         "α_D = " + as_stated(s.device_alpha_um_per_m_K.value_or(0)) +
+             " µm/(m·K), R(θ_D) = " + fixed(s.device_temperature_width_K.value_or(0), 3) + " K"});
+    lines.push_back({device_expansion, "Expansion of the scale u_E,D",
+                     "ΔT_D = " + fixed(s.device_temperature_offset_K.value_or(0), 2) +
+                         " K, R(α_D) = " + fixed(s.device_alpha_width_um_per_m_K.value_or(0), 2) +
+                         " µm/(m·K)"});
+}
+
 std::vector<TermLine> term_lines(const Certificate& certificate) {
     const UncertaintySetup& setup = *certificate.run.uncertainty;
     const UncertaintyStatement& s = certificate.uncertainty.statement;
@@ -73,11 +88,14 @@ std::vector<TermLine> term_lines(const Certificate& certificate) {
     if (certificate.run.rotary)
         return {{device, "Instrument, artefact and set-up u_D", angle_device_words(setup)},
                 {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + "″"}};
-    return {{device, "Laser system u_D", device_words(setup, s)},
-            {misalignment, "Misalignment of the beam u_MIS", alignment_words(setup)},
-            {machine_temperature, "Temperature of the material u_M,M", temperature_words(setup, s)},
-            {machine_expansion, "Expansion coefficient u_E,M", expansion_words(s)},
-            {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};
+    std::vector<TermLine> lines{
+        {device, "Laser system u_D", device_words(setup, s)},
+        {misalignment, "Misalignment of the beam u_MIS", alignment_words(setup)},
+        {machine_temperature, "Temperature of the material u_M,M", temperature_words(setup, s)},
+        {machine_expansion, "Expansion coefficient u_E,M", expansion_words(s)},
+        {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};
+    if (certificate.run.scale) add_terms_of_scale(lines, s);
+    return lines;
 }
 
 void draw_terms(Sheet& sheet, const Certificate& certificate) {

@@ -2,6 +2,7 @@
 #include "acquisition/publish/certificate_json.hpp"
 #include "acquisition/publish/result_digest.hpp"
 #include "acquisition/publish/result_json.hpp"
+#include "tests/unit/analysis/linear_scale_run.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 #include "tests/unit/report/synthetic_certificate.hpp"
 
@@ -27,6 +28,30 @@ TEST(CertificateJson, IsTheResultDocumentWithRunEnvironmentAndCompensation) {
     EXPECT_EQ(document.at("run").at("run_file_sha256"), certificate.run_file_sha256);
     EXPECT_EQ(document.at("run").at("plan").at("seed"), 4711);
     EXPECT_EQ(document.at("run").at("instruments").at(0).at("serial"), "L-0042");
+}
+
+TEST(CertificateJson, OfALinearScaleTellsOfTheScaleAndNothingOfAir) {
+    const Certificate certificate = test::certificate_of(test::run_by_scale({}));
+    const Json document = certificate_to_json(certificate);
+    const Json& done = document.at("compensation");
+    EXPECT_EQ(done.at("state"), "compensated_to_20C");
+    EXPECT_EQ(done.at("reference"), "linear scale");
+    EXPECT_DOUBLE_EQ(done.at("scale_expansion_per_K"), 8.5e-6);
+    EXPECT_DOUBLE_EQ(done.at("scale_first_degC"), 26.5);
+    EXPECT_NEAR(done.at("scale_resolution_um"), 0.1, 1e-12);
+    EXPECT_TRUE(done.at("scale_expansion_standard_uncertainty_per_K").is_null());
+    for (const char* key : {"air_formula", "vacuum_wavelength_nm", "refractive_index_minus_1_first",
+                            "refractive_index_minus_1_last", "dead_path_mm", "cosine_factor",
+                            "largest_air_correction"})
+        EXPECT_FALSE(done.contains(key)) << key;
+    const Json& run = document.at("run");
+    EXPECT_FALSE(run.contains("laser") || run.contains("air"));
+    EXPECT_EQ(run.at("scale").at("instrument"), "scale");
+    EXPECT_EQ(run.at("scale").at("temperatures"), Json::array({"glass"}));
+    EXPECT_NE(certificate_csv(certificate).find("# reference,linear scale"), std::string::npos);
+    EXPECT_FALSE(certificate_to_json(test::certificate_of(test::synthetic_run()))
+                     .at("compensation")
+                     .contains("reference"));
 }
 
 TEST(CertificateJson, ShowsHowTheBeamWasAligned) {

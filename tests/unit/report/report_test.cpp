@@ -2,6 +2,7 @@
 #include "acquisition/publish/report/wording.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "tests/unit/analysis/linear_scale_run.hpp"
 #include "tests/unit/analysis/rotary_truth.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 
@@ -123,6 +124,21 @@ protected:
     }
     ScratchFolder folder_;
 };
+
+TEST_F(Report, OfALinearScaleNamesItAndSaysNothingOfAir) {
+    RunRecord run = test::run_by_scale({});
+    run.scale->standard_uncertainty = um_per_m_kelvin(0.5);
+    run.scale->temperature_width = kelvin(0.5);
+    run.uncertainty = test::stated_uncertainty();
+    const std::string text = test::text_of(render(run));
+    for (const char* words :
+         {"Reference", "linear scale, 0.1000 µm a count", "Nothing is corrected for air",
+          "Coefficient β of the scale", "8.50 µm/(m·K), standard uncertainty",
+          "26.50 → 26.50 °C", "Temperature of the scale", "Misalignment of the scale"})
+        EXPECT_THAT(text, HasSubstr(words));
+    for (const char* words : {"Refractivity", "Vacuum wavelength", "Dead path", "Laser system"})
+        EXPECT_THAT(text, Not(HasSubstr(words)));
+}
 
 TEST_F(Report, HoldsEverySymbolAndItsValue) {
     const Certificate certificate = test::certificate_of(test::synthetic_run());
