@@ -31,7 +31,14 @@ double material_error_k(const Scenario& s, double true_c) {
     return 0;
 }
 
+double scale_error_k(const Scenario& s, double true_c) {
+    for (const SensorScenario& sensor : s.sensors)
+        if (sensor.kind == "tm-th8") return rounded(true_c, temperature_step_k(sensor)) - true_c;
+    return 0;
+}
+
 double index_error(const Scenario& s, const TrueAir& air) {
+    if (s.laser.resolution_um) return 0; // a scale does not look through the air
     const AirSteps steps = air_steps(s);
     TrueAir shown = air;
     shown.temperature =
@@ -72,7 +79,10 @@ AirSteps air_steps(const Scenario& s) {
 
 Weather weather_at(const Scenario& s, double seconds) {
     const double material_c = s.thermal.material.at(seconds);
-    return {material_c, material_error_k(s, material_c), index_error(s, air_at(s.air, seconds))};
+    const double shown_of_scale =
+        s.laser.resolution_um ? scale_error_k(s, scale_at(s.thermal, seconds).in_celsius()) : 0;
+    return {material_c, material_error_k(s, material_c), index_error(s, air_at(s.air, seconds)),
+            shown_of_scale};
 }
 
 double samples_a_window(const Scenario& s) {
@@ -128,6 +138,11 @@ double InjectedProcess::environment_um(double target_mm, double seconds, double 
     const double datum_mm = scenario_.axis.start_mm;
     um -= (target_mm - datum_mm) * 1e3 * alpha * now.material_error_k;
     um += (datum_mm - thermal.fixed_point_mm) * 1e3 * alpha *
+          (now.material_c - weather(begin_s).material_c);
+    if (!scenario_.laser.resolution_um) return um;
+    const double scale_alpha = scenario_.laser.scale_expansion_um_per_m_k * 1e-6;
+    um += (target_mm - datum_mm) * 1e3 * scale_alpha * now.scale_error_k;
+    um -= (datum_mm - scenario_.laser.zero_mm) * 1e3 * scale_alpha *
           (now.material_c - weather(begin_s).material_c);
     return um;
 }

@@ -18,6 +18,7 @@ struct Weather {
     double material_c = 20;      ///< true
     double material_error_k = 0; ///< shown minus true
     double index_error = 0;      ///< of the index of air by the shown values, minus the true one
+    double scale_error_k = 0;    ///< shown minus true, of a linear scale in the laser's place
 };
 Weather weather_at(const Scenario& scenario, double seconds);
 /// The air sensor with the coarsest steps decides.

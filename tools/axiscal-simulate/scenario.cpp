@@ -176,6 +176,12 @@ void read_laser(Fields& f, LaserScenario& laser) {
     f.read("partial_first_line", laser.partial_first_line);
     f.read("port", laser.port);
     f.read("device_corrects", laser.device_corrects);
+    f.read("resolution_um", laser.resolution_um);
+    f.read("scale_expansion_um_per_m_k", laser.scale_expansion_um_per_m_k);
+    if (laser.resolution_um && !(*laser.resolution_um > 0))
+        f.refuse("resolution_um", "must be above 0");
+    if (laser.resolution_um && !homodyne)
+        f.refuse("resolution_um", "needs a homodyne kind: heterodyne firmware counts no A-quad-B");
     if (laser.sign != 1 && laser.sign != -1) f.refuse("sign", "is 1 or -1");
     if (laser.fields != 8 && laser.fields != 16) f.refuse("fields", "is 8 or 16");
     if (laser.phase_bits != 8 && laser.phase_bits != 16) f.refuse("phase_bits", "is 8 or 16");
@@ -265,6 +271,7 @@ void read_all(Fields& f, Scenario& s) {
         t.read("fixed_point_mm", s.thermal.fixed_point_mm);
         read_signal(t, "material", s.thermal.material);
         t.read("sensor_difference_k", s.thermal.sensor_difference_k);
+        t.read("scale_warmer_k", s.thermal.scale_warmer_k);
     });
     f.table("air", [&](Fields& t) {
         read_signal(t, "temperature", s.air.temperature);

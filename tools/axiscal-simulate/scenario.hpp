@@ -45,6 +45,9 @@ struct ThermalScenario {
     double expansion_um_per_m_k = 11.7, fixed_point_mm = 0;
     SlowSignal material{20, 0, 0, 600};
     std::vector<double> sensor_difference_k{0, 0}; ///< of each contact sensor; mean 0
+    /// Of a linear scale in the laser's place over the material; a tM-TH8 shows the scale's
+    /// temperature behind the contact sensors.
+    double scale_warmer_k = 0;
 };
 
 struct AirScenario {
@@ -64,6 +67,9 @@ struct LaserScenario {
     bool partial_first_line = false;
     int port = 0;                 ///< ids3010: where it listens; 0 chooses
     bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
+    /// A linear scale in its place, of a homodyne kind: one count; with it there is no beam.
+    std::optional<double> resolution_um;
+    double scale_expansion_um_per_m_k = 0; ///< about its zero_mm
 };
 
 /// An indexing table on a rotary axis, with the reflectors of an angular interferometer on it. Of

@@ -59,6 +59,10 @@ Temperature material_at(const ThermalScenario& thermal, double seconds) {
     return Temperature::celsius(thermal.material.at(seconds));
 }
 
+Temperature scale_at(const ThermalScenario& thermal, double seconds) {
+    return Temperature::celsius(thermal.material.at(seconds) + thermal.scale_warmer_k);
+}
+
 double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperature material) {
     const Ratio growth =
         um_per_m_kelvin(thermal.expansion_um_per_m_k) * (material - reference_temperature);
@@ -121,7 +125,18 @@ double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t
 double SimulatedMachine::cycles(double slide_mm, double seconds) {
     const LaserScenario& laser = scenario_.laser;
     const double way_mm = laser.sign * (slide_mm - laser.zero_mm);
+    if (laser.resolution_um) return cycles_of_scale(way_mm, seconds);
     return cycles_of_path(laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_), seconds);
+}
+
+double SimulatedMachine::cycles_of_scale(double way_mm, double seconds) {
+    const LaserScenario& laser = scenario_.laser;
+    const Ratio growth = um_per_m_kelvin(laser.scale_expansion_um_per_m_k) *
+                         (scale_at(scenario_.thermal, seconds) - reference_temperature);
+    const double marked_mm = way_mm / (1.0 + growth.si()); // what the lines under the head say
+    if (!zeroed_) optical_zero_mm_ = marked_mm, zeroed_ = true;
+    return (marked_mm - optical_zero_mm_) * 1e3 /
+           (laser.resolution_um.value_or(1) * laser.counts_per_cycle);
 }
 
 double SimulatedMachine::cycles_of_rest(double rest_deg, double seconds) {

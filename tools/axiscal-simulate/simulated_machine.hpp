@@ -48,6 +48,8 @@ private:
 /// The environment at a time after the start. Pure.
 TrueAir air_at(const AirScenario& air, double seconds);
 Temperature material_at(const ThermalScenario& thermal, double seconds);
+/// Of the linear scale in the laser's place.
+Temperature scale_at(const ThermalScenario& thermal, double seconds);
 /// Exact expansion of a coordinate about the fixed point of the machine, mm.
 double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperature material);
 
@@ -76,6 +78,8 @@ public:
     void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
 
 private:
+    /// Of a linear scale: its lines lie true at 20 C and move apart as it warms.
+    double cycles_of_scale(double way_mm, double seconds);
     double cycles_of_path(double length_mm, double seconds);
     double approach_offset_mm(double drive_mm, double dt_s);
     std::uint64_t index_of_stop(double drive_mm);

@@ -128,6 +128,7 @@ constexpr double equations_differ = 6e-8;
 /// Least count of the laser, um of its displacement.
 double count_um(const LaserScenario& laser) {
     if (laser.kind == "ids3010") return 1e-6; // it tells picometres
+    if (laser.resolution_um) return *laser.resolution_um;
     const double count = laser.wavelength_nm * 1e-3 / (laser.fold * laser.counts_per_cycle);
     const bool heterodyne = laser.kind == "umd1" || laser.kind == "umd2-heterodyne";
     return heterodyne ? count / std::pow(2.0, laser.phase_bits) : count;
@@ -146,16 +147,28 @@ Systematic systematic_of_angle(const Scenario& s, const TableScenario& table) {
     return sys;
 }
 
+/// The scale's sensor shows its temperature in steps, and its lines move about its zero; no air
+/// acts.
+void replace_air_by_scale(
+    Systematic& sys, const Scenario& s, double span_um, const Range& shown, const Range& material) {
+    const double alpha = s.laser.scale_expansion_um_per_m_k * 1e-6;
+    sys.air = sys.formula = 0;
+    sys.material_scale += span_um * alpha * std::max(std::abs(shown.low), std::abs(shown.high));
+    sys.material_step += span_um * alpha * shown.width();
+    sys.fixed_point += std::abs(s.axis.start_mm - s.laser.zero_mm) * 1e3 * alpha * material.width();
+}
+
 Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
     if (s.indexing_table) return systematic_of_angle(s, *s.indexing_table);
     const double span_um = (plan.targets_mm.back() - plan.targets_mm.front()) * 1e3;
     const double beam_um = span_um + s.laser.dead_path_mm * 1e3;
     const double alpha = s.thermal.expansion_um_per_m_k * 1e-6;
-    Range shown, material;
+    Range shown, material, scale_shown;
     for (int i = 0; i <= 1000; ++i) {
         const Weather weather = weather_at(s, s.truth.duration_s * i / 1000.0);
         shown.put(weather.material_error_k);
         material.put(weather.material_c);
+        scale_shown.put(weather.scale_error_k);
     }
     const double from_20 = std::max(std::abs(material.low - 20), std::abs(material.high - 20));
     const double off_mm = std::max(std::abs(s.axis.start_mm - s.thermal.fixed_point_mm),
@@ -169,6 +182,7 @@ Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
     sys.counting = count_um(s.laser);
     sys.drift = std::abs(s.errors.drift_um_per_hour) * s.truth.duration_s / 3600.0;
     sys.fixed_point = off_mm * 1e3 * alpha * material.width();
+    if (s.laser.resolution_um) replace_air_by_scale(sys, s, span_um, scale_shown, material);
     return sys;
 }
 
@@ -208,7 +222,8 @@ const char* const bound_formula =
     "E, M, B, B_mean: bound = k sigma/sqrt(n) z + systematic; z = sqrt(2 ln(2 m / 0.001)) holds "
     "for all 2 m means at 99.9 %; k: E 2, M sqrt 2, B sqrt 2, B_mean sqrt(2/m); sigma^2 = "
     "approach^2 + noise^2/(window rate) + (vibration/(pi f window))^2. systematic along the axis "
-    "(E, M): span alpha |shown - true| + (span + dead path) air steps + span 6e-8 + span (alpha "
+    "(E, M): span alpha |shown - true| (of a linear scale its own beside it, and no air) + (span + "
+    "dead path) air steps + span 6e-8 + span (alpha "
     "dT)^2 + count + drift time + fixed point; between readings at one place (B, B_mean): the "
     "material sensor's change of error in place of the scale terms. Of a rotary axis (mm stands "
     "for degree): 2 rests of half a step times (2 air steps + 6e-8) + count / (arm pi / 180) + "

@@ -49,6 +49,20 @@ TEST(SimulatedMachine, PlayIsUsedUpBeforeTheSlideFollows) {
     EXPECT_DOUBLE_EQ(play.follow(1.0), 1.0);
 }
 
+// 1 m of a scale of 8.5e-6 / K at 26 C: 1000 / (1 + 5.1e-5) mm under the head, 0.4 um a cycle.
+TEST(SimulatedMachine, AScaleThatHasGrownCountsLess) {
+    Scenario s = quiet();
+    s.laser.resolution_um = 0.1;
+    s.laser.counts_per_cycle = 4;
+    s.laser.scale_expansion_um_per_m_k = 8.5;
+    s.laser.sign = -1;
+    s.thermal.material.start = 24;
+    s.thermal.scale_warmer_k = 2;
+    SimulatedMachine machine{s};
+    EXPECT_DOUBLE_EQ(machine.cycles(0, 0), 0);
+    EXPECT_NEAR(machine.cycles(1000, 1), -1000 / (1 + 5.1e-5) / 0.4e-3, 1e-6);
+}
+
 TEST(SimulatedMachine, GrowsExactlyAboutItsFixedPoint) {
     ThermalScenario thermal;
     thermal.expansion_um_per_m_k = 11.7;

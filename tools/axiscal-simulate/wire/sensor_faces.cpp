@@ -27,6 +27,9 @@ RegisterBank tm_th8(const Scenario& s, double seconds) {
     const double material = s.thermal.material.at(seconds);
     for (std::size_t i = 0; i < s.thermal.sensor_difference_k.size() && i < 8; ++i)
         bank.input[static_cast<int>(i)] = tenths(material + s.thermal.sensor_difference_k[i]);
+    const auto behind = s.thermal.sensor_difference_k.size();
+    if (s.laser.resolution_um && behind < 8)
+        bank.input[static_cast<int>(behind)] = tenths(scale_at(s.thermal, seconds).in_celsius());
     bank.holding = bank.input;
     for (int channel = 0; channel < 8; ++channel)
         bank.holding[256 + channel] = 0x60; // type code of each channel
