@@ -1,6 +1,7 @@
 """Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm, a
-Modbus sensor by ftdi_sio, behind udev's names; those that answer text, each by an FTDI adapter; and the
-CNC, a Modbus RTU client on libmodbus, by another one. A plain guest with udev, no systemd.
+Modbus sensor by ftdi_sio, behind udev's names; those that answer text, each by an FTDI adapter; the CNC, a
+Modbus RTU client on libmodbus, by another one; and a scale on a counter, whose records come by a named pipe. A
+plain guest with udev, no systemd.
 
 The checks run in their order on one station that never ends: what one of them breaks, it mends.
 """
@@ -10,16 +11,25 @@ import os
 import sys
 from pathlib import Path
 
+from counter_pipe import EVENT, STATUS, VALUE, CounterPipe
 from guest import check, expect, load_modules, run_checks, start_udev, wait_until
-from usb_station import LINKS, Undisturbed, UsbStation
+from usb_station import LINKS, RECOVERY_S, Undisturbed, UsbStation
 
 SENSORS = ("air", "material")
 TEXT = {  # name: what stands in the station file, what the simulator has behind the adapter, the adapter
     "ptu": ({"driver": "vaisala", "model": "ptu300"}, "vaisala", "A601AXIS"),
     "gauge": ({"driver": "ascii-gauge", "model": "mitutoyo", "unit": "mm"}, "mitutoyo", "A602AXIS"),
     "stick": ({"driver": "temper-serial"}, "temper-serial", "A603AXIS"),
+    "readout": ({"driver": "ascii-gauge", "model": "nd-28x"}, "nd-28x", "A604AXIS"),
+    "caliper": ({"driver": "ascii-gauge", "model": "sylvac"}, "sylvac", "A605AXIS"),
 }
-INSTRUMENTS = (*LINKS, *TEXT)
+EIGHT_BIT, SEVEN_BIT = ("ptu", "gauge"), ("readout", "caliper")  # which bit no character of theirs has
+FTDI = ("material", *TEXT)
+SCALE = "scale"
+BESIDE_TEXT = (*LINKS, SCALE)
+BESIDE_SCALE = (*LINKS, *TEXT)
+INSTRUMENTS = (*LINKS, *TEXT, SCALE)
+COUNT, COUNT_M = 123456, 1e-7
 CNC_LINE = "/dev/axiscal/ftdi-A800AXIS-00"
 GONE = ("unavailable", "faulty")
 
@@ -41,6 +51,10 @@ class LineStation(UsbStation):
             self.wires[name] = ("ftdi", {"called": name, "serial": serial})
             self.links[name] = f"/dev/axiscal/ftdi-{serial}-00"
             self.station["instrument"].append({"name": name, **keys, "link": "serial:" + self.links[name]})
+        self.counter = CounterPipe(self.folder / "counter0", COUNT)
+        self.station["instrument"].append(
+            {"name": SCALE, "driver": "counter", "device": str(self.counter.path), "event": "capture", "bits": 32,
+             "resolution": "0.1 um", "fastest": "40 m/min", "silence": "2 s"})
 
     def line_notes(self, since):
         lines = [line for line in self.logged()[since:] if CNC_LINE in line]
@@ -49,6 +63,10 @@ class LineStation(UsbStation):
 
     def requested(self):
         return self.sim("status")["requests"]
+
+    def adapter(self, name):
+        """What its adapter says that the host has set."""
+        return self.ask_usb("status")["devices"][name]["state"]
 
     def go_on_until(self, requests):
         """The CNC moves and asks until it has asked so often; then it stands still."""
@@ -117,6 +135,28 @@ def reads(station):
     print({name: os.path.realpath(link) for name, link in station.links.items()})
 
 
+def scale_shows(station, count):
+    value = station.value(SCALE, "axis 1")
+    return value is not None and abs(value - count * COUNT_M) < COUNT_M / 100
+
+
+@check("CountsOfAPipeInTheCountersPlaceAreRead")
+def scale_reads(station):
+    wait_until(f"the scale shows {COUNT} counts", lambda: scale_shows(station, COUNT))
+    station.counter.count = COUNT - 2500  # 0.25 mm in 10 ms, of the 6.7 mm that may be
+    wait_until("the scale shows 2500 counts less", lambda: scale_shows(station, COUNT - 2500))
+    station.counter.count = COUNT
+    wait_until("the scale is back", lambda: scale_shows(station, COUNT))
+
+
+@check("OptoHeadOfASylvacGetsItsPowerFromTheModemLines")
+def powered(station):
+    """DTR high and RTS low; the kernel itself raises both when it opens a line."""
+    for name in TEXT:
+        levels = "DTR high, RTS low" if name == "caliper" else "DTR high, RTS high"
+        expect(station.adapter(name).endswith(levels), f"{name}: {station.adapter(name)}")
+
+
 @check("UnpluggedCounterIsUnavailableAndComesBack")
 def laser_unplugged(station):
     unplugged(station, ["laser"], SENSORS)
@@ -139,7 +179,7 @@ def sensors_mute(station):
 
 @check("ShortReadsOfCounterAndSensorsAreNoReadings")
 def cut(station):
-    spoilt(station, LINKS, "cut 3", TEXT)
+    spoilt(station, LINKS, "cut 3", (*TEXT, SCALE))
 
 
 @check("GarbledRecordsOfTheCounterAreCountedAndNeverRead")
@@ -167,7 +207,7 @@ def sensors_corrupt(station):
 
 @check("StalledCounterAndSensorsAreGivenUpAndComeBack")
 def stalled(station):
-    spoilt(station, LINKS, "stall", TEXT)
+    spoilt(station, LINKS, "stall", (*TEXT, SCALE))
 
 
 @check("NodeThatComesBackUnderAnotherNumberIsFoundByItsName")
@@ -199,41 +239,140 @@ def broken_descriptors(station):
         station.replug([name], "none")
         wait_until(f"udev made {LINKS[name]} again", Path(LINKS[name]).exists)
 
-    suffers(station, ["laser", "air"], plug_broken, plug_whole, ["material", *TEXT])
+    suffers(station, ["laser", "air"], plug_broken, plug_whole, [*FTDI, SCALE])
+
+
+@check("AdaptersOfFtdiWithBrokenDescriptorsAreUnavailableAndComeBack")
+def broken_adapters(station):
+    """Without the half of its last endpoint an adapter has none to write to. ftdi_sio makes a terminal of it all the
+    same, which opens, and refuses each write with ENODEV."""
+    since, restarts = len(station.logged()), {}
+
+    def refused(name):
+        return [line for line in station.logged()[since:] if f" {name}:" in line and "No such device" in line
+                and "No such device or" not in line]
+
+    def plug_broken(name):
+        station.replug([name], "descriptors")
+        wait_until(f"udev made {station.links[name]} of half a configuration", Path(station.links[name]).exists)
+        restarts[name] = station.instrument(name)["restarts"]
+
+    def plug_whole(name):
+        try:
+            wait_until(f"{name} was tried again", lambda: station.instrument(name)["restarts"] >= restarts[name] + 2)
+            wait_until(f"the log says that nothing can be written to {name}", lambda: refused(name))
+            expect(station.state(name) in GONE, f"{name} is {station.state(name)} behind half an adapter")
+        finally:
+            station.replug([name], "none")
+            wait_until(f"udev made {station.links[name]} again", Path(station.links[name]).exists)
+
+    # Its end, what cannot be written, and that it is not there between the wrong adapter and the right one.
+    suffers(station, FTDI, plug_broken, plug_whole, ["laser", "air", SCALE], most_reasons=3)
+    for name in FTDI:
+        expect(len(refused(name)) == 1, f"that nothing can be written to {name} is told {len(refused(name))} times")
 
 
 @check("UnpluggedTextInstrumentsAreUnavailableAndComeBack")
 def text_unplugged(station):
-    unplugged(station, TEXT, LINKS)
+    unplugged(station, TEXT, BESIDE_TEXT)
 
 
 @check("TextInstrumentsThatSayNakForEverAreGivenUpAndComeBack")
 def text_mute(station):
-    spoilt(station, TEXT, "mute", LINKS, most_reasons=3)
+    spoilt(station, TEXT, "mute", BESIDE_TEXT, most_reasons=3)
 
 
 @check("StalledTextInstrumentsAreGivenUpAndComeBack")
 def text_stalled(station):
     """ftdi_sio reads no more until the line is opened anew. A Vaisala that says nothing is told its settings
     and asked once, 2 s; after a pause it is told them again, 1 s."""
-    spoilt(station, TEXT, "stall", LINKS)
+    spoilt(station, TEXT, "stall", BESIDE_TEXT)
 
 
 @check("TextThatIsCutShortIsNoReading")
 def text_cut(station):
-    spoilt(station, TEXT, "cut 3", LINKS)  # two of the three are the adapter's status
+    spoilt(station, TEXT, "cut 3", BESIDE_TEXT)  # two of the three are the adapter's status
 
 
 @check("GarbledTextIsNoReading")
 def text_garbled(station):
-    """A bit above ASCII, for a gauge and the stick send no checksum. Of the stick's two lines in a transfer
-    one stays whole and is read."""
-    spoilt(station, ("ptu", "gauge"), "corrupt 128", LINKS)
+    """A bit above ASCII, for a gauge and the stick send no checksum; with seven data bits the highest of them,
+    which no digit has. Of the stick's two lines in a transfer one stays whole and is read."""
+    spoilt(station, EIGHT_BIT, "corrupt 128", BESIDE_TEXT)
+    before = {name: station.instrument(name)["bad_frames"] for name in SEVEN_BIT}
+    spoilt(station, SEVEN_BIT, "corrupt 64", BESIDE_TEXT)
+    for name in SEVEN_BIT:
+        expect(station.instrument(name)["bad_frames"] > before[name], f"{name} counts no bad frame")
     before = station.instrument("stick")["bad_frames"]
     station.usb("fault stick corrupt 128")
     wait_until("the stick's damaged lines are counted", lambda: station.instrument("stick")["bad_frames"] >= before + 3)
     station.usb("fault stick none")
     station.wait_until_good("stick")
+
+
+def scale_suffers(station, begin):
+    """`begin` spoils the records; they are mended, and what is counted since then is given back."""
+    before = station.instrument(SCALE)
+    suffers(station, [SCALE], lambda _: begin(), lambda _: station.counter.suffer("none"), BESIDE_SCALE)
+    wait_until(f"the scale shows {COUNT} counts", lambda: scale_shows(station, COUNT))
+    after = station.instrument(SCALE)
+    return {key: after[key] - before[key] for key in ("restarts", "timeouts", "bad_frames")}
+
+
+@check("CounterWhoseRecordsEndIsUnavailableAndComesBack")
+def scale_ends(station):
+    """Its writer closes; its node goes, too. Opened anew in vain, it is told no second time."""
+    def begin(fault):
+        opened = station.instrument(SCALE)["restarts"]
+        station.counter.suffer(fault)
+        wait_until("it was tried again in vain", lambda: station.instrument(SCALE)["restarts"] >= opened + 2)
+
+    for fault in ("ended", "gone"):
+        counted = scale_suffers(station, lambda fault=fault: begin(fault))
+        expect(counted["bad_frames"] == 0, f"{counted}")
+
+
+@check("SilentCounterIsUnavailableAndNotOpenedAnew")
+def scale_silent(station):
+    """An axis that stands makes no events, and opening would cost the zero."""
+    counted = scale_suffers(station, lambda: station.counter.suffer("silent"))
+    expect(counted["restarts"] == 0 and counted["timeouts"] >= 3, f"{counted}")  # 10 s, each 2 s
+
+
+@check("CounterRecordsOfAnotherEventAreNoReadings")
+def scale_foreign(station):
+    counted = scale_suffers(station, lambda: station.counter.suffer("corrupt", EVENT, 1))
+    expect(counted["restarts"] == 0 and counted["bad_frames"] > 100, f"{counted}")
+
+
+@check("CountThatTheKernelCouldNotReadIsNoReading")
+def scale_unread(station):
+    """Status 5, EIO: the record is the instrument's, its value none."""
+    since = len(station.logged())
+    counted = scale_suffers(station, lambda: station.counter.suffer("corrupt", STATUS, 5))
+    expect(counted["restarts"] == 0 and counted["bad_frames"] == 0, f"{counted}")
+    reasons = told(station, SCALE, since)
+    expect(len(reasons) == 1 and "could not read the counter (error 5)" in reasons[0], f"{reasons}")
+    changes = [line for line in station.logged()[since:] if f"{SCALE} is " in line]
+    expect([line.split(f"{SCALE} is ")[1] for line in changes] == ["faulty.", "available."], f"{changes}")
+
+
+@check("WrongBitInACountIsToldAsAJump")
+def scale_jumps(station):
+    """There and back: 419 mm in 10 ms, of the 6.7 mm that the axis can move."""
+    since = len(station.logged())
+
+    def jumps():
+        return [line for line in station.logged()[since:] if f"{SCALE}:" in line and "the count jumped further" in line]
+
+    with Undisturbed(station, *BESIDE_SCALE):
+        station.counter.suffer("corrupt", VALUE, 0x40)
+        try:
+            wait_until("the jump is told", jumps)
+        finally:
+            station.counter.suffer("none")
+        wait_until(f"the scale shows {COUNT} counts", lambda: scale_shows(station, COUNT), RECOVERY_S)
+    expect(len(told(station, SCALE, since)) == 1, "the jump is told more than once")
 
 
 @check("CncTriggersPointsOverAModbusRtuLineOfTheKernel")
@@ -302,7 +441,7 @@ def latency(station):
     timer = Path(f"/sys/bus/usb-serial/devices/{node}/latency_timer")
     wait_until("the rules have set 1 ms", lambda: timer.read_text().strip() == "1")
     timer.write_text("16")
-    expect(station.ask_usb("status")["devices"]["laser"]["state"] == "latency timer 16 ms", "the adapter was not told")
+    expect(station.adapter("laser").startswith("latency timer 16 ms,"), "the adapter was not told")
     station.write_station()
     station.start_daemon()
     station.wait_until_good("laser", limit_s=30)

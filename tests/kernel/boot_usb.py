@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 
 from guest import PROGRAMS, check, expect, load_modules, run, run_checks, start_udev, wait_until
-from usb_station import LASER, LINKS, Undisturbed, UsbStation
+from usb_station import LASER, LINKS, Undisturbed, UsbStation, kernel_drivers
 
 NAMES = ("air", "material", "ballbar")
 WITH_CHECKSUM = ("air", "ballbar")  # a TEMPer has none
@@ -22,6 +22,7 @@ GONE = ("unavailable", "faulty")
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
 CONTACTS = "contacts"
 SENSORS = ("28-000000000001", "28-000000000002")
+ADAPTER = ("04fa", "2490")
 LACKS = {  # whose configuration was cut within its last descriptor, as the log names it; the socket is the kernel's choice
     "air": r"USB 1781:0a98 serial number A10234 port \S+ shows no interface 0:",  # it has no endpoints
     "material": r"USB 413d:2107 port \S+ has no HID interface 1 that the kernel serves",  # its endpoint 0x82 is lost
@@ -315,21 +316,44 @@ def adapter_spoilt(station):
         expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{changes}")
 
 
-@check("UnpluggedOneWireAdapterIsUnavailableAndComesBack")
-def adapter_unplugged(station):
+def without_adapter(station, take, give):
+    """`take` robs the kernel of its 1-Wire, `give` brings it back: no value outlives it, one line tells, and all others lose
+    nothing."""
     since = len(station.logged())
     with undisturbed(station, [CONTACTS]):
-        station.usb(f"unplug {CONTACTS}")
-        station.wait_for_state(CONTACTS, GONE)
-        expect([station.value(CONTACTS, f"contact {n}") for n in (1, 2)] == [None, None], "a value outlived its sensor")
-        station.usb(f"plug {CONTACTS}")
+        try:
+            take()
+            station.wait_for_state(CONTACTS, GONE)
+            expect([station.value(CONTACTS, f"contact {n}") for n in (1, 2)] == [None, None], "a value outlived its sensor")
+        finally:
+            give()
         wait_until("the kernel has found both again", lambda: all(Path(f"/sys/bus/w1/devices/{one}").exists() for one in SENSORS))
         station.wait_until_good(CONTACTS)
-    # The first of them may be missed while the other is still there.
+    # One of them may be missed while the other is still there, or there already.
     told = station.lines_of(CONTACTS, since)
-    expect(1 <= len(told) <= 2 and "none of the sensors" in told[-1], f"{told}")
+    expect(sum("none of the sensors" in line for line in told) == 1 and len(told) <= 3, f"{told}")
     changes = station.changes_of(CONTACTS, since)
     expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{changes}")
+
+
+@check("UnpluggedOneWireAdapterIsUnavailableAndComesBack")
+def adapter_unplugged(station):
+    without_adapter(station, lambda: station.usb(f"unplug {CONTACTS}"), lambda: station.usb(f"plug {CONTACTS}"))
+
+
+@check("OneWireAdapterWithBrokenDescriptorsIsRefusedByTheKernelAndComesBack")
+def adapter_broken(station):
+    """The last endpoint of its fourth setting is lost, the one that ds2490 chooses: it counts two where three belong."""
+    def plug_broken():
+        station.replug([CONTACTS], "descriptors")
+        expect(kernel_drivers(ADAPTER) == [], f"half an adapter is served by {kernel_drivers(ADAPTER)}")
+        expect(not list(Path("/sys/bus/w1/devices").glob("w1_bus_master*")), "the kernel made a 1-Wire of half an adapter")
+        tried = station.instrument(CONTACTS)["restarts"]
+        wait_until("it was tried again", lambda: station.instrument(CONTACTS)["restarts"] >= tried + 2)
+
+    expect(kernel_drivers(ADAPTER) == ["DS9490R"], f"the adapter is served by {kernel_drivers(ADAPTER)}")
+    without_adapter(station, plug_broken, lambda: station.replug([CONTACTS], "none"))
+    expect(kernel_drivers(ADAPTER) == ["DS9490R"], f"the adapter is served by {kernel_drivers(ADAPTER)}")
 
 
 def comes_by(station, name):

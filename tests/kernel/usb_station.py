@@ -3,6 +3,7 @@ truth on pseudo terminals, `axiscal-simulate usb` carries each through a real dr
 what udev names."""
 
 import contextlib
+import os
 import sys
 from pathlib import Path
 
@@ -39,6 +40,15 @@ def is_set_up(device):
     with contextlib.suppress(OSError):
         return (Path("/sys/bus/usb/devices") / socket / "bConfigurationValue").read_text().strip() != ""
     return False
+
+
+def kernel_drivers(numbers):
+    """Of each interface of the device with these numbers (vendor, product) that a driver of the kernel serves.
+    AssertionError where there is no such device."""
+    for one in Path("/sys/bus/usb/devices").glob("*-*"):
+        if ":" not in one.name and tuple((one / key).read_text().strip() for key in ("idVendor", "idProduct")) == numbers:
+            return sorted(os.path.basename(os.readlink(driver)) for driver in one.glob("*:*/driver"))
+    raise AssertionError(f"the kernel shows no USB device {':'.join(numbers)}")
 
 
 class UsbStation(bench.Bench):

@@ -242,6 +242,26 @@ TEST(UsbWish, IsAKindAndItsSettings) {
     EXPECT_NE(unknown.error().detail.find("cdc-acm"), std::string::npos);
 }
 
+/// SIO_SET_MODEM_CTRL of drivers/usb/serial/ftdi_sio.h: levels in the low byte, which of them are
+/// meant in the high one.
+TEST(FtdiUart, ShowsTheModemLinesAsTheHostHasSetThem) {
+    std::string folder = (std::filesystem::temp_directory_path() / "usb-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+    auto pty = Pty::open(folder + "/tty");
+    ASSERT_TRUE(pty);
+    const auto device = make_ftdi_uart({"ftdi", {{"behind", folder + "/tty"}}}, {});
+    ASSERT_TRUE(device);
+    (*device)->plugged();
+    EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR low, RTS low");
+    (*device)->control({0x40, 1, 0x0303, 0, 0}, {}); // both high, as at each opening
+    EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR high, RTS high");
+    (*device)->control({0x40, 1, 0x0200, 0, 0}, {}); // RTS low, nothing said of DTR
+    EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR high, RTS low");
+    (*device)->plugged();
+    EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR low, RTS low");
+    std::filesystem::remove_all(folder);
+}
+
 /// AN232B-04: two status bytes before each 62 of data; bytes wait for the latency timer.
 TEST(FtdiUart, PutsItsStatusBeforeEvery62Bytes) {
     std::string folder = (std::filesystem::temp_directory_path() / "usb-XXXXXX").string();
@@ -252,7 +272,7 @@ TEST(FtdiUart, PutsItsStatusBeforeEvery62Bytes) {
     ASSERT_TRUE(device);
     (*device)->plugged();
     (*device)->control({0x40, 9, 1, 0, 0}, {}); // latency timer 1 ms
-    EXPECT_EQ((*device)->state(), "latency timer 1 ms");
+    EXPECT_EQ((*device)->state(), "latency timer 1 ms, DTR low, RTS low");
     pty->write(std::string(70, 'x'));
     UsbAnswer answer = UsbAnswer::hold();
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{10};

@@ -14,7 +14,14 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-enum : std::uint8_t { get_modem_status = 5, set_latency_timer = 9, get_latency_timer = 10 };
+enum : std::uint8_t {
+    set_modem_lines = 1,
+    get_modem_status = 5,
+    set_latency_timer = 9,
+    get_latency_timer = 10
+};
+/// Of set_modem_lines: the levels; above them, in the high byte, which of them are meant.
+constexpr int dtr_bit = 1, rts_bit = 2;
 constexpr std::size_t packet = 64, status_size = 2;
 
 UsbDescriptors ftdi_descriptors(const UsbWish& wish) {
@@ -49,26 +56,36 @@ public:
     [[nodiscard]] std::chrono::milliseconds pace() const override {
         return std::chrono::milliseconds{1};
     }
-    [[nodiscard]] std::string state() const override {
-        return "latency timer " + std::to_string(latency_ms_) + " ms";
-    }
+    [[nodiscard]] std::string state() const override;
 
 private:
     UsbDescriptors descriptors_;
     TtyBehind behind_;
     std::atomic<int> latency_ms_{16};
+    std::atomic<int> modem_lines_{0};
     Steady::time_point last_packet_;
 };
+
+std::string FtdiUart::state() const {
+    const auto level = [this](int bit) { return (modem_lines_ & bit) != 0 ? "high" : "low"; };
+    return "latency timer " + std::to_string(latency_ms_) + " ms, DTR " + level(dtr_bit) +
+           ", RTS " + level(rts_bit);
+}
 
 void FtdiUart::plugged() {
     behind_.flush();
     latency_ms_ = 16;
+    modem_lines_ = 0;
     last_packet_ = Steady::now();
 }
 
 UsbAnswer FtdiUart::control(const UsbSetup& setup, std::span<const std::uint8_t>) {
     if (!setup.to_host()) {
         if (setup.request == set_latency_timer) latency_ms_ = std::max(1, setup.value & 0xFF);
+        if (setup.request == set_modem_lines) {
+            const int meant = setup.value >> 8;
+            modem_lines_ = (modem_lines_ & ~meant) | (setup.value & meant);
+        }
         return UsbAnswer::done(); // baud rate, data format, flow control: any will do
     }
     if (setup.request == get_latency_timer)
