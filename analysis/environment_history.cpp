@@ -30,14 +30,14 @@ EnvironmentHistory::EnvironmentHistory(const RunRecord& run)
     , oldest_{run.air.oldest} {
     const auto shelf_of = [&](const ChannelRecord& record) -> std::vector<Channel>* {
         if (sits_on_scale(run, record.id)) return &scale_;
-        const bool in_material = record.medium == Medium::material;
+        const bool in_air = record.medium == Medium::air;
         switch (record.kind) {
         case ChannelKind::temperature:
-            if (in_material) return &material_;
-            return record.medium == Medium::air ? &air_temperature_ : nullptr;
-        case ChannelKind::pressure: return in_material ? nullptr : &pressure_;
-        case ChannelKind::humidity: return in_material ? nullptr : &humidity_;
-        case ChannelKind::carbon_dioxide: return in_material ? nullptr : &carbon_dioxide_;
+            if (record.medium == Medium::material) return &material_;
+            return in_air ? &air_temperature_ : nullptr;
+        case ChannelKind::pressure: return in_air ? &pressure_ : nullptr;
+        case ChannelKind::humidity: return in_air ? &humidity_ : nullptr;
+        case ChannelKind::carbon_dioxide: return in_air ? &carbon_dioxide_ : nullptr;
         case ChannelKind::displacement:
         case ChannelKind::strength: return nullptr;
         }

@@ -14,7 +14,8 @@ namespace axiscal {
 
 /// Readings of a run, channel by channel. Each figure is the mean of the channels of its kind, each
 /// interpolated linearly between the readings before and after; before the first and after the
-/// last reading the nearest one holds.
+/// last reading the nearest one holds. A channel without a medium stands beside the run and counts
+/// in none of them.
 /// `what` names the point in messages ("step 12").
 /// @errors Fault::environment_stale when there is no such channel, or when a channel's nearer
 /// reading is further than AirSetup::oldest; bad_run_file for a reading that is not a number.

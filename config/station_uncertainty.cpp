@@ -78,6 +78,8 @@ read_uncertainty(Settings root, AxisKind kind, std::string& eve_run) {
     const bool stated = root.has("uncertainty");
     Settings table = root.table("uncertainty");
     UncertaintySetup setup;
+    refuse_beside(table, "eve", "eve_run");
+    eve_run = table.text("eve_run", "");
     if (kind == AxisKind::rotary) {
         read_angle_terms(table, setup);
         return stated ? std::optional{std::move(setup)} : std::nullopt;
@@ -85,8 +87,6 @@ read_uncertainty(Settings root, AxisKind kind, std::string& eve_run) {
     read_device(table, setup);
     read_alignment(table, setup);
     read_machine_side(table, setup);
-    refuse_beside(table, "eve", "eve_run");
-    eve_run = table.text("eve_run", "");
     read_targets(table.table("target"), setup);
     return stated ? std::optional{std::move(setup)} : std::nullopt;
 }

@@ -44,11 +44,18 @@ Json parameters_of(const RunDrift& drift) {
     return object;
 }
 
+/// A length has an E_VE; what is as warm or as moist as it is has a range alone.
+bool has_eve(const ChannelDrift& channel) {
+    return channel.kind == ChannelKind::displacement && channel.series.readings.size() > 1;
+}
+
 Json channel_of(const ChannelDrift& channel) {
     Json object;
     object["channel"] = channel.name;
+    object["instrument"] = channel.instrument;
     object["place"] = stated_json(channel.place);
     object["quantity"] = name_of(channel.kind);
+    object["medium"] = name_of(channel.medium);
     object["unit"] = channel.unit;
     const DriftSeries& series = channel.series;
     object["readings"] = series.readings.size();
@@ -57,6 +64,18 @@ Json channel_of(const ChannelDrift& channel) {
     object["last"] = series.readings.back();
     object["range"] = range_of(series, channel.total);
     object["window"] = range_of(series, channel.window);
+    object["slope_per_h"] = stated_json(channel.slope_per_h);
+    if (has_eve(channel))
+        object["E_VE"] = {{"value", channel.total.range}, {"u", channel.total.u_eve}};
+    return object;
+}
+
+/// What a later budget takes of the test.
+Json budget_of(const RunRecord& run) {
+    Json object;
+    object["takes"] = "E_VE";
+    object["by"] = run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
+    object["informative"] = {"ETVE", "end_change", "E_VE_as_read", "slope_per_h", "channels"};
     return object;
 }
 
@@ -75,26 +94,34 @@ Json run_of(const DriftDocument& document) {
     statements["state"] = stated_json(said.state);
     statements["warm_up"] = stated_json(said.warm_up);
     statements["idle_axes"] = stated_json(said.idle_axes);
-    if (run.scale) {
+    if (run.rotary) {
+        object["reference"] = "indexing table";
+        object["laser"] = run.laser.instrument;
+        object["arm_mm"] = run.rotary->arm.in(mm);
+    } else if (run.scale) {
         object["reference"] = "linear scale";
         object["scale"] = run.laser.instrument;
     } else {
         object["laser"] = run.laser.instrument;
         object["dead_path_mm"] = run.laser.dead_path.in(mm);
     }
-    object["datum_mm"] = run.plan.datum.in(mm);
+    object[run.rotary ? "datum_deg" : "datum_mm"] = run.plan.datum.in(mm);
     object["alignment"] = alignment_to_json(document.attachments.alignment);
     return object;
+}
+
+std::string quoted(const std::string& name) {
+    std::string field = "\"";
+    for (const char letter : name)
+        field += letter == '"' ? std::string{"\"\""} : std::string{letter};
+    return field + '"';
 }
 
 void put_series(std::string& text,
                 const std::string& name,
                 const std::string& unit,
                 const DriftSeries& series) {
-    std::string head = "\"";
-    for (const char letter : name)
-        head += letter == '"' ? std::string{"\"\""} : std::string{letter};
-    head += "\"," + unit + ",";
+    const std::string head = quoted(name) + "," + unit + ",";
     for (std::size_t i = 0; i < series.times.size(); ++i) {
         text += head;
         text += csv_number(series.times[i]);
@@ -102,6 +129,34 @@ void put_series(std::string& text,
         text += csv_number(series.readings[i]);
         text += "\r\n";
     }
+}
+
+void put_figure(std::string& text,
+                const char* figure,
+                const std::string& name,
+                const std::string& unit,
+                std::optional<double> value) {
+    if (value)
+        append_csv_line(text, {std::string{"# "} + figure, quoted(name), unit, csv_number(*value)});
+}
+
+void put_figures(std::string& text, const ChannelDrift& channel) {
+    if (channel.series.readings.empty()) return;
+    put_figure(text, "range", channel.name, channel.unit, channel.total.range);
+    put_figure(text, "slope_per_h", channel.name, channel.unit, channel.slope_per_h);
+    if (has_eve(channel)) put_figure(text, "E_VE", channel.name, channel.unit, channel.total.range);
+}
+
+std::string axis_name(const RunDrift& drift) {
+    return drift.unit == "um" ? "axis at 20 degC" : "axis";
+}
+
+/// The channel that measures the axis, then the others.
+std::vector<const ChannelDrift*> every_channel_of(const RunDrift& drift) {
+    std::vector<const ChannelDrift*> channels{&drift.reading};
+    for (const ChannelDrift& channel : drift.channels)
+        channels.push_back(&channel);
+    return channels;
 }
 
 } // namespace
@@ -126,7 +181,7 @@ Result<void> seal_drift(const std::string& run_file) {
     AXISCAL_TRY(const DriftDocument document, drift_of_run_file(run_file));
     Json figures;
     figures["format"] = "axiscal.drift/1";
-    figures["unit"] = "um";
+    figures["unit"] = document.drift.unit;
     figures["parameters"] = parameters_of(document.drift);
     return store_result(run_file, {document.result_digest, figures.dump()});
 }
@@ -136,17 +191,19 @@ Json drift_to_json(const DriftDocument& document) {
     Json object;
     object["format"] = "axiscal.drift/1";
     object["standard"] = "ISO 230-2 E_VE, ISO 230-3 ETVE";
-    object["unit"] = "um";
+    object["unit"] = drift.unit;
     object["parameters"] = parameters_of(drift);
-    object["test"]["place_mm"] = drift.setup.place.in(mm);
+    object["slope_per_h"] = stated_json(drift.slope_per_h);
+    object["budget"] = budget_of(document.run);
+    object["test"][document.run.rotary ? "place_deg" : "place_mm"] = drift.setup.place.in(mm);
     object["test"]["duration_s"] = seconds_of(drift.setup.duration);
     object["test"]["interval_s"] = seconds_of(drift.setup.interval);
     object["test"]["readings"] = drift.axis.times.size();
     object["test"]["missing"] = drift.missing;
     object["test"]["without_air"] = drift.without_air;
     object["channels"] = Json::array();
-    for (const ChannelDrift& channel : drift.channels)
-        object["channels"].push_back(channel_of(channel));
+    for (const ChannelDrift* channel : every_channel_of(drift))
+        object["channels"].push_back(channel_of(*channel));
     object["run"] = run_of(document);
     return object;
 }
@@ -156,10 +213,17 @@ std::string drift_json_text(const DriftDocument& document) {
 }
 
 std::string drift_csv(const DriftDocument& document) {
+    const RunDrift& drift = document.drift;
+    const std::string axis = axis_name(drift);
     std::string text = "channel,unit,minute,value\r\n";
-    put_series(text, "axis at 20 degC", "um", document.drift.axis);
-    for (const ChannelDrift& channel : document.drift.channels)
-        put_series(text, channel.name, channel.unit, channel.series);
+    put_series(text, axis, drift.unit, drift.axis);
+    for (const ChannelDrift* channel : every_channel_of(drift))
+        put_series(text, channel->name, channel->unit, channel->series);
+    put_figure(text, "range", axis, drift.unit, drift.eve.range);
+    put_figure(text, "slope_per_h", axis, drift.unit, drift.slope_per_h);
+    put_figure(text, "E_VE", axis, drift.unit, drift.eve.range);
+    for (const ChannelDrift* channel : every_channel_of(drift))
+        put_figures(text, *channel);
     return text;
 }
 

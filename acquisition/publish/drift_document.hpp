@@ -28,7 +28,8 @@ Result<void> seal_drift(const std::string& run_file);
 
 nlohmann::ordered_json drift_to_json(const DriftDocument& document);
 std::string drift_json_text(const DriftDocument& document);
-/// Every reading: channel, unit, minute, value. Lengths as change against the first, in um.
+/// Every reading: channel, unit, minute, value. Lengths as change against the first, in um. Then
+/// the figures of each channel: "# range" | "# slope_per_h" | "# E_VE", channel, unit, value.
 std::string drift_csv(const DriftDocument& document);
 
 } // namespace axiscal

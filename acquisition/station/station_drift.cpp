@@ -16,12 +16,28 @@ constexpr Duration hear_every = std::chrono::milliseconds{50}; // an abort is he
 constexpr const char* lost_zero = "The laser's counter lost its zero: the readings cannot be "
                                   "compared any more.";
 
+/// E_VE of a sealed test, one millimetre for one degree of a rotary axis. Nothing where the test
+/// was of an axis of the other kind.
+std::optional<Length> eve_of(const nlohmann::json& document, AxisKind kind) {
+    const nlohmann::json::json_pointer place{"/parameters/E_VE/value"};
+    if (!document.is_object() || !document.contains(place) || !document[place].is_number())
+        return std::nullopt;
+    const double value = document[place].get<double>();
+    const bool angle = kind == AxisKind::rotary;
+    const nlohmann::json stated = document.value("unit", nlohmann::json("um"));
+    if (stated != (angle ? "arcsec" : "um") || value < 0) return std::nullopt;
+    constexpr double arcsec_per_degree = 3600;
+    return angle ? mm(value / arcsec_per_degree) : um(value);
+}
+
 } // namespace
 
-/// The far end of the travel: the reading rises away from the interferometer.
+/// The far end of the travel: the reading rises away from the interferometer. A rotary axis rests
+/// at its datum, where the reflectors are square to the beam.
 Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const RunPlan& plan) const {
-    if (plan.axis_kind == AxisKind::rotary)
-        return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
+    if (reads_polygon())
+        return fail(Fault::refused, "an autocollimator whose readings are typed cannot be recorded "
+                                    "against time: state uncertainty.eve by hand");
     if (request.interval <= Duration{} || request.duration < 2 * request.interval)
         return refuse(Fault::bad_request, "duration", "is shorter than two intervals");
     if (request.interval < config_.capture.window)
@@ -29,14 +45,15 @@ Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const Ru
                       "is shorter than capture.window, over which each reading is a mean");
     const Length low = config_.cycle.travel_low, high = config_.cycle.travel_high;
     const Length far = config_.axis.sign > 0 ? high : low;
-    const Length place = request.place_mm ? mm(*request.place_mm) : far;
+    const Length usual = plan.axis_kind == AxisKind::rotary ? plan.datum : far;
+    const Length place = request.place_mm ? mm(*request.place_mm) : usual;
     if (place < low || place > high)
         return refuse(Fault::bad_request, "place_mm", "lies outside the travel of the axis");
     return DriftSetup{request.duration, request.interval, place};
 }
 
-/// The laser that measures the axis first. A thermometer that no run uses stands without a medium:
-/// it must not count as air or material of the axis. Other sensors of the weather are left out.
+/// Every channel of the station, the laser that measures the axis first. One that no run uses
+/// stands without a medium: it must not count as air or material of the axis.
 std::vector<ChannelRecord> Station::every_channel() const {
     const std::vector<int> environment = roles_.environment();
     std::vector<ChannelRecord> records;
@@ -45,10 +62,6 @@ std::vector<ChannelRecord> Station::every_channel() const {
                              channel.kind, channel.medium, channel.correction};
         const bool used = channel.id == roles_.laser ||
                           std::ranges::find(environment, channel.id) != environment.end();
-        const bool weather = channel.kind == ChannelKind::pressure ||
-                             channel.kind == ChannelKind::humidity ||
-                             channel.kind == ChannelKind::carbon_dioxide;
-        if (!used && weather) continue;
         if (!used) record.medium = Medium::none;
         records.push_back(std::move(record));
     }
@@ -119,10 +132,6 @@ void Station::note_drift() {
     const DriftLimits limits{config_.capture.window, config_.axis.air.oldest,
                              config_.capture.minimum_samples};
     auto readings = drift_->recorder.take(scheduler_.now(), history_, latest_, limits);
-    const std::vector<ChannelRecord> recorded = every_channel();
-    std::erase_if(readings, [&](const EnvironmentReading& reading) {
-        return std::ranges::find(recorded, reading.channel, &ChannelRecord::id) == recorded.end();
-    });
     if (!readings.empty()) journal_.note(std::move(readings));
 }
 
@@ -165,13 +174,12 @@ Task<Result<void>> Station::adopt_eve(RunRecord& header, RunAttachments& attachm
                                                     config_.eve_run, header.statements.axis);
     if (!found) co_return tl::unexpected<Error>(found.error());
     const auto document = nlohmann::json::parse(found->document, nullptr, false);
-    const nlohmann::json::json_pointer place{"/parameters/E_VE/value"};
-    const bool known = document.is_object() && document.contains(place) &&
-                       document[place].is_number() && document[place].get<double>() >= 0;
-    if (!known)
-        co_return fail(Fault::bad_run_file, "the drift test " + found->run_id + " states no E_VE");
+    const std::optional<Length> eve = eve_of(document, header.plan.axis_kind);
+    if (!eve)
+        co_return fail(Fault::bad_run_file, "the drift test " + found->run_id +
+                                                " states no E_VE in the unit of this axis");
     if (!header.uncertainty) header.uncertainty.emplace();
-    header.uncertainty->eve = um(document[place].get<double>());
+    header.uncertainty->eve = *eve;
     attachments.eve_source = found->run_id;
     co_return Result<void>{};
 }

@@ -66,6 +66,23 @@ DriftRange largest_window_range(const DriftSeries& series, double window) {
     return largest;
 }
 
+std::optional<double> least_squares_slope(const DriftSeries& series) {
+    const std::size_t count = series.times.size();
+    if (count < 2) return std::nullopt;
+    const double first_t = series.times.front(), first_x = series.readings.front();
+    double mean_t = 0, mean_x = 0, tt = 0, tx = 0; // all against the first sample
+    for (std::size_t i = 0; i < count; ++i) {
+        mean_t += (series.times[i] - first_t) / static_cast<double>(count);
+        mean_x += (series.readings[i] - first_x) / static_cast<double>(count);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double from_mean = series.times[i] - first_t - mean_t;
+        tt += from_mean * from_mean;
+        tx += from_mean * (series.readings[i] - first_x - mean_x);
+    }
+    return tx / tt;
+}
+
 std::optional<double> change_at(const DriftSeries& series, double time) {
     const auto& t = series.times;
     const auto& x = series.readings;

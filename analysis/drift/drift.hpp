@@ -31,6 +31,10 @@ DriftRange total_range(const DriftSeries& series);
 /// of equal windows is given.
 DriftRange largest_window_range(const DriftSeries& series, double window);
 
+/// Slope of the least-squares line through all samples, reading per time; empty with fewer than
+/// two. Sums are taken about the means, so that no digits go with a far origin.
+std::optional<double> least_squares_slope(const DriftSeries& series);
+
 /// Reading against the first one at a time: linear between the samples beside it. Empty outside
 /// the record.
 std::optional<double> change_at(const DriftSeries& series, double time);

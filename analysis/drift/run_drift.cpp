@@ -1,8 +1,6 @@
 #include "analysis/drift/run_drift.hpp"
 
-#include "analysis/air_refraction.hpp"
-#include "analysis/environment_history.hpp"
-#include "analysis/thermal_compensation.hpp"
+#include "analysis/drift/resting_axis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,7 @@
 namespace axiscal {
 namespace {
 
-constexpr double seconds_a_minute = 60;
+constexpr double seconds_a_minute = 60, minutes_an_hour = 60;
 
 /// The channel that measures the axis: the displacement of the run's laser.
 const ChannelRecord* laser_channel_of(const RunRecord& run) {
@@ -29,6 +27,11 @@ std::vector<EnvironmentReading> readings_of(const RunRecord& run, int channel) {
     return readings;
 }
 
+std::optional<double> slope_per_hour(const DriftSeries& series) {
+    const auto per_minute = least_squares_slope(series);
+    return per_minute ? std::optional{*per_minute * minutes_an_hour} : std::nullopt;
+}
+
 /// As stored, or a length in um.
 ChannelDrift drift_of(const ChannelRecord& channel,
                       const std::vector<EnvironmentReading>& readings,
@@ -36,6 +39,7 @@ ChannelDrift drift_of(const ChannelRecord& channel,
                       double window_min) {
     ChannelDrift drift;
     drift.name = channel.name;
+    drift.instrument = channel.instrument;
     drift.place = channel.place;
     drift.kind = channel.kind;
     drift.medium = channel.medium;
@@ -54,62 +58,24 @@ ChannelDrift drift_of(const ChannelRecord& channel,
     if (drift.series.times.empty()) return drift;
     drift.total = total_range(drift.series);
     drift.window = largest_window_range(drift.series, window_min);
+    drift.slope_per_h = slope_per_hour(drift.series);
     return drift;
 }
 
-/// Carries the readings of the resting axis to 20 degC.
-class RestingAxis {
-public:
-    RestingAxis(const RunRecord& run, const DriftSetup& setup)
-        : run_{run}
-        , environment_{run}
-        , from_datum_{(setup.place - run.plan.datum) * static_cast<double>(run.laser.sign)}
-        , cosine_{cosine_factor_of(run.laser)} {}
+/// Coordinates in um, or in seconds of arc.
+double in_unit_of_axis(const RunRecord& run, Length coordinate) {
+    constexpr double arcsec_per_degree = 3600;
+    return run.rotary ? coordinate.in(mm)*arcsec_per_degree : coordinate.in(um);
+}
 
-    /// Coordinate of the axis; the first call fixes where it stands.
-    Result<Length> coordinate(const EnvironmentReading& reading) {
-        AXISCAL_TRY(const Temperature material, environment_.material_at(reading.at, "drift"));
-        AXISCAL_TRY(const Length length, run_.scale ? by_scale(reading) : by_laser(reading));
-        const Length at_20C =
-            displacement_at_20C(length, run_.material.coefficient, material, run_.material.form);
-        return at_20C * static_cast<double>(run_.laser.sign);
-    }
-
-private:
-    Result<Length> by_laser(const EnvironmentReading& reading) {
-        AXISCAL_TRY(const AirState air, environment_.air_at(reading.at, "drift"));
-        AXISCAL_TRY(const Refractivity index, refractivity_of(run_.air.formula, air));
-        if (!first_m_) first_m_ = reading.value, n0_minus_1_ = index.n_minus_1;
-        const Length vacuum = from_datum_ * (1 + n0_minus_1_) + metre(reading.value - *first_m_);
-        return displacement_in_air(vacuum, index.n_minus_1, n0_minus_1_, run_.laser.dead_path) *
-               cosine_;
-    }
-
-    /// As if the scale had been zeroed at the datum: (D_0 / (1 + s_0) + V - V_0) (1 + s).
-    Result<Length> by_scale(const EnvironmentReading& reading) {
-        AXISCAL_TRY(const Temperature scale, environment_.scale_at(reading.at, "drift"));
-        const Expansion alpha = run_.scale->coefficient;
-        if (!first_m_) {
-            first_m_ = reading.value;
-            counted_at_first_ =
-                from_datum_ / displacement_by_scale(metre(1), alpha, scale).in(metre);
-        }
-        const Length counted = counted_at_first_ + metre(reading.value - *first_m_);
-        return displacement_by_scale(counted, alpha, scale);
-    }
-
-    const RunRecord& run_;
-    EnvironmentHistory environment_;
-    Length from_datum_, counted_at_first_;
-    double cosine_;
-    std::optional<double> first_m_;
-    double n0_minus_1_ = 0;
-};
+/// A change of the bare reading, for the angle that it shows with the reflectors square.
+double bare_in_unit_of_axis(const RunRecord& run, Length change) {
+    return run.rotary ? radian(change / run.rotary->arm).in(arcsec) : change.in(um);
+}
 
 void follow_axis(const RunRecord& run,
                  const std::vector<EnvironmentReading>& readings,
-                 RunDrift& drift,
-                 DriftSeries& as_read) {
+                 RunDrift& drift) {
     RestingAxis axis{run, drift.setup};
     std::optional<Length> first;
     double first_m = 0;
@@ -122,10 +88,25 @@ void follow_axis(const RunRecord& run,
         if (!first) first = *coordinate, first_m = reading.value;
         const double minute = seconds_of(reading.at - run.opened.before) / seconds_a_minute;
         drift.axis.times.push_back(minute);
-        drift.axis.readings.push_back((*coordinate - *first).in(um));
-        as_read.times.push_back(minute);
-        as_read.readings.push_back(metre(reading.value - first_m).in(um));
+        drift.axis.readings.push_back(in_unit_of_axis(run, *coordinate - *first));
+        drift.bare.times.push_back(minute);
+        drift.bare.readings.push_back(bare_in_unit_of_axis(run, metre(reading.value - first_m)));
     }
+}
+
+/// A linear axis has no artefact; a rotary one needs a table that something reads.
+Result<void> check_angle(const RunRecord& run) {
+    if (run.plan.axis_kind != AxisKind::rotary) {
+        if (!run.rotary) return {};
+        return fail(Fault::bad_run_file, "the drift test of a linear axis states an artefact of "
+                                         "angles");
+    }
+    if (!run.rotary || run.rotary->method == AngleMethod::polygon)
+        return fail(Fault::refused, "nothing reads the standing rotary axis: a drift test needs an "
+                                    "indexing table under an angular interferometer");
+    if (!(run.rotary->arm > Length{}))
+        return fail(Fault::bad_run_file, "the drift test states no arm of its interferometer");
+    return {};
 }
 
 Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
@@ -133,8 +114,7 @@ Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
         return fail(Fault::incomplete_run,
                     "the drift test was not closed as complete" +
                         (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
-    if (run.plan.axis_kind == AxisKind::rotary)
-        return fail(Fault::refused, "a rotary axis has no length to bring to 20 degC");
+    AXISCAL_CHECK(check_angle(run));
     if (!laser_channel_of(run))
         return fail(Fault::bad_run_file, "the drift test holds no channel of its laser or scale");
     if (setup.interval <= Duration{} || setup.duration < setup.interval)
@@ -148,10 +128,10 @@ Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
     AXISCAL_CHECK(check_test(run, setup));
     RunDrift drift;
     drift.setup = setup;
+    if (run.rotary) drift.unit = "arcsec";
     const ChannelRecord& laser = *laser_channel_of(run);
     const auto readings = readings_of(run, laser.id);
-    DriftSeries as_read;
-    follow_axis(run, readings, drift, as_read);
+    follow_axis(run, readings, drift);
     if (auto usable = check_series(drift.axis, "laser", 2); !usable)
         return fail(Fault::incomplete_run, "the drift test has " +
                                                std::to_string(drift.axis.times.size()) +
@@ -161,8 +141,10 @@ Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
         std::max<std::int64_t>(0, planned - static_cast<std::int64_t>(readings.size())));
     drift.eve = total_range(drift.axis);
     drift.window = largest_window_range(drift.axis, drift.window_min);
-    drift.as_read = total_range(as_read);
+    drift.as_read = total_range(drift.bare);
     drift.end_change = drift.axis.readings.back();
+    drift.slope_per_h = slope_per_hour(drift.axis);
+    drift.reading = drift_of(laser, readings, run.opened.before, drift.window_min);
     for (const ChannelRecord& channel : run.channels)
         if (channel.id != laser.id)
             drift.channels.push_back(drift_of(channel, readings_of(run, channel.id),

@@ -13,26 +13,32 @@ namespace axiscal {
 
 /// One channel against time: minutes since the test began, in `unit`.
 struct ChannelDrift {
-    std::string name, place, unit;
+    std::string name, instrument, place, unit;
     ChannelKind kind = ChannelKind::temperature;
     Medium medium = Medium::none;
-    double correction = 0; ///< already in every value, in stored_unit_of(kind)
-    DriftSeries series;
-    DriftRange total, window;
+    double correction = 0;             ///< already in every value, in stored_unit_of(kind)
+    DriftSeries series;                ///< of a length its change against the first reading, um
+    DriftRange total, window;          ///< of a length `total` is its E_VE
+    std::optional<double> slope_per_h; ///< least squares over the test; from two readings on
 };
 
+/// Of a rotary axis every figure of the axis is in seconds of arc, of a linear one in um.
 struct RunDrift {
     DriftSetup setup;
-    double window_min = 60; ///< the shift of interest, one hour (ISO 230-3)
-    /// Change of the axis coordinate as a run would give it, um: in air, at 20 degC.
+    double window_min = 60;  ///< the shift of interest, one hour (ISO 230-3)
+    std::string unit = "um"; ///< of what follows, up to end_change: "um" | "arcsec"
+    /// Change of the axis coordinate as a run would give it: in air, at 20 degC.
     DriftSeries axis;
-    DriftRange eve;        ///< over the whole test: E_VE and u_EVE = E_VE / (2 sqrt 3)
-    DriftRange window;     ///< largest within any window: ETVE
-    DriftRange as_read;    ///< E_VE of the bare readings, in vacuum wavelengths or by the scale
-    double end_change = 0; ///< last against first
-    int missing = 0;       ///< intervals without a good reading of the laser
-    int without_air = 0;   ///< readings of the laser that no fresh air or material belongs to
-    std::vector<ChannelDrift> channels; ///< all but the laser that measures the axis
+    DriftSeries bare;   ///< change of the bare readings at the same times
+    DriftRange eve;     ///< over the whole test: E_VE and u_EVE = E_VE / (2 sqrt 3)
+    DriftRange window;  ///< largest within any window: ETVE
+    DriftRange as_read; ///< E_VE of the bare readings, in vacuum wavelengths or by the scale
+    std::optional<double> slope_per_h; ///< of the coordinate, least squares over the test
+    double end_change = 0;             ///< last against first
+    int missing = 0;                   ///< intervals without a good reading of the laser
+    int without_air = 0;  ///< readings of the laser that no fresh air or material belongs to
+    ChannelDrift reading; ///< the channel that measures the axis: every reading of it, as counted
+    std::vector<ChannelDrift> channels; ///< all others; one that stayed silent has no reading
 };
 
 /// The reading of the laser is carried to 20 degC as every point of a run is
@@ -42,8 +48,15 @@ struct RunDrift {
 /// drift = sign (D_20 - D_20 of the first reading). So air and material act on the whole path, as
 /// they do while the axis is measured there. By a linear scale with its strain s and that of the
 /// begin s_0: D = (D_0 / (1 + s_0) + V - V_0) (1 + s).
+/// Of a rotary axis with the indexing table at its position k nearest to the place of rest, the
+/// rest beta_0 = place - datum - k step, and the arm S, V* = n_0 S sin(beta_0) + V - V_0 and
+/// drift = asin(V* / (n S)) - beta_0 (rotary_position.hpp); nothing expands, and what the table
+/// itself is wrong by stays where it is.
+/// Air and material are the channels that bear that medium; every other one is told and acts on
+/// nothing.
 /// @errors Fault::incomplete_run for a test that was not closed as complete, or with fewer than
-/// two usable readings; Fault::refused for a rotary axis; Fault::bad_run_file.
+/// two usable readings; Fault::refused for a rotary axis without an indexing table;
+/// Fault::bad_run_file.
 Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup);
 
 } // namespace axiscal

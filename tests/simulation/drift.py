@@ -11,6 +11,25 @@ CREEP_UM_PER_H = 600.0  # of the axis at rest; the station is not told
 DURATION_S, INTERVAL_S = 12.0, 0.5
 
 
+def expect_every_channel(found, shown, truth_um):
+    """Whatever the station shows is told, with a range, a slope and, of a length, its E_VE."""
+    told = {(one["instrument"], one["channel"]): one for one in found["channels"]}
+    expect(set(told) == {(one["instrument"], one["name"]) for one in shown}, f"{sorted(told)}")
+    for one in shown:
+        channel = told[one["instrument"], one["name"]]
+        if one["value"] is None:
+            continue
+        expect(channel["readings"] > 0 and channel["range"]["value"] >= 0, f"{channel}")
+        expect(channel["readings"] < 2 or channel["slope_per_h"] is not None, f"{channel}")
+        expect(("E_VE" in channel) == (channel["quantity"] == "displacement"), f"{channel}")
+    laser = told["laser", "axis 1"]
+    expect(found["channels"][0] == laser, "what measures the axis stands first")
+    expect(abs(laser["E_VE"]["value"] - truth_um) < 0.1, f"{laser}")
+    # 0.1 um over the test of 11.5 s is 31 um in an hour
+    for slope in (laser["slope_per_h"], found["slope_per_h"]):
+        expect(abs(slope - CREEP_UM_PER_H) < 31, f"{slope} um/h, it crept {CREEP_UM_PER_H}")
+
+
 @sentence("DriftTestFindsTheCreepAndFeedsTheBudgetOfTheNextRun")
 def drift(b):
     b.scenario["errors"]["drift_um_per_hour"] = CREEP_UM_PER_H
@@ -34,12 +53,16 @@ def drift(b):
     expect(abs(eve - truth) < 0.1, f"E_VE {eve} um, the axis crept {truth} um")
     expect(found["test"]["readings"] == DURATION_S / INTERVAL_S, f"{found['test']}")
     expect(found["run"]["statements"]["operator"] == "Shift 2", f"{found['run']['statements']}")
-    names = {channel["channel"] for channel in found["channels"]}
-    expect({"air temperature", "contact 1", "contact 2"} <= names, f"{names}")
+    expect_every_channel(found, b.status()["channels"], truth)
+    expect(found["budget"]["takes"] == "E_VE" and "channels" in found["budget"]["informative"],
+           f"{found['budget']}")
     expect((folder / "certificate.pdf").read_bytes().startswith(b"%PDF-"), "there is no PDF")
     rows = list(csv.DictReader((folder / "certificate.csv").open(newline="")))
     axis = [row for row in rows if row["channel"] == "axis at 20 degC"]
     expect(len(axis) == found["test"]["readings"], f"{len(axis)} rows")
+    for channel in found["channels"]:
+        told = [row for row in rows if row["channel"] == "# range" and row["unit"] == channel["channel"]]
+        expect(bool(told) == (channel["readings"] > 0), f"{channel['channel']}: {told}")
     checked = json.loads(b.axiscal("verify", ended["file"], "--certificate",
                                    folder / "certificate.json", "--json"))
     expect(checked["findings"] == [] and checked["certificate_findings"] == [], f"{checked}")

@@ -7,6 +7,7 @@ for a thousandth of it.
 
 import json
 import math
+from pathlib import Path
 
 import bench
 from bench import expect, sentence
@@ -131,6 +132,42 @@ def table_does_not_turn(b):
     fault = bench.wait_until("a fault is named", lambda: b.run()["fault"], 60)
     expect(fault in ("beam_lost", "datum_lost"), f"named {fault}")
     expect(b.run()["step"] < 20, f"{b.run()}")
+
+
+@sentence("RotaryDriftTestFindsTheCreepAndFeedsTheBudgetOfTheNextRun")
+def drift(b):
+    rotary(b)
+    creep_um_per_h = 100.0  # a thousandth of a degree each: a tenth of a second of arc in a second
+    duration_s, interval_s = 8.0, 0.5
+    b.scenario["errors"]["drift_um_per_hour"] = creep_um_per_h
+    b.station["uncertainty"] = {"device": "1.2 arcsec", "eve_run": "latest"}
+    b.channels_are_good = lambda: sensors_are_good(b)
+    b.start()
+    ended = json.loads(b.axiscal("drift", "--duration", f"{duration_s} s", "--interval",
+                                 f"{interval_s} s", "--wait", "--json"))
+    expect(ended["state"] == "complete" and ended["missing"] == 0, f"{ended}")
+    folder = Path(ended["certificate"])
+    found = json.loads((folder / "certificate.json").read_text())
+    expect(found["unit"] == "arcsec" and found["test"]["place_deg"] == -2, f"{found['test']}")
+    eve = found["parameters"]["E_VE"]["value"]
+    # 0.07 seconds of arc of noise a sample, fifty in a window: 0.01 a reading, the range of 16 of
+    # them four times that. The first reading lies one interval after the begin.
+    truth = creep_um_per_h * 3.6 / 3600 * (duration_s - interval_s)
+    expect(abs(eve - truth) < 0.1, f"E_VE {eve} arcsec, the axis crept {truth}")
+    expect((folder / "certificate.pdf").read_bytes().startswith(b"%PDF-"), "there is no PDF")
+    checked = json.loads(b.axiscal("verify", ended["file"], "--certificate",
+                                   folder / "certificate.json", "--json"))
+    expect(checked["findings"] == [] and checked["certificate_findings"] == [], f"{checked}")
+
+    b.write_program()
+    b.go_to_datum()
+    b.arm()
+    certificate = b.finish()
+    expect(any(ended["id"] in remark for remark in certificate["run"]["remarks"]),
+           f"{certificate['run']['remarks']}")
+    # u(B) = u_EVE sqrt(2 / n) with u_EVE = E_VE / (2 sqrt 3) and n = 2; U = 2 u, in degrees.
+    U = certificate["parameters"]["B"]["expanded_uncertainty"]["value"]
+    expect(abs(U * 3600 - 2 * eve / (2 * 3 ** 0.5)) < 1e-6, f"U(B) = {U} deg, E_VE {eve} arcsec")
 
 
 if __name__ == "__main__":

@@ -1,20 +1,13 @@
 #include "acquisition/publish/report/drift_pages.hpp"
 
-#include "acquisition/publish/report/back_parts.hpp"
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/drift_plot.hpp"
 #include "analysis/certificate_expiry.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace axiscal {
 namespace {
-
-std::string place_words(const RunDrift& drift) {
-    return fixed(drift.setup.place.in(mm), 3) + " mm";
-}
 
 std::string next_due(const RunRecord& run) {
     return run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
@@ -40,8 +33,9 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const DriftDocument& docume
                       {"Procedure", stated(said.procedure)},
                       {"Serial number", stated(said.machine_serial)},
                       {"Control compensation", stated(said.control_compensation)},
-                      {"Axis", stated(said.axis) + ", at rest at " + place_words(document.drift)},
-                      {"Reference temperature", "20 °C; E_VE and ETVE hold there"}},
+                      {"Axis", stated(said.axis) + ", at rest at " + drift_place_words(document)},
+                      {"Reference temperature", run.rotary ? "none: an angle does not expand"
+                                                           : "20 °C; E_VE and ETVE hold there"}},
                      2, 2);
     sheet.advance(5);
     return shortened;
@@ -61,12 +55,14 @@ void draw_figures(Sheet& sheet, const RunDrift& drift) {
          fixed_up(drift.eve.u_eve, decimals), "", ""},
         row("ETVE", "Largest range within any " + hour, drift.window),
         {"", "Last reading against the first", fixed(drift.end_change, decimals), "", ""},
+        {"", "Slope of the straight line through all readings, in an hour",
+         drift.slope_per_h ? fixed(*drift.slope_per_h, decimals) : "–", "", ""},
         {"", "Range as read, without any compensation", fixed(drift.as_read.range, decimals), "",
          ""}};
     sheet.advance(3);
     sheet.table({{"", "", Align::left},
                  {"Figure", "", Align::left},
-                 {"Value, µm", ""},
+                 {"Value, " + drift_unit_on_paper(drift), ""},
                  {"From, min", ""},
                  {"To, min", ""}},
                 rows);
@@ -85,12 +81,21 @@ std::string gaps_words(const RunDrift& drift) {
     return words;
 }
 
-void draw_rule(Sheet& sheet, const RunDrift& drift) {
-    sheet.text("E_VE: largest minus smallest coordinate of the resting axis at 20 °C, "
-               "as a run would have given it. ETVE: the same within an hour. Positive changes go "
-               "towards + of the coordinate. What is left after the compensation is the "
-               "environment's share: machine, set-up and sensors together.",
-               note_style);
+std::string rule_words(bool rotary) {
+    return std::string{"E_VE: largest minus smallest coordinate of the resting axis"} +
+           (rotary ? "" : " at 20 °C") +
+           ", as a run would have given it. ETVE: the same within an hour. Positive changes go "
+           "towards + of the coordinate. " +
+           (rotary ? "What is left after the air is taken out"
+                   : "What is left after the compensation") +
+           " is the environment's share: machine, set-up and sensors together. The budget of later "
+           "runs takes E_VE (ISO 230-2, annex " +
+           (rotary ? "B" : "A") + "); every other figure and channel of this test is informative.";
+}
+
+void draw_rule(Sheet& sheet, const DriftDocument& document) {
+    const RunDrift& drift = document.drift;
+    sheet.text(rule_words(document.run.rotary.has_value()), note_style);
     const auto& times = drift.axis.times;
     if (times.back() - times.front() < drift.window_min)
         sheet.text("The test is shorter than " + fixed(drift.window_min, 0) +
@@ -98,94 +103,6 @@ void draw_rule(Sheet& sheet, const RunDrift& drift) {
                    note_style);
     if (const std::string gaps = gaps_words(drift); !gaps.empty())
         sheet.text(gaps, {7.5, true, backward_vermilion});
-}
-
-TableRow channel_row(const ChannelDrift& channel) {
-    const ChannelPaper paper = drift_paper_of(channel.kind, channel.medium);
-    const bool length = channel.kind == ChannelKind::displacement;
-    const auto& readings = channel.series.readings;
-    const auto value = [&](double stored) {
-        return readings.empty() ? std::string{"–"} : fixed(stored * paper.factor, paper.decimals);
-    };
-    const double correction = length ? metre(channel.correction).in(um) : channel.correction;
-    return {channel.name,
-            stated(channel.place),
-            paper.quantity,
-            paper.unit,
-            value(readings.empty() ? 0 : readings.front()),
-            value(readings.empty() ? 0 : readings.back()),
-            value(channel.total.range),
-            value(channel.window.range),
-            fixed(correction * paper.factor, paper.decimals),
-            std::to_string(readings.size())};
-}
-
-std::string expansion_words(const MaterialSetup& material) {
-    std::string words = fixed(material.coefficient.si() * 1e6, 2) + " µm/(m·K)";
-    if (material.standard_uncertainty)
-        return words + ", standard uncertainty " +
-               fixed(material.standard_uncertainty->si() * 1e6, 2);
-    return words + ", uncertainty not stated";
-}
-
-/// What read the resting axis; three fields each.
-std::array<StatedField, 3> fields_of_laser(const RunRecord& run) {
-    const bool ciddor = run.air.formula == AirFormula::ciddor;
-    return {{{"Vacuum wavelength", fixed(run.laser.vacuum_wavelength.in(nm), 6) + " nm"},
-             {"Air formula", air_formula_words(ciddor ? "ciddor" : "edlen") + ", CO\u2082 " +
-                                 fixed(run.air.co2_ppm, 0) + " ppm unless measured"},
-             {"Dead path L\u2080", fixed(run.laser.dead_path.in(mm), 1) + " mm"}}};
-}
-
-std::array<StatedField, 3> fields_of_scale(const ScaleSetup& scale) {
-    const std::string u = scale.standard_uncertainty
-                              ? fixed(scale.standard_uncertainty->si() * 1e6, 2) + " µm/(m·K)"
-                              : "not stated";
-    return {{{"Reference", "linear scale, " + fixed(scale.resolution.in(um), 4) + " µm a count"},
-             {"Coefficient of the scale", fixed(scale.coefficient.si() * 1e6, 2) + " µm/(m·K)"},
-             {"Its standard uncertainty", u}}};
-}
-
-std::string carried_words(bool by_scale) {
-    return by_scale ? "scale and material on the distance from the datum. "
-                    : "air on the whole path from the interferometer (dead path included), "
-                      "material on the distance from the datum. ";
-}
-
-void draw_setup(Sheet& sheet, const DriftDocument& document) {
-    const RunRecord& run = document.run;
-    const Statements& said = run.statements;
-    const RunDrift& drift = document.drift;
-    const auto reference = run.scale ? fields_of_scale(*run.scale) : fields_of_laser(run);
-    sheet.heading("Test and conditions");
-    sheet.fields({{"Place of rest", place_words(drift)},
-                  {"Duration", duration_words(drift.setup.duration)},
-                  {"Interval", duration_words(drift.setup.interval)},
-                  {"Readings of the length",
-                   std::to_string(drift.axis.times.size()) + " of " +
-                       std::to_string(drift.setup.duration / drift.setup.interval)},
-                  reference[0],
-                  reference[1],
-                  {"Expansion coefficient α", expansion_words(run.material)},
-                  {"Feedback of the axis", stated(run.material.feedback)},
-                  reference[2],
-                  {"Axis datum", fixed(run.plan.datum.in(mm), 4) + " mm"},
-                  {"Warm-up", stated(said.warm_up)},
-                  {"Positions of idle axes", stated(said.idle_axes)},
-                  {"Offsets of the measuring line", stated(said.offsets)},
-                  {"Note on the sensors", stated(said.sensor_note)},
-                  {"Station", stated(run.station)},
-                  {"Alignment of the beam",
-                   document.attachments.alignment ? "recorded: see below" : "not recorded"}},
-                 2);
-    sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    sheet.text(
-        "Each reading of the " + std::string{run.scale ? "scale" : "laser"} +
-            " is a mean over the capture window of the station file and is carried to 20 °C as "
-            "every point of a run is, " +
-            carried_words(run.scale.has_value()) +
-            "Other channels are as last read in each interval.",
-        note_style);
 }
 
 } // namespace
@@ -199,18 +116,22 @@ std::string duration_words(Duration duration) {
     return fixed(seconds_of(duration), 3) + " s";
 }
 
+std::string drift_place_words(const DriftDocument& document) {
+    return fixed(document.drift.setup.place.in(mm), 3) + (document.run.rotary ? "°" : " mm");
+}
+
 std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument& document) {
     const RunRecord& run = document.run;
     const RunDrift& drift = document.drift;
     draw_front_title(sheet, {"Drift test", run.statements.state,
-                             "Environmental variation E_VE (ISO 230-2) and ETVE (ISO 230-3) of a "
-                             "linear axis at rest, " +
+                             "Environmental variation E_VE (ISO 230-2) and ETVE (ISO 230-3) of a " +
+                                 std::string{run.rotary ? "rotary" : "linear"} + " axis at rest, " +
                                  duration_words(drift.setup.duration) + ", a reading each " +
                                  duration_words(drift.setup.interval)});
     auto shortened = draw_identity(sheet, document);
     draw_front_instruments(sheet, run.instruments, run_date_of(run), shortened);
     draw_figures(sheet, drift);
-    draw_rule(sheet, drift);
+    draw_rule(sheet, document);
     constexpr double largest_plot = 340;
     sheet.advance(6);
     const double room = sheet.remaining() - signature_height - 4;
@@ -222,53 +143,6 @@ std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument
                      {"Result SHA-256", stated(document.result_digest)},
                      {"Software", "axiscal, version " + stated(run.software_version)}});
     return shortened;
-}
-
-void draw_drift_channels(Sheet& sheet, const RunDrift& drift) {
-    sheet.new_page();
-    const std::vector<EnvironmentTrace> traces = drift_traces_of(drift);
-    const auto panels = drift_panels_of(traces);
-    constexpr double usual = 88, room_of_heading = 24;
-    const double height =
-        std::min(usual * static_cast<double>(panels.size()), sheet.remaining() - room_of_heading);
-    sheet.heading("All channels over the test", panels.empty() ? 20 : height);
-    if (panels.empty()) {
-        sheet.text("No other channel was recorded.");
-        return;
-    }
-    draw_environment_plot(sheet.canvas(), {Sheet::left, sheet.y(), Sheet::width, height}, panels,
-                          "the beginning of the test");
-    sheet.advance(height + 8);
-    std::vector<TableRow> rows;
-    rows.reserve(drift.channels.size());
-    for (const ChannelDrift& channel : drift.channels)
-        rows.push_back(channel_row(channel));
-    sheet.table({{"Channel", "", Align::left, true},
-                 {"Place of the sensor", "", Align::left, true},
-                 {"Quantity", "", Align::left},
-                 {"Unit", "", Align::left},
-                 {"First", ""},
-                 {"Last", ""},
-                 {"Range", ""},
-                 {"Within an hour", ""},
-                 {"Correction", "included"},
-                 {"Readings", ""}},
-                rows, 7);
-}
-
-void draw_drift_conditions(Sheet& sheet,
-                           const DriftDocument& document,
-                           const std::vector<StatedField>& shortened) {
-    const RunRecord& run = document.run;
-    draw_calibrations(sheet, run.calibrations, run.channels, run_date_of(run));
-    draw_setup(sheet, document);
-    draw_alignment(sheet, document.attachments.alignment);
-    if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
-        draw_instruments(sheet, run.instruments, run_date_of(run));
-    std::vector<std::string> remarks;
-    if (!run.plan.remark.empty()) remarks.push_back(run.plan.remark);
-    draw_remarks(sheet, remarks, shortened);
-    draw_events(sheet, run.events, run.opened);
 }
 
 } // namespace axiscal

@@ -12,7 +12,8 @@ namespace axiscal {
 /// @returns stated fields that did not fit and must be printed in full by the last pages.
 std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument& document);
 
-/// Every other channel against time, and its range.
+/// The axis above, then every other channel, all against one axis of time; range, slope and what
+/// else is known of each.
 void draw_drift_channels(Sheet& sheet, const RunDrift& drift);
 
 /// The test, compensation, alignment, remarks and events.
@@ -20,6 +21,9 @@ void draw_drift_channels(Sheet& sheet, const RunDrift& drift);
 void draw_drift_conditions(Sheet& sheet,
                            const DriftDocument& document,
                            const std::vector<StatedField>& shortened);
+
+/// Where the axis rests: "900.000 mm", of a rotary axis "-2.000°". Pure.
+std::string drift_place_words(const DriftDocument& document);
 
 /// "30 min", "90 s", "12 h": the largest unit in which it is whole, else seconds with a point.
 /// Pure.

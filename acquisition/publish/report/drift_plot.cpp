@@ -9,7 +9,7 @@ namespace axiscal {
 namespace {
 
 constexpr double seconds_a_minute = 60;
-constexpr double least_span_um = 0.05; ///< the plot never magnifies noise beyond this
+constexpr double least_span_um = 0.05; ///< or arcsec: no plot magnifies noise beyond this
 constexpr double room_of_figure = 62;  ///< right of the frame, for E_VE
 constexpr double room_of_times = 24;
 constexpr Stroke dashed_grey{grey, 0.7, true};
@@ -28,8 +28,22 @@ Extremes extremes_of(const DriftSeries& axis, const PlotFrame& frame, double per
     return {point(low), point(high)};
 }
 
+/// "1.70 µm", "0.612″".
+std::string drift_figure(const RunDrift& drift, double range) {
+    const std::string unit = drift_unit_on_paper(drift);
+    return fixed(range, drift_decimals(range)) + (unit == "µm" ? " " : "") + unit;
+}
+
+std::string resting_axis_words(const RunDrift& drift) {
+    return std::string{"Axis at rest, change of its coordinate"} +
+           (drift.unit == "um" ? " at 20 °C" : "");
+}
+
 /// From the two readings to the right, and their distance there.
-void draw_figure(Canvas& canvas, const PlotFrame& frame, const Extremes& at, double range_um) {
+void draw_figure(Canvas& canvas,
+                 const PlotFrame& frame,
+                 const Extremes& at,
+                 const RunDrift& drift) {
     const double x = frame.box.right() + 9, tip = 3;
     for (const PagePoint& point : {at.low, at.high}) {
         canvas.line(point, {x + 4, point.y}, dashed_grey);
@@ -43,7 +57,7 @@ void draw_figure(Canvas& canvas, const PlotFrame& frame, const Extremes& at, dou
     }
     const double middle = (at.low.y + at.high.y) / 2;
     canvas.text({x + 8, middle - 1}, "E_VE", {8, true});
-    canvas.text({x + 8, middle + 9}, fixed(range_um, drift_decimals(range_um)) + " µm", {8, true});
+    canvas.text({x + 8, middle + 9}, drift_figure(drift, drift.eve.range), {8, true});
 }
 
 /// The hour in which the range is largest.
@@ -58,8 +72,15 @@ void shade_hour(Canvas& canvas, const PlotFrame& frame, const RunDrift& drift, d
                  {begin, frame.box.bottom()}},
                 forward_blue, 0.09);
     canvas.text({(begin + end) / 2, frame.box.y + 9},
-                "ETVE " + fixed(drift.window.range, drift_decimals(drift.window.range)) + " µm",
-                tick_style, Align::centre);
+                "ETVE " + drift_figure(drift, drift.window.range), tick_style, Align::centre);
+}
+
+EnvironmentTrace
+trace_of(std::string name, ChannelKind kind, Medium medium, const DriftSeries& series) {
+    DriftSeries drawn = as_drawn(series);
+    for (double& time : drawn.times)
+        time *= seconds_a_minute;
+    return {std::move(name), kind, medium, std::move(drawn.times), std::move(drawn.readings)};
 }
 
 bool goes_there(const EnvironmentTrace& drawn, ChannelKind kind, Medium medium) {
@@ -80,7 +101,7 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
     frame.y = ticks_around(low, high, 6, least_span_um);
     const double labels = widest(canvas, frame.y) + 6;
     constexpr double title = 14;
-    canvas.text({box.x, box.y + 8}, "Axis at rest, change of its coordinate at 20 °C, µm",
+    canvas.text({box.x, box.y + 8}, resting_axis_words(drift) + ", " + drift_unit_on_paper(drift),
                 {7.5, true});
     frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_figure,
                  box.height - title - room_of_times};
@@ -94,7 +115,7 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
     for (std::size_t i = 0; i < drawn.times.size(); ++i)
         points.push_back({frame.px(drawn.times[i] * per_minute), frame.py(drawn.readings[i])});
     canvas.polyline(points, {forward_blue, 0.9});
-    draw_figure(canvas, frame, extremes_of(axis, frame, per_minute), drift.eve.range);
+    draw_figure(canvas, frame, extremes_of(axis, frame, per_minute), drift);
     canvas.text({frame.box.right(), box.bottom() - 3},
                 "Time since the beginning of the test, " + scale.unit, label_style, Align::right);
 }
@@ -102,15 +123,28 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
 std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift) {
     std::vector<EnvironmentTrace> traces;
     traces.reserve(drift.channels.size());
-    for (const ChannelDrift& channel : drift.channels) {
-        if (channel.series.readings.empty()) continue;
-        DriftSeries drawn = as_drawn(channel.series);
-        for (double& time : drawn.times)
-            time *= seconds_a_minute;
-        traces.push_back({channel.name, channel.kind, channel.medium, std::move(drawn.times),
-                          std::move(drawn.readings)});
-    }
+    for (const ChannelDrift& channel : drift.channels)
+        if (!channel.series.readings.empty())
+            traces.push_back(trace_of(channel.name, channel.kind, channel.medium, channel.series));
     return traces;
+}
+
+std::vector<EnvironmentTrace> drift_axis_traces_of(const RunDrift& drift) {
+    const auto trace = [](const char* name, const DriftSeries& series) {
+        return trace_of(name, ChannelKind::displacement, Medium::none, series);
+    };
+    return {trace(drift.unit == "um" ? "at 20 °C" : "in air", drift.axis),
+            trace("as read", drift.bare)};
+}
+
+EnvironmentPanel drift_axis_panel_of(const RunDrift& drift,
+                                     const std::vector<EnvironmentTrace>& traces) {
+    EnvironmentPanel panel{{"Axis at rest, change", drift_unit_on_paper(drift), 1,
+                            drift_decimals(drift.eve.range), least_span_um},
+                           {}};
+    for (const EnvironmentTrace& drawn : traces)
+        panel.traces.push_back(&drawn);
+    return panel;
 }
 
 std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace>& traces) {
@@ -141,9 +175,13 @@ ChannelPaper drift_paper_of(ChannelKind kind, Medium medium) {
     return paper;
 }
 
-int drift_decimals(double range_um) {
-    if (range_um < 1) return 3;
-    return range_um < 100 ? 2 : 1;
+int drift_decimals(double range) {
+    if (range < 1) return 3;
+    return range < 100 ? 2 : 1;
+}
+
+std::string drift_unit_on_paper(const RunDrift& drift) {
+    return drift.unit == "arcsec" ? "″" : "µm";
 }
 
 DriftSeries as_drawn(const DriftSeries& series) {

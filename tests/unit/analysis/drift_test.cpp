@@ -57,6 +57,17 @@ TEST(DriftLaws, LargestWindowIsWhatAllPairsSay) {
     }
 }
 
+TEST(Drift, SlopeIsThatOfTheLeastSquaresLine) {
+    // Means 1.75 and 2.75: sum dt^2 = 8.75, sum dt dx = 7.75.
+    EXPECT_NEAR(least_squares_slope({{0, 1, 2, 4}, {1, 3, 2, 5}}).value(), 7.75 / 8.75, 1e-14);
+    // The same far from the origin of both: nothing goes with the large numbers.
+    const DriftSeries far{{1e9, 1e9 + 1, 1e9 + 2, 1e9 + 4}, {101'001, 101'003, 101'002, 101'005}};
+    EXPECT_NEAR(least_squares_slope(far).value(), 7.75 / 8.75, 1e-14);
+    EXPECT_EQ(least_squares_slope({{0, 1}, {2, 2}}).value(), 0);
+    EXPECT_FALSE(least_squares_slope({{3}, {1}}));
+    EXPECT_FALSE(least_squares_slope({}));
+}
+
 TEST(DriftLaws, ShiftScaleAndReversalOfTime) {
     std::mt19937_64 random{2};
     for (int trial = 0; trial < 200; ++trial) {

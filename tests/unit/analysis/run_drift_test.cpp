@@ -130,6 +130,123 @@ TEST(RunDrift, ShowsEveryOtherChannelInItsUnit) {
     EXPECT_NEAR(drift->channels[3].total.range, 0.5, 1e-9);
 }
 
+TEST(RunDrift, GivesEachChannelItsSlopeInAnHour) {
+    Hall hall;
+    hall.material_C = [](double s) { return 22 + s / 1200; }; // 3 K in an hour
+    hall.creep_um = [](double s) { return s / 100; };         // 36 um in an hour
+    const auto drift = evaluate_drift(hall.record(600), hall.setup());
+    ASSERT_TRUE(drift);
+    EXPECT_NEAR(drift->slope_per_h.value(), 36, 0.01);
+    EXPECT_NEAR(drift->channels[3].slope_per_h.value(), 3, 1e-9);
+    EXPECT_NEAR(drift->channels[1].slope_per_h.value(), 0, 1e-9);
+}
+
+TEST(RunDrift, TellsTheReadingOfTheLaserAsAChannelOfItsOwn) {
+    Hall hall;
+    hall.air_C = [](double s) { return 20 + s / 600; }; // 1 K: 0.95 um/m on 1.05 m
+    const auto drift = evaluate_drift(hall.record(600), hall.setup());
+    ASSERT_TRUE(drift);
+    EXPECT_EQ(drift->reading.name, "axis 1");
+    EXPECT_EQ(drift->reading.instrument, "laser");
+    EXPECT_EQ(drift->reading.unit, "um");
+    EXPECT_EQ(drift->reading.series.times.size(), 61U);
+    EXPECT_NEAR(drift->reading.total.range, 0.95 * 1.05, 0.02);
+    EXPECT_NEAR(drift->reading.slope_per_h.value(), -0.95 * 1.05 * 6, 0.12);
+}
+
+/// A gauge that sees 2.5 um, a barometer 2000 Pa off, a thermometer 5 K off, a fifth of CO2 more,
+/// and a hygrometer that never speaks: none of them is of the axis.
+void add_bystanders(RunRecord& run) {
+    const auto none = Medium::none;
+    run.channels.push_back({10, "gauge", "gauge", "table", ChannelKind::displacement, none, 0});
+    run.channels.push_back({11, "hall", "hall", "door", ChannelKind::pressure, none, 0});
+    run.channels.push_back({12, "spindle", "hall", "nose", ChannelKind::temperature, none, 0});
+    run.channels.push_back({13, "CO2", "hall", "door", ChannelKind::carbon_dioxide, none, 0});
+    run.channels.push_back({14, "damp", "hall", "door", ChannelKind::humidity, none, 0});
+    for (double s = 0; s <= 600; s += 10) {
+        const double share = s / 600;
+        const double values[] = {0.1 + 2.5e-6 * share, 103325 + 50 * share, 25 + share,
+                                 500 + 100 * share};
+        for (int i = 0; i < 4; ++i)
+            run.environment.push_back({10 + i, at_seconds(s), values[i]});
+    }
+}
+
+TEST(RunDrift, TellsWhatIsNotOfTheAxisAndLetsItActOnNothing) {
+    const Hall hall;
+    const auto alone = evaluate_drift(hall.record(600), hall.setup());
+    RunRecord run = hall.record(600);
+    add_bystanders(run);
+    const auto drift = evaluate_drift(run, hall.setup());
+    ASSERT_TRUE(alone && drift);
+    EXPECT_EQ(drift->axis.readings, alone->axis.readings);
+    EXPECT_EQ(drift->without_air, 0);
+    ASSERT_EQ(drift->channels.size(), 9U);
+    EXPECT_NEAR(drift->channels[4].total.range, 2.5, 1e-9);
+    EXPECT_NEAR(drift->channels[4].total.u_eve, 2.5 / std::sqrt(12.0), 1e-9);
+    EXPECT_NEAR(drift->channels[5].total.range, 50, 1e-9);
+    EXPECT_NEAR(drift->channels[5].slope_per_h.value(), 300, 1e-6);
+    EXPECT_NEAR(drift->channels[7].total.range, 100, 1e-9);
+    EXPECT_EQ(drift->channels[8].name, "damp");
+    EXPECT_TRUE(drift->channels[8].series.readings.empty());
+    EXPECT_FALSE(drift->channels[8].slope_per_h);
+}
+
+/// A rotary axis at rest at 12.4 degrees, of which the table has taken back three steps of 5
+/// degrees since the datum at -2: 0.6 degrees short of square. It creeps by 4 seconds of arc while
+/// the air warms up by 1 K.
+struct Turntable {
+    double arm_mm = 32.61;
+    int sign = 1;
+    [[nodiscard]] RunRecord record() const {
+        Hall hall;
+        RunRecord run = hall.record(600);
+        run.environment.clear();
+        run.plan.axis_kind = AxisKind::rotary;
+        run.plan.datum = mm(-2);
+        run.laser.sign = sign;
+        run.laser.dead_path = Length{};
+        RotarySetup& rotary = run.rotary.emplace();
+        rotary.step_deg = 5;
+        rotary.arm = mm(arm_mm);
+        rotary.deviations_arcsec.assign(72, 1.5);
+        run.channels.resize(4); // no sensor of material
+        for (double s = 0; s <= 600; s += 10) {
+            const double rest_rad = (-0.6 + 4 * s / 600 / 3600) * std::acos(-1.0) / 180;
+            const double path_m =
+                sign * arm_mm * 1e-3 * std::sin(rest_rad) * index_of(20 + s / 600, 101325);
+            const double values[] = {path_m + 0.3, 20 + s / 600, 101325, 50};
+            for (int channel = 0; channel < 4; ++channel)
+                run.environment.push_back({channel, at_seconds(s), values[channel]});
+        }
+        return run;
+    }
+    static DriftSetup setup() {
+        return {std::chrono::minutes{10}, std::chrono::seconds{10}, mm(12.4)};
+    }
+};
+
+TEST(RunDrift, OfARotaryAxisIsInSecondsOfArcAndNeedsNoMaterial) {
+    for (const int sign : {1, -1}) {
+        Turntable table;
+        table.sign = sign;
+        const auto drift = evaluate_drift(table.record(), Turntable::setup());
+        ASSERT_TRUE(drift) << describe(drift.error());
+        EXPECT_EQ(drift->unit, "arcsec");
+        EXPECT_EQ(drift->without_air, 0);
+        EXPECT_NEAR(drift->eve.range, 4, 1e-6);
+        EXPECT_NEAR(drift->end_change, 4, 1e-6);
+        EXPECT_NEAR(drift->slope_per_h.value(), 24, 1e-4);
+        // 1 K of air is 0.95e-6 of the 0.6 degrees: 0.002 seconds of arc that the reading adds;
+        // it is short by 1 - cos(0.6 degrees), and longer by n.
+        EXPECT_NEAR(drift->as_read.range, 4 * (1 + 2.7e-4) * std::cos(0.6 * 0.0174533) + 0.00205,
+                    2e-4);
+        // Of the interferometer: S times the angle.
+        EXPECT_NEAR(drift->reading.total.range, 4 / 206264.8 * 32.61e3, 1e-3);
+        EXPECT_EQ(drift->reading.unit, "um");
+    }
+}
+
 TEST(RunDrift, CountsWhatIsMissingAndWhatHasNoAir) {
     Hall hall;
     RunRecord run = hall.record(600);
@@ -154,6 +271,12 @@ TEST(RunDrift, RefusesWhatIsNoTest) {
     RunRecord rotary = hall.record(600);
     rotary.plan.axis_kind = AxisKind::rotary;
     EXPECT_EQ(evaluate_drift(rotary, hall.setup()).error().fault, Fault::refused);
+    RunRecord typed = Turntable{}.record();
+    typed.rotary->method = AngleMethod::polygon;
+    EXPECT_EQ(evaluate_drift(typed, Turntable::setup()).error().fault, Fault::refused);
+    RunRecord armless = Turntable{}.record();
+    armless.rotary->arm = Length{};
+    EXPECT_EQ(evaluate_drift(armless, Turntable::setup()).error().fault, Fault::bad_run_file);
     RunRecord blind = hall.record(600);
     blind.channels.erase(blind.channels.begin());
     EXPECT_EQ(evaluate_drift(blind, hall.setup()).error().fault, Fault::bad_run_file);

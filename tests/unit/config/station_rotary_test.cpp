@@ -77,6 +77,17 @@ TEST(StationConfig, ReadsTheBudgetOfAnnexBInSecondsOfArc) {
     EXPECT_NEAR(stated.targets[0].limit.in(mm)*3600, 2, 1e-12);
 }
 
+TEST(StationConfig, PointsToADriftTestOfARotaryAxis) {
+    const std::string table = rotary_text() + "\n[uncertainty]\neve_run = \"latest\"\n";
+    const Reading reading = read_text(table);
+    EXPECT_EQ(reading.told, "");
+    EXPECT_EQ(reading.config.eve_run, "latest");
+    ASSERT_TRUE(reading.config.uncertainty);
+    EXPECT_FALSE(reading.config.uncertainty->eve);
+    expect_refused_once(read_text(table + "eve = \"1 arcsec\"\n"),
+                        "uncertainty.eve_run: stands beside");
+}
+
 /// The rotary example with other lines in [axis.angle].
 Reading read_angle_table(const std::string& lines, bool laser = true) {
     std::string text = rotary_text();

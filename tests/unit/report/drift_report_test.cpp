@@ -16,6 +16,7 @@ namespace axiscal::drift_report_test {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -138,6 +139,52 @@ TEST_F(DriftReport, ShowsEveryChannelWithItsRangeInTheUnitOfPaper) {
         EXPECT_THAT(text, HasSubstr(words));
 }
 
+TEST_F(DriftReport, TellsTheSlopeOfEachChannelAndWhatTheBudgetTakes) {
+    const std::string text = test::text_of(render(document_of(creeping(steady_creep_um))));
+    // 6 um in 7190 s of the axis; the spindle 1 K and the gauge 2.5 um in two hours
+    for (const char* words : {"3.00", "0.500", "1.250", "Slope", "informative", "axis 1",
+                              "Axis at rest, change, µm", "as read"})
+        EXPECT_THAT(text, HasSubstr(words));
+}
+
+TEST_F(DriftReport, ShowsAChannelThatStayedSilent) {
+    RunRecord run = creeping(steady_creep_um);
+    run.channels.push_back(
+        {15, "hygrometer", "hall", "door", ChannelKind::humidity, Medium::none, 0});
+    const std::string text = test::text_of(render(document_of(std::move(run))));
+    EXPECT_THAT(text, ContainsRegex("hygrometer +door +Relative humidity, % +(– +){5}0\\.0 +0\n"));
+}
+
+/// At its datum, where the reflectors are square; 3.6 seconds of arc in two hours.
+RunRecord turning() {
+    RunRecord run = creeping([](double) { return 0; });
+    run.plan.axis_kind = AxisKind::rotary;
+    run.plan.datum = mm(900);
+    run.laser.sign = 1;
+    RotarySetup& rotary = run.rotary.emplace();
+    rotary.step_deg = 5;
+    rotary.arm = mm(32.61);
+    const double origin_s = seconds_of(run.opened.before.time_since_epoch());
+    for (EnvironmentReading& reading : run.environment)
+        if (reading.channel == 7) {
+            const double s = seconds_of(reading.at.time_since_epoch()) - origin_s;
+            const double creep_rad =
+                3.6 * (s - interval_s) / (two_hours_s - interval_s) / 206264.806;
+            reading.value = index_of_refraction(run) * 32.61e-3 * std::sin(creep_rad);
+        }
+    return run;
+}
+
+TEST_F(DriftReport, OfARotaryAxisIsInSecondsOfArc) {
+    const std::string pdf = render(document_of(turning()));
+    const std::string text = test::text_of(pdf);
+    for (const char* words : {"3.60", "Value, ″", "rotary", "at rest at 900.000°",
+                              "an angle does not expand", "32.6100 mm", "5.0000°"})
+        EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_THAT(text, Not(HasSubstr("coordinate at 20 °C")));
+    EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
+}
+
 TEST_F(DriftReport, OfAShortTestSaysThatItSawNoHour) {
     const auto creep = [](double s) { return s / 600; };
     const std::string text = test::text_of(render(document_of(creeping(creep, 600), 10min)));
@@ -209,6 +256,19 @@ TEST(DriftPlot, PutsEachKindOfChannelIntoItsOwnPanel) {
     EXPECT_THAT(names, ::testing::ElementsAre("Further length, change", "Material temperature",
                                               "Air temperature", "Further temperature",
                                               "Air pressure", "Relative humidity"));
+}
+
+TEST(DriftPlot, PutsTheAxisAboveTheChannelsOnTheSameTime) {
+    const DriftDocument document = document_of(creeping(steady_creep_um));
+    const auto traces = drift_axis_traces_of(document.drift);
+    const EnvironmentPanel panel = drift_axis_panel_of(document.drift, traces);
+    ASSERT_EQ(panel.traces.size(), 2U);
+    EXPECT_EQ(panel.paper.unit, "µm");
+    for (const EnvironmentTrace* drawn : panel.traces) {
+        EXPECT_NEAR(drawn->seconds.front(), interval_s, 1e-9) << drawn->channel;
+        EXPECT_NEAR(drawn->seconds.back(), two_hours_s, 1e-9) << drawn->channel;
+        EXPECT_NEAR(drawn->values.back(), 6, 0.01) << drawn->channel;
+    }
 }
 
 TEST(DriftWords, TellADurationInItsLargestWholeUnit) {

@@ -61,6 +61,54 @@ TEST_F(StationDrifts, RecordsEveryChannelWithoutACnc) {
         EXPECT_GE(channel.series.times.size(), 59U) << channel.name;
 }
 
+/// A scale measures the axis, so that no run uses air; a ballbar stands beside it.
+void measure_by_scale_beside_a_ballbar(Shop& shop) {
+    AxisConfig& axis = shop.config.axis;
+    axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
+    axis.material_temperature = {{"material", "contact 1"}};
+    axis.scale.emplace().temperature = {{"material", "contact 2"}};
+    InstrumentConfig& bar = shop.config.instruments.emplace_back();
+    bar.name = "ballbar";
+    bar.driver = "made";
+    shop.config.ballbar = RoleConfig{"ballbar", "ballbar"};
+    const MonotonicTime since = shop.now;
+    shop.ballbar = [since](MonotonicTime at) { return 1e-8 * seconds_of(at - since); };
+}
+
+TEST_F(StationDrifts, RecordsWhatNoRunUsesWithoutAMedium) {
+    measure_by_scale_beside_a_ballbar(shop);
+    Life life{shop};
+    begin(life, short_test());
+    life.run(70s);
+    const RunFileContents file = contents();
+    ASSERT_EQ(file.run.channels.size(), 7U);
+    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    ASSERT_TRUE(drift) << describe(drift.error());
+    EXPECT_EQ(drift->reading.name, "axis 1");
+    for (const ChannelDrift& channel : drift->channels) {
+        const bool used = channel.instrument == "material";
+        EXPECT_EQ(channel.medium, used ? Medium::material : Medium::none) << channel.name;
+        EXPECT_GE(channel.series.times.size(), 59U) << channel.name;
+    }
+    const ChannelDrift& bar = drift->channels.back();
+    EXPECT_EQ(bar.instrument, "ballbar");
+    EXPECT_NEAR(bar.total.range, 0.59, 0.002); // 0.01 um a second, 59 seconds
+    EXPECT_NEAR(bar.slope_per_h.value(), 36, 0.01);
+}
+
+TEST_F(StationDrifts, AChannelThatStaysSilentIsTold) {
+    Life life{shop};
+    life.air->silent = life.material->silent = true;
+    begin(life, short_test());
+    life.run(70s);
+    const RunFileContents file = contents();
+    EXPECT_EQ(file.run.channels.size(), 6U);
+    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    ASSERT_TRUE(drift) << describe(drift.error()); // the last readings are fresh for a minute
+    for (const ChannelDrift& channel : drift->channels)
+        EXPECT_LE(channel.series.times.size(), 1U) << channel.name;
+}
+
 TEST_F(StationDrifts, SeesTheAxisCreep) {
     Life life{shop};
     shop.axis.go(900, life.scheduler.now());
@@ -183,6 +231,16 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
         EXPECT_NEAR(file->run.uncertainty->eve->in(um), 1.25, 1e-9);
         EXPECT_EQ(file->attachments.eve_source, **id);
     }
+}
+
+TEST_F(StationDrifts, OfAnAxisOfTheOtherKindFeedsNothing) {
+    shop.config.eve_run = "latest";
+    Life life{shop};
+    begin(life, short_test());
+    life.run(70s);
+    const std::string document = R"({"unit":"arcsec","parameters":{"E_VE":{"value":1}}})";
+    ASSERT_TRUE(store_result(shop.run_files().at(0), {sha256_hex(document), document}));
+    EXPECT_EQ(life.arm().error().fault, Fault::bad_run_file);
 }
 
 TEST_F(StationDrifts, OfAnotherAxisIsNotTheRunsOwn) {

@@ -1,6 +1,7 @@
 // A rotary axis at the station: behind an indexing table with the interferometer's readings, and
 // before an autocollimator whose readings are typed.
 #include "analysis/certificate.hpp"
+#include "analysis/drift/run_drift.hpp"
 #include "station_bench.hpp"
 
 #include <cmath>
@@ -247,6 +248,60 @@ TEST(StationRotary, WhatWasTypedIsNotGoneOnWithAfterARestart) {
     const Life again{shop};
     EXPECT_FALSE(again.status().run_open);
     EXPECT_EQ(again.notes_with("was typed before a restart"), 1);
+}
+
+/// A drift test of 20 s, once a second, where the axis stands.
+std::optional<Result<std::string>> test_drift(Life& life) {
+    DriftRequest request;
+    request.duration = 20s;
+    request.interval = 1s;
+    const auto answer = std::make_shared<std::optional<Result<std::string>>>();
+    boost::asio::co_spawn(
+        life.scheduler.loop(), life.station->drift(request),
+        [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
+    life.run(25s);
+    return *answer;
+}
+
+TEST(StationRotary, ADriftTestGivesEveInSecondsOfArcToLaterBudgets) {
+    TableShop shop;
+    shop.config.eve_run = "latest";
+    const MonotonicTime since = shop.now;
+    shop.reading_m = [since](MonotonicTime at) { // it creeps by 0.1 second of arc in a second
+        return arm_mm * 1e-3 * std::sin(0.1 * seconds_of(at - since) / 3600 * rad) * (1 + 2.7e-4);
+    };
+    Life life{shop};
+    const auto id = test_drift(life);
+    ASSERT_TRUE(id && *id) << (id ? describe(id->error()) : "");
+    EXPECT_EQ(life.status().drift->place_mm, -2) << "at the datum, unless said otherwise";
+    const std::string path = shop.run_files().at(0);
+    const auto file = read_run_file_contents(path);
+    ASSERT_TRUE(file && file->attachments.drift);
+    const auto drift = evaluate_drift(file->run, *file->attachments.drift);
+    ASSERT_TRUE(drift) << describe(drift.error());
+    // 19 intervals; the bench's index is 2.7e-4, the air's 2.65e-4.
+    EXPECT_NEAR(drift->eve.range, 1.9, 1e-4);
+    EXPECT_NEAR(drift->slope_per_h.value(), 360, 0.01);
+    const std::string document = R"({"unit":"arcsec","parameters":{"E_VE":{"value":1.9}}})";
+    ASSERT_TRUE(store_result(path, {sha256_hex(document), document}));
+    shop.reading_m = [](MonotonicTime) { return 0.0; };
+    const auto armed = life.arm();
+    ASSERT_TRUE(armed) << describe(armed.error());
+    for (const std::string& one : shop.run_files()) {
+        const auto run = read_run_file_contents(one).value();
+        if (run.attachments.drift) continue;
+        EXPECT_NEAR(run.run.uncertainty.value().eve->in(mm)*3600, 1.9, 1e-9);
+        EXPECT_EQ(run.attachments.eve_source, **id);
+    }
+}
+
+TEST(StationRotary, TypedReadingsAreNotRecordedAgainstTime) {
+    PolygonShop shop;
+    Life life{shop};
+    const auto answer = test_drift(life);
+    ASSERT_TRUE(answer && !*answer);
+    EXPECT_EQ(answer->error().fault, Fault::refused);
+    EXPECT_NE(answer->error().detail.find("uncertainty.eve"), std::string::npos);
 }
 
 TEST(StationRotary, AStationWithAnInterferometerTakesNoTypedReading) {

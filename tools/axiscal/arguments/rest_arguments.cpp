@@ -36,8 +36,9 @@ constexpr const char* drift_footer =
     R"(Example:
   axiscal drift --duration "1 h" --wait
 Let the axis stand where it will be measured longest from the interferometer, servo on, as for the run, and
-leave it alone. No CNC takes part. The range of what is read, at 20 degC, is E_VE: point [uncertainty] eve_run of
-the station file to the test, and later runs carry it in their budget. 'axiscal abort' ends the test early.)";
+leave it alone. Every channel of the station is recorded; no CNC takes part. The range of the axis, at 20 degC,
+is E_VE: point [uncertainty] eve_run of the station file to the test, and later runs carry it in their budget.
+'axiscal abort' ends the test early.)";
 
 void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
     auto* drift = app.add_subcommand(
@@ -46,9 +47,10 @@ void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
         ->capture_default_str();
     drift->add_option("--interval", options.drift.interval, "between two readings")
         ->capture_default_str();
-    drift->add_option("--at", options.drift.place_mm,
-                      "coordinate in mm at which the axis stands; default: the end of the travel "
-                      "far from the interferometer");
+    drift->add_option(
+        "--at", options.drift.place_mm,
+        "coordinate in mm (degrees) at which the axis stands; default: the end of the "
+        "travel far from the interferometer, of a rotary axis its datum");
     drift->add_flag("--wait", options.drift.wait, "wait for the end and the certificate");
     drift->add_option("--state-that", options.statements, "KEY=TEXT for the certificate");
     teach(*drift, drift_footer,

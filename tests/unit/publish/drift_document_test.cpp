@@ -1,0 +1,121 @@
+// What leaves the station of a drift test, as JSON and CSV. The truth is a record made by hand: an
+// axis that creeps by 1 um a minute, a bed that warms up by 0.1 K a minute, a gauge, a silent one.
+#include "acquisition/publish/drift_document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace axiscal::drift_document_test {
+namespace {
+
+constexpr int readings = 11; // one a minute
+
+RunRecord made_run() {
+    RunRecord run;
+    run.run_id = "bench-drift";
+    run.complete = true;
+    run.laser.instrument = "laser";
+    run.laser.vacuum_wavelength = nm(632.991354);
+    run.channels = {{0, "axis 1", "laser", "", ChannelKind::displacement, Medium::none, 0},
+                    {1, "air", "weather", "beam", ChannelKind::temperature, Medium::air, 0},
+                    {2, "pressure", "weather", "beam", ChannelKind::pressure, Medium::air, 0},
+                    {3, "humidity", "weather", "beam", ChannelKind::humidity, Medium::air, 0},
+                    {4, "bed", "contacts", "left", ChannelKind::temperature, Medium::material, 0},
+                    {5, "gauge \"A\"", "gauge", "", ChannelKind::displacement, Medium::none, 0},
+                    {6, "CO2", "hall", "door", ChannelKind::carbon_dioxide, Medium::none, 0}};
+    for (int minute = 0; minute < readings; ++minute) {
+        const double values[] = {1e-6 * minute,        20, 101325, 50, 20 + 0.1 * minute,
+                                 0.5 - 0.2e-6 * minute};
+        for (int channel = 0; channel < 6; ++channel)
+            run.environment.push_back(
+                {channel, monotonic_from_ns(60'000'000'000LL * minute), values[channel]});
+    }
+    return run;
+}
+
+/// At its datum, where neither air nor material acts on a path.
+DriftDocument made_document(RunRecord run = made_run()) {
+    DriftDocument document;
+    document.attachments.drift =
+        DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, run.plan.datum};
+    const auto drift = evaluate_drift(run, *document.attachments.drift);
+    EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
+    document.drift = drift.value_or(RunDrift{});
+    document.run = std::move(run);
+    return document;
+}
+
+TEST(DriftDocument, TellsEveryChannelWithRangeAndSlope) {
+    const auto json = drift_to_json(made_document());
+    EXPECT_EQ(json["unit"], "um");
+    EXPECT_NEAR(json["slope_per_h"].get<double>(), 60, 0.02); // in air: 2.7e-4 shorter
+    const auto& channels = json["channels"];
+    ASSERT_EQ(channels.size(), 7U);
+    EXPECT_EQ(channels[0]["channel"], "axis 1");
+    EXPECT_NEAR(channels[0]["E_VE"]["value"].get<double>(), 10, 1e-9);
+    EXPECT_NEAR(channels[0]["slope_per_h"].get<double>(), 60, 1e-6);
+    EXPECT_EQ(channels[4]["instrument"], "contacts");
+    EXPECT_EQ(channels[4]["medium"], "material");
+    EXPECT_NEAR(channels[4]["range"]["value"].get<double>(), 1, 1e-12);
+    EXPECT_NEAR(channels[4]["slope_per_h"].get<double>(), 6, 1e-9);
+    EXPECT_FALSE(channels[4].contains("E_VE")) << "a temperature has none";
+    EXPECT_NEAR(channels[5]["E_VE"]["value"].get<double>(), 2, 1e-6);
+    EXPECT_NEAR(channels[5]["E_VE"]["u"].get<double>(), 2 / std::sqrt(12.0), 1e-6);
+    EXPECT_NEAR(channels[5]["slope_per_h"].get<double>(), -12, 1e-5);
+}
+
+TEST(DriftDocument, TellsAChannelThatStayedSilent) {
+    const auto json = drift_to_json(made_document());
+    const auto& silent = json["channels"][6];
+    EXPECT_EQ(silent["channel"], "CO2");
+    EXPECT_EQ(silent["readings"], 0);
+    EXPECT_FALSE(silent.contains("range"));
+}
+
+TEST(DriftDocument, SaysWhatTheBudgetTakesAndThatTheRestIsInformative) {
+    const auto budget = drift_to_json(made_document())["budget"];
+    EXPECT_EQ(budget["takes"], "E_VE");
+    EXPECT_EQ(budget["by"], "ISO 230-2 annex A");
+    EXPECT_TRUE(budget["informative"].is_array());
+    EXPECT_EQ(budget["informative"].back(), "channels");
+}
+
+TEST(DriftDocument, HoldsEveryReadingAndTheFiguresOfEachChannelAsCsv) {
+    const std::string csv = drift_csv(made_document());
+    EXPECT_TRUE(csv.starts_with("channel,unit,minute,value\r\n\"axis at 20 degC\",um,0,0\r\n"));
+    const auto count = [&](const std::string& words) {
+        int found = 0;
+        for (auto at = csv.find(words); at != std::string::npos; at = csv.find(words, at + 1))
+            ++found;
+        return found;
+    };
+    for (const char* head :
+         {"\n\"axis at 20 degC\",um,", "\n\"axis 1\",um,", "\n\"air\",degC,", "\n\"pressure\",Pa,",
+          "\n\"humidity\",%,", "\n\"bed\",degC,", "\n\"gauge \"\"A\"\"\",um,"})
+        EXPECT_EQ(count(head), readings) << head;
+    EXPECT_EQ(count("\n# range,"), 7); // the axis at 20 degC and six that spoke
+    EXPECT_EQ(count("\n# slope_per_h,"), 7);
+    EXPECT_EQ(count("\n# E_VE,"), 3); // lengths alone
+    EXPECT_EQ(count("\n# range,\"pressure\",Pa,0\r\n"), 1);
+    EXPECT_EQ(count("\n# E_VE,\"axis 1\",um,"), 1);
+}
+
+TEST(DriftDocument, OfARotaryAxisIsInSecondsOfArc) {
+    RunRecord run = made_run();
+    run.plan.axis_kind = AxisKind::rotary;
+    run.rotary.emplace().arm = mm(32.61);
+    const auto document = made_document(std::move(run));
+    const auto json = drift_to_json(document);
+    EXPECT_EQ(json["unit"], "arcsec");
+    EXPECT_EQ(json["budget"]["by"], "ISO 230-2 annex B");
+    EXPECT_EQ(json["run"]["reference"], "indexing table");
+    EXPECT_EQ(json["test"]["place_deg"], 0);
+    // 10 um on 32.61 mm are 63.25 seconds of arc, in air 2.7e-4 less.
+    EXPECT_NEAR(json["parameters"]["E_VE"]["value"].get<double>(), 63.25, 0.03);
+    EXPECT_NE(drift_csv(document).find("value\r\n\"axis\",arcsec,0,0\r\n"), std::string::npos);
+}
+
+} // namespace
+} // namespace axiscal::drift_document_test
