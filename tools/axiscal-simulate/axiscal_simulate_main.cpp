@@ -27,7 +27,8 @@ struct Options {
     std::string scenario, program, truth, control, positions, interface = "can0";
     std::vector<double> targets;
     std::vector<std::string> devices;
-    int approaches = 5, positions_field = 1, cnc_port = -1, first_port = 0;
+    StreamFields fields;
+    int approaches = 5, cnc_port = -1, first_port = 0;
     bool run = false, one_way = false;
 };
 
@@ -88,7 +89,7 @@ int live(const Options& options, Simulator& world) {
     if (!options.positions.empty()) {
         const bool standard = options.positions == "-";
         const int stream = standard ? STDIN_FILENO : ::open(options.positions.c_str(), O_RDONLY);
-        if (stream >= 0) world.feed_positions(stream, options.positions_field);
+        if (stream >= 0) world.feed_positions(stream, options.fields);
         if (stream > STDIN_FILENO) ::close(stream);
     }
     while (!world.ended() && asked_to_end == 0)
@@ -166,8 +167,10 @@ int run(int argc, char** argv) {
     app.add_option("--positions", options.positions,
                    "drive laser and ballbar from a 1 kHz stream (the scenario's [cnc] rests); - is "
                    "stdin");
-    app.add_option("--positions-field", options.positions_field,
+    app.add_option("--positions-field", options.fields.laser,
                    "which value of a line is the laser's axis, from 1");
+    app.add_option("--table-field", options.fields.table,
+                   "which value of a line is the position of the indexing table; 0: none");
     app.add_option("--cnc-port", options.cnc_port, "the daemon's Modbus TCP port");
     app.add_flag("--run", options.run, "run the program at once");
     CLI::App* truth = app.add_subcommand("truth", "only compute the truth");

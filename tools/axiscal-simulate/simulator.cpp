@@ -90,33 +90,43 @@ void Simulator::start(bool external_positions) {
         threads_.emplace_back([this](const std::stop_token& stop) { exchange_->run(stop); });
 }
 
-std::string Simulator::feed_lines(const std::string& text, int field) {
+std::string Simulator::feed_lines(const std::string& text, StreamFields fields) {
     std::size_t begin = 0;
     for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-        std::istringstream fields{text.substr(begin, end - begin)};
+        std::istringstream line{text.substr(begin, end - begin)};
         begin = end + 1;
-        double number = 0, position_mm = 0;
-        fields >> number; // the CNC's own count of servo cycles
-        std::vector<double> positions_mm;
-        while (fields >> position_mm)
-            positions_mm.push_back(position_mm);
-        feed_faces(positions_mm, field); // "overrun" and the like are no samples
+        double number = 0, value = 0;
+        line >> number; // the CNC's own count of servo cycles
+        std::vector<double> values;
+        while (line >> value)
+            values.push_back(value);
+        feed_faces(values, fields); // "overrun" and the like are no samples
     }
     return text.substr(begin);
 }
 
-void Simulator::feed_faces(const std::vector<double>& positions_mm, int field) {
+void Simulator::feed_faces(const std::vector<double>& values, StreamFields fields) {
     constexpr std::size_t axes = 3; // X, Y, Z come first
-    const auto of_laser = static_cast<std::size_t>(field) - 1;
-    if (laser_ && of_laser < positions_mm.size()) laser_->feed(positions_mm[of_laser]);
-    if (bar_ == nullptr || positions_mm.size() < axes) return;
+    const auto of_laser = static_cast<std::size_t>(fields.laser) - 1;
+    const auto of_table = static_cast<std::size_t>(fields.table) - 1; // 0: beyond every line
+    if (of_table < values.size()) feed_table(values[of_table]);
+    if (laser_ && of_laser < values.size()) laser_->feed(values[of_laser]);
+    if (bar_ == nullptr || values.size() < axes) return;
     const auto drive_mm = [&](std::size_t which) {
-        return positions_mm[static_cast<std::size_t>(scenario_.ballbar->plane[which] - 'X')];
+        return values[static_cast<std::size_t>(scenario_.ballbar->plane[which] - 'X')];
     };
     bar_->feed({drive_mm(0), drive_mm(1)});
 }
 
-void Simulator::feed_positions(int descriptor, int field) {
+/// The table turns in the time of the stream, which is that of the laser's records.
+void Simulator::feed_table(double position) {
+    if (!laser_ || !scenario_.indexing_table || position == told_position_) return;
+    told_position_ = position;
+    const TableScenario& table = *scenario_.indexing_table;
+    table_.move(laser_->next_s(), position * table.step_deg, table.turn_deg_per_s);
+}
+
+void Simulator::feed_positions(int descriptor, StreamFields fields) {
     std::string rest;
     char chunk[4096];
     while (!ended_) {
@@ -126,7 +136,7 @@ void Simulator::feed_positions(int descriptor, int field) {
         if (ready == 0) continue;
         const ssize_t n = ::read(descriptor, chunk, sizeof chunk);
         if (n <= 0) return;
-        rest = feed_lines(rest.append(chunk, static_cast<std::size_t>(n)), field);
+        rest = feed_lines(rest.append(chunk, static_cast<std::size_t>(n)), fields);
     }
 }
 

@@ -14,6 +14,12 @@
 
 namespace axiscal::simulate {
 
+/// Which value of a line of an external position stream is what, from 1.
+struct StreamFields {
+    int laser = 1; ///< the drive of the laser's axis
+    int table = 0; ///< the position that the indexing table is told, in steps; 0: nobody tells it
+};
+
 /// command() is thread-safe; the rest belongs to the thread that made it.
 class Simulator {
 public:
@@ -25,11 +31,11 @@ public:
 
     /// Starts the threads; with external positions laser and ballbar wait for feed_positions().
     void start(bool external_positions);
-    /// Reads lines `n x y z ...` of a 1 kHz stream until its end or quit; the laser's `field`
-    /// counts from 1 (x), a ballbar takes the two axes of its plane.
-    void feed_positions(int descriptor, int field);
+    /// Reads lines `n x y z ...` of a 1 kHz stream until its end or quit; a ballbar takes the two
+    /// axes of its plane.
+    void feed_positions(int descriptor, StreamFields fields);
     /// The same for what has come in so far; returns the unfinished rest of a line.
-    std::string feed_lines(const std::string& text, int field);
+    std::string feed_lines(const std::string& text, StreamFields fields);
     /// The program that `run` without a file, and `truth`, use.
     void set_program(std::string path) { program_ = std::move(path); }
     Result<void> write_truth(const std::string& path);
@@ -45,7 +51,8 @@ public:
 private:
     explicit Simulator(const Scenario& scenario);
     Result<void> open_faces();
-    void feed_faces(const std::vector<double>& positions_mm, int field);
+    void feed_faces(const std::vector<double>& values, StreamFields fields);
+    void feed_table(double position);
     Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
     Result<void> obey_bar(std::istream& arguments);
@@ -55,6 +62,7 @@ private:
     Scenario scenario_;
     SimClock clock_;
     CommandedAxis axis_, table_; ///< the table in degrees that it is turned back
+    double told_position_ = 0;   ///< of the table, by a position stream
     CommandedPlane plane_;
     CncLines lines_;
     std::unique_ptr<LaserFace> laser_;

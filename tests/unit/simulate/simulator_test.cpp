@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <unistd.h>
 
@@ -37,9 +38,9 @@ protected:
         wire_ = ::open(scenario_.laser.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
         ASSERT_GE(wire_, 0);
     }
-    /// Feeds one position of the stream and returns the record's fields.
-    std::vector<std::int64_t> record_at(double drive_mm) {
-        world_->feed_lines(std::to_string(line_++) + " " + std::to_string(drive_mm) + " 0 0\n", 1);
+    /// Feeds one line of the stream and returns the record's fields.
+    std::vector<std::int64_t> record_of(const std::string& values, StreamFields places = {}) {
+        world_->feed_lines(std::to_string(line_++) + " " + values + "\n", places);
         char text[256] = {};
         if (::read(wire_, text, sizeof text - 1) <= 0) return {};
         std::istringstream fields{text};
@@ -48,15 +49,22 @@ protected:
             record.push_back(field);
         return record;
     }
+    std::vector<std::int64_t> record_at(double drive_mm) {
+        return record_of(std::to_string(drive_mm) + " 0 0");
+    }
+    /// From the start of the counter.
+    [[nodiscard]] double displacement_um(const std::vector<std::int64_t>& record) const {
+        const double count =
+            static_cast<double>(record.at(2)) - static_cast<double>(record.at(4)) / 65536.0;
+        const double n = 1 + refractivity(air_at(scenario_.air, 0), nm(632.991354));
+        return count * 0.632991354 / (2 * n);
+    }
     /// Goes there in steps; the slide's displacement from the start of the counter, um.
     double measured_um(double from_mm, double to_mm) {
         std::vector<std::int64_t> record;
         for (int i = 0; i <= 100; ++i)
             record = record_at(from_mm + (to_mm - from_mm) * i / 100.0);
-        const double count =
-            static_cast<double>(record.at(2)) - static_cast<double>(record.at(4)) / 65536.0;
-        const double n = 1 + refractivity(air_at(scenario_.air, 0), nm(632.991354));
-        return count * 0.632991354 / (2 * n);
+        return displacement_um(record);
     }
     std::filesystem::path folder_;
     Scenario scenario_;
@@ -78,8 +86,29 @@ TEST_F(SimulatorTest, TheWireShowsTheInjectedErrors) {
 TEST_F(SimulatorTest, OverrunLinesAndHalfLinesAreNoSamples) {
     open();
     EXPECT_EQ(record_at(1).at(5), 1);
-    EXPECT_EQ(world_->feed_lines("overrun\n7 2.0", 1), "7 2.0");
+    EXPECT_EQ(world_->feed_lines("overrun\n7 2.0", {}), "7 2.0");
     EXPECT_EQ(record_at(1).at(5), 2);
+}
+
+TEST_F(SimulatorTest, TheTableThatAStreamTurnsTakesTheReflectorsBack) {
+    scenario_.errors = {};
+    scenario_.laser.rate_hz = 1000;
+    scenario_.indexing_table.emplace(); // 5 degrees a step, 60 degrees/s, an arm of 32.61 mm
+    open();
+    const auto rest_um = [&](const std::string& axis_deg, const std::string& position) {
+        std::vector<std::int64_t> record;
+        for (int i = 0; i < 500; ++i) // half a second; a step takes 5/60 s and 60/2000 s
+            record = record_of("0 0 0 " + axis_deg + " " + position, {.laser = 4, .table = 5});
+        return displacement_um(record);
+    };
+    const auto chord_um = [](double deg) { return 32610 * std::sin(deg * std::numbers::pi / 180); };
+    // 2 nm: as on the linear axis
+    EXPECT_NEAR(rest_um("0", "0"), 0, 2e-3);
+    EXPECT_NEAR(rest_um("4", "0"), chord_um(4), 2e-3);
+    EXPECT_NEAR(rest_um("4", "1"), chord_um(-1), 2e-3);
+    EXPECT_NEAR(rest_um("-4", "-1"), chord_um(1), 2e-3);
+    // a stream without a field for it leaves the table where it is
+    EXPECT_NEAR(displacement_um(record_of("0 0 0 -4 0", {.laser = 4})), chord_um(1), 2e-3);
 }
 
 TEST_F(SimulatorTest, ABallbarFollowsTheAxesOfItsPlane) {
@@ -93,7 +122,7 @@ TEST_F(SimulatorTest, ABallbarFollowsTheAxesOfItsPlane) {
     const int wire = ::open(bar.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
     ASSERT_GE(wire, 0);
     const auto read_um = [&](const std::string& line) {
-        world_->feed_lines(line, 1);
+        world_->feed_lines(line, {});
         char text[256] = {};
         if (::read(wire, text, sizeof text - 1) <= 0) return -1.0;
         std::istringstream fields{text};

@@ -70,6 +70,11 @@ void LaserFace::feed(double drive_mm) {
     step(drive_mm);
 }
 
+double LaserFace::next_s() const {
+    const std::lock_guard lock{mutex_};
+    return static_cast<double>(sample_) / counter_.rate_hz();
+}
+
 nlohmann::json LaserFace::place() const {
     return {{"path", scenario_.laser.path}};
 }

@@ -26,6 +26,8 @@ public:
     void run(std::stop_token stop) override;
     /// Driven from outside instead of run(): the next sample of an external position stream.
     void feed(double drive_mm);
+    /// The instant of the next record, seconds from the first one.
+    [[nodiscard]] double next_s() const;
 
     [[nodiscard]] nlohmann::json place() const override;
     [[nodiscard]] nlohmann::json status() const override;
