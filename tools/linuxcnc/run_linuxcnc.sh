@@ -5,7 +5,7 @@
 #   run_linuxcnc.sh --program FILE --block FILE --scratch DIR
 #
 #   --program    LinuxCNC dialect, axes X, Y and Z; with --block one of `axiscal probing program`
-#   --shape      single-register | coil-and-index: as in the station file's [trigger]
+#   --shape      single-register | coil-and-index | sequence-block: as in the station file's [trigger]
 #   --port       the station's Modbus TCP port on this computer; mb2hal is its client
 #   --serial     the serial line to the station instead, 115200 8N1: mb2hal is its Modbus RTU master. A name of
 #                31 characters at most, from --scratch on where it is no whole path
@@ -42,7 +42,7 @@ kind=machine
 [ -z "$port" ] || [ -z "$serial" ] || usage
 [ ${#serial} -le 31 ] || refuse "mb2hal cuts the name of a serial line off after 31 characters: $serial" 2
 home=$(cd "$(dirname "$0")" && pwd)
-[ "$kind" = probe ] || [ -f "$home/$shape.hal" ] || refuse "--shape is single-register or coil-and-index, not \"$shape\"" 2
+[ "$kind" = probe ] || [ -f "$home/$shape.hal" ] || refuse "--shape is single-register, coil-and-index or sequence-block, not \"$shape\"" 2
 [ -f "$program" ] || refuse "there is no program $program" 2
 [ -d "$scratch" ] || refuse "there is no folder $scratch" 2
 for tool in linuxcnc mb2hal halsampler; do

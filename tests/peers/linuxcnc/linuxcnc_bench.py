@@ -17,6 +17,11 @@ PATIENCE_S = 30  # only ends a failing test
 RUN_LIMIT_S = 300
 OTHERS_LIMIT_S = 250  # another bench may have LinuxCNC just now
 PACKAGES = {"linuxcnc": "linuxcnc-uspace", "socat": "socat"}
+FIVE_TARGETS = {  # of demo.d/station.toml.in: a short run of ten points, each target once from each side
+    'travel_high = "1035 mm"': 'travel_high = "400 mm"',
+    'interval = "96 mm"\ntarget_count = 11\nfirst_target = "34 mm"':
+    'interval = "80 mm"\ntarget_count = 5\nfirst_target = "28 mm"\napproaches = 1',
+}
 OVER_TCP = '\ntransport = "tcp"\nhost = "127.0.0.1"\nport = @PORT@\n'  # in each station file
 
 
@@ -127,10 +132,11 @@ class Bench:
         return subprocess.run([self.programs["axiscal"], "preflight", "--pass", run], env=self.environment,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
-    def make_ready(self, name="X-whole.ngc"):
-        """Everything before `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
+    def make_ready(self, name="X-whole.ngc", *words):
+        """Everything before `axiscal arm`; `words` go to `axiscal program`, too. @returns axiscald, LinuxCNC
+        and the part program."""
         station = self.write_station()
-        self.axiscal("program", "--config", station, "--out", self.scratch)
+        self.axiscal("program", "--config", station, "--out", self.scratch, *words)
         program = self.scratch / name
         pipe = self.scratch / "positions"
         os.mkfifo(pipe)
@@ -140,12 +146,22 @@ class Bench:
         daemon = self.start_station(station)
         return daemon, self.start_cnc(program, pipe), program
 
-    def begin_run(self):
-        """Everything up to `axiscal arm`. @returns axiscald, LinuxCNC and the part program."""
-        daemon, cnc, program = self.make_ready()
+    def begin_run(self, name="X-whole.ngc", *words):
+        """Everything up to `axiscal arm`, which gets the `words`, too. @returns axiscald, LinuxCNC and the
+        part program."""
+        daemon, cnc, program = self.make_ready(name, *words)
         until(self.may_arm, "every pre-flight check to hold", [daemon, cnc])
-        self.axiscal("arm", "--program", program)
+        self.axiscal("arm", "--program", program, *words)
         return daemon, cnc, program
+
+    def reach_the_end(self, cnc):
+        """LinuxCNC's program ends and the certificate is published; nothing is left of LinuxCNC. @returns the
+        folder of the certificate."""
+        assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(self.scratch / 'cnc.events').read_text()}"
+        print(*self.axiscal("watch", "--until-published", limit_s=PATIENCE_S).splitlines()[-1:])
+        left = leftovers(self.scratch)
+        assert not left, f"left behind: {left}"
+        return next((self.scratch / "state/outbox").iterdir())
 
     def status(self):
         return json.loads(self.axiscal("status", "--json"))

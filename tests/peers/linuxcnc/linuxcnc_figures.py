@@ -10,16 +10,31 @@ FIGURES = {"A", "A_forward", "A_backward", "E", "E_forward", "E_backward", "M",
            "R", "R_forward", "R_backward", "B", "B_mean"}
 
 
-def judge_points(run_file, wanted=POINTS):
+def judge_recipe(source, shape, program):
+    """What docs/trigger.md shows of a program of this shape is what ran."""
+    text = (source / "docs/trigger.md").read_text()
+    shown = text.split(f"### LinuxCNC, {shape}\n")[1].split("```\n")[1]
+    assert shown in program.read_text(), f"docs/trigger.md shows another program:\n{shown}"
+
+
+def judge_points(run_file, wanted=POINTS, first_request=1):
     with contextlib.closing(sqlite3.connect(f"file:{run_file}?mode=ro", uri=True)) as run:
         points = run.execute("SELECT sequence, step, planned_step, target_index, direction, approach,"
                              " origin FROM point ORDER BY link").fetchall()
         plan = run.execute("SELECT step, target_index, direction, approach FROM plan_point"
                            " ORDER BY step").fetchall()
-    assert [point[0] for point in points] == list(range(1, wanted + 1)), "requests in order"
+    requests = list(range(first_request, first_request + wanted))
+    assert [point[0] for point in points] == requests, "requests in order"
     assert [(point[1], *point[3:6]) for point in points] == plan, "the points that were planned"
     assert all(point[1] == point[2] for point in points), "none out of its turn"
     assert {point[6] for point in points} == {"cnc"}, f"asked by {({p[6] for p in points})}"
+
+
+def judge_E(document, truth):
+    E_mm, injected = document["parameters"]["E"]["value"], truth["E"]
+    assert injected["bound"] <= E_MARK_MM, f"the scenario can not hold the mark: {injected}"
+    assert abs(E_mm - injected["value"]) <= E_MARK_MM, f"E {E_mm} mm, injected {injected}"
+    return f"E {E_mm * 1e3:.3f} um, injected {injected['value'] * 1e3:.3f} um"
 
 
 def judge_certificate(folder, truth):
@@ -32,7 +47,4 @@ def judge_certificate(folder, truth):
     assert "not_evaluated" not in document or not document["not_evaluated"], document["not_evaluated"]
     assert len(document["positions"]) == 11
     judge_points(run_file)
-    E_mm, injected = document["parameters"]["E"]["value"], truth["E"]
-    assert injected["bound"] <= E_MARK_MM, f"the scenario can not hold the mark: {injected}"
-    assert abs(E_mm - injected["value"]) <= E_MARK_MM, f"E {E_mm} mm, injected {injected}"
-    print(f"110 of 110 points in order; E {E_mm * 1e3:.3f} um, injected {injected['value'] * 1e3:.3f} um")
+    print(f"110 of 110 points in order; {judge_E(document, truth)}")

@@ -10,7 +10,7 @@ import pathlib
 import subprocess
 import sys
 
-from linuxcnc_bench import PATIENCE_S, RUN_LIMIT_S, leftovers, run_in_bench, until
+from linuxcnc_bench import PATIENCE_S, run_in_bench, until
 from linuxcnc_figures import judge_certificate
 
 BEFORE = 3  # points
@@ -50,14 +50,10 @@ def kill_in_mid_program(bench, daemon, cnc):
 
 def reach_the_end(bench, cnc, before):
     """The same run, whole. @returns the folder of its certificate."""
-    assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(bench.scratch / 'cnc.events').read_text()}"
-    bench.axiscal("watch", "--until-published", limit_s=PATIENCE_S)
+    folder = bench.reach_the_end(cnc)
     assert run_of(bench)["id"] == before["id"], "another run"
-    folder = next((bench.scratch / "state/outbox").iterdir())
     told = json.dumps(json.loads((folder / "certificate.json").read_text())["run"]["events"])
     assert "recorded nothing" in told, f"the interruption is not told: {told}"
-    left = leftovers(bench.scratch)
-    assert not left, f"left behind: {left}"
     print(f"killed after {before['done']} points, the same run went on to its end")
     return folder
 

@@ -8,15 +8,12 @@ E as injected."""
 import os
 import sys
 
-from linuxcnc_bench import run_in_bench
+from linuxcnc_bench import FIVE_TARGETS, run_in_bench
 from linuxcnc_figures import judge_certificate, judge_points
 from linuxcnc_restart import kill_in_mid_program, reach_the_end
 
 SHORT_POINTS = 10
-SHORT = {  # five targets, once from each side, with short halts
-    'travel_high = "1035 mm"': 'travel_high = "400 mm"',
-    'interval = "96 mm"\ntarget_count = 11\nfirst_target = "34 mm"':
-    'interval = "80 mm"\ntarget_count = 5\nfirst_target = "28 mm"\napproaches = 1',
+SHORT = FIVE_TARGETS | {  # with short halts
     'dwell = "0.3 s"': 'dwell = "0.15 s"',
     '[capture]\nwindow = "0.3 s"': '[capture]\nwindow = "0.15 s"',
 }
