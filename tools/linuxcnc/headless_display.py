@@ -3,7 +3,8 @@
 and ends; LinuxCNC then shuts down. Exit 0: the program came to its end without a word of error.
 
 What happened is appended to the file [BENCH]EVENTS, a line each: homed, waiting X (the program
-waits for `axiscal arm` at its datum), error TEXT, ended. SIGTERM stops the axis and ends."""
+waits for `axiscal arm` at its datum), message TEXT (the program's), error TEXT, ended. SIGTERM stops
+the axis and ends."""
 import errno
 import fcntl
 import os
@@ -34,8 +35,9 @@ class Cnc:
         self.status.poll()
         while complaint := self.complaints.poll():
             kind, text = complaint
-            self.tell(f"error {text.strip()}")
-            self.failed = self.failed or kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR)
+            wrong = kind in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR)
+            self.tell(f"{'error' if wrong else 'message'} {text.strip()}")
+            self.failed = self.failed or wrong
 
     def order(self, command, reached, what):
         """Gives a command, again each second: a busy computer may drop one."""

@@ -4,19 +4,20 @@
 #   run_linuxcnc.sh --program FILE --shape SHAPE {--port PORT|--serial LINE} --positions PIPE --scratch DIR
 #   run_linuxcnc.sh --program FILE --block FILE --scratch DIR
 #
-#   --program    LinuxCNC dialect, axes X, Y and Z; with --block one of `axiscal probing program`
+#   --program    LinuxCNC dialect, axes X, Y, Z and A; with --block one of `axiscal probing program`
 #   --shape      single-register | coil-and-index | sequence-block: as in the station file's [trigger]
 #   --port       the station's Modbus TCP port on this computer; mb2hal is its client
 #   --serial     the serial line to the station instead, 115200 8N1: mb2hal is its Modbus RTU master. A name of
 #                31 characters at most, from --scratch on where it is no whole path
-#   --positions  named pipe (made when missing) that gets the 1 kHz position stream; something must
-#                read it before: axiscal-simulate --positions PIPE
+#   --positions  named pipe (made when missing) that gets the 1 kHz position stream, lines `n x y z a table` with the
+#                position that an indexing table is told; something must read it before:
+#                axiscal-simulate --positions PIPE
 #   --block      three axes with a touch probe instead: X, Y, Z of the block's corner in mm and DELAY_00 to
 #                DELAY_15 in s, as lines KEY = VALUE
 #   --scratch    existing folder for LinuxCNC's files; the caller removes it
 #
 # While it runs DIR/cnc.events gets a line for each step: homed, "waiting X" (the program stands at
-# its datum until `axiscal arm`), "error TEXT", ended. DIR/cnc.log is LinuxCNC's own output.
+# its datum until `axiscal arm`), "message TEXT", "error TEXT", ended. DIR/cnc.log is LinuxCNC's own output.
 # Exit: 0 the program ended well; 1 it did not (the reason on stderr); 2 wrong arguments;
 # 77 LinuxCNC is not installed. TERM or INT shuts LinuxCNC down. Only one LinuxCNC can live on a
 # computer, and starting a second one kills the first: this script waits for others of its kind

@@ -52,6 +52,7 @@ class Bench:
         self.port = free_port()
         self.wire = ["--port", self.port]  # of run_linuxcnc.sh
         self.changes = {}  # of the station file's text
+        self.stream = []  # to the simulator: which value of LinuxCNC's stream is what
         self.programs = {"axiscald": build / "bin/axiscald",
                          "axiscal": build / "bin/axiscal",
                          "simulate": build / "bin/axiscal-simulate"}
@@ -141,7 +142,7 @@ class Bench:
         pipe = self.scratch / "positions"
         os.mkfifo(pipe)
         simulator = self.start(self.programs["simulate"], "--scenario", self.scenario,
-                               "--positions", pipe)
+                               "--positions", pipe, *self.stream)
         until(lambda: self.said("axiscal-simulate.log", '"ready"'), "instruments", [simulator])
         daemon = self.start_station(station)
         return daemon, self.start_cnc(program, pipe), program
