@@ -33,20 +33,10 @@ std::string subject_of(const CircularCertificate& certificate) {
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
-    const Statements& said = measured.run.statements;
+    const std::string measured_at = measured_span(measured.started_utc, measured.finished_utc);
     auto shortened =
-        sheet.fields({{"Laboratory", stated(said.laboratory)},
-                      {"Certificate number", stated(said.certificate_number)},
-                      {"Customer", stated(said.customer)},
-                      {"Measured", measured_span(measured.started_utc, measured.finished_utc)},
-                      {"Place", stated(said.place)},
-                      {"Issued on", stated(iso_date_of(measured))},
-                      {"Machine", stated(said.machine)},
-                      {"Next calibration due", stated(measured.next_due)},
-                      {"Maker", stated(said.machine_maker)},
-                      {"Procedure", stated(said.procedure)},
-                      {"Serial number", stated(said.machine_serial)},
-                      {"Control compensation", stated(said.control_compensation)}},
+        sheet.fields(identity_fields(measured.run.statements,
+                                     {measured_at, iso_date_of(measured), measured.next_due}),
                      2, 2);
     sheet.advance(5);
     return shortened;

@@ -43,17 +43,6 @@ PageFrame frame_of(const CircularCertificate& certificate) {
     return frame;
 }
 
-/// Draws everything; @returns the number of pages.
-int draw(PdfDocument& document, const CircularCertificate& certificate, int total_pages) {
-    Sheet sheet{document, frame_of(certificate), total_pages};
-    const auto shortened = draw_circular_front_page(sheet, certificate);
-    draw_circular_plot_pages(sheet, certificate);
-    draw_circular_diagnosis(sheet, certificate);
-    draw_circular_condition_pages(sheet, certificate, shortened);
-    sheet.finish();
-    return document.pages();
-}
-
 /// ISO 8601, or empty: a case need not tell its date.
 std::string creation_of(const CircularMeasurement& measured) {
     const std::string date = iso_date_of(measured);
@@ -65,14 +54,14 @@ std::string creation_of(const CircularMeasurement& measured) {
 } // namespace
 
 Result<std::string> render_circular_pdf(const CircularCertificate& certificate) {
-    AXISCAL_CHECK(check_certificate_font());
-    const std::string title = title_of(certificate), subject = "ISO 230-4 circular test";
-    const std::string created = creation_of(certificate.measured);
-    PdfDocument counting{title, subject, created};
-    const int pages = draw(counting, certificate, 0);
-    PdfDocument document{title, subject, created};
-    draw(document, certificate, pages);
-    return document.finish();
+    return render_pages(
+        {title_of(certificate), "ISO 230-4 circular test", creation_of(certificate.measured)},
+        frame_of(certificate), [&](Sheet& sheet) {
+            const auto shortened = draw_circular_front_page(sheet, certificate);
+            draw_circular_plot_pages(sheet, certificate);
+            draw_circular_diagnosis(sheet, certificate);
+            draw_circular_condition_pages(sheet, certificate, shortened);
+        });
 }
 
 } // namespace axiscal

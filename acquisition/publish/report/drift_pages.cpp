@@ -9,40 +9,20 @@
 namespace axiscal {
 namespace {
 
-std::string next_due(const RunRecord& run) {
-    return run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
-                                           : run.statements.next_due;
-}
-
 std::vector<StatedField> draw_identity(Sheet& sheet, const DriftDocument& document) {
     const RunRecord& run = document.run;
-    const Statements& said = run.statements;
-    const std::string started = iso8601_utc(run.opened.utc_ns);
-    const std::string finished = iso8601_utc(run.closed.utc_ns);
-    constexpr std::size_t length_of_date = 10;
-    auto shortened =
-        sheet.fields({{"Laboratory", stated(said.laboratory)},
-                      {"Certificate number", stated(said.certificate_number)},
-                      {"Customer", stated(said.customer)},
-                      {"Measured", measured_span(started, finished)},
-                      {"Place", stated(said.place)},
-                      {"Issued on", finished.substr(0, length_of_date)},
-                      {"Machine", stated(said.machine)},
-                      {"Next calibration due", next_due(run)},
-                      {"Maker", stated(said.machine_maker)},
-                      {"Procedure", stated(said.procedure)},
-                      {"Serial number", stated(said.machine_serial)},
-                      {"Control compensation", stated(said.control_compensation)},
-                      {"Axis", stated(said.axis) + ", at rest at " + drift_place_words(document)},
-                      {"Reference temperature", run.rotary ? "none: an angle does not expand"
-                                                           : "20 °C; E_VE and ETVE hold there"}},
-                     2, 2);
+    auto fields = identity_fields(run.statements, dates_of_test(run));
+    fields.push_back(
+        {"Axis", stated(run.statements.axis) + ", at rest at " + drift_place_words(document)});
+    fields.push_back({"Reference temperature", run.rotary ? "none: an angle does not expand"
+                                                          : "20 °C; E_VE and ETVE hold there"});
+    auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
 }
 
 void draw_figures(Sheet& sheet, const RunDrift& drift) {
-    const int decimals = drift_decimals(drift.eve.range);
+    const int decimals = length_decimals(drift.eve.range);
     const auto minute = [&](std::size_t index) { return fixed(drift.axis.times[index], 2); };
     const auto row = [&](const char* symbol, const std::string& words, const DriftRange& found) {
         return TableRow{symbol, words, fixed(found.range, decimals), minute(found.first),

@@ -10,28 +10,12 @@ namespace {
 
 constexpr double seconds_a_minute = 60;
 constexpr double least_span_um = 0.05; ///< or arcsec: no plot magnifies noise beyond this
-constexpr double room_of_figure = 62;  ///< right of the frame, for E_VE
 constexpr double room_of_times = 24;
-constexpr Stroke dashed_grey{grey, 0.7, true};
-
-/// Where the lowest and the highest reading lie.
-struct Extremes {
-    PagePoint low, high;
-};
-
-Extremes extremes_of(const DriftSeries& axis, const PlotFrame& frame, double per_minute) {
-    const auto [low, high] = std::ranges::minmax_element(axis.readings);
-    const auto point = [&](std::vector<double>::const_iterator at) {
-        const auto index = static_cast<std::size_t>(at - axis.readings.begin());
-        return PagePoint{frame.px(axis.times[index] * per_minute), frame.py(*at)};
-    };
-    return {point(low), point(high)};
-}
 
 /// "1.70 µm", "0.612″".
 std::string drift_figure(const RunDrift& drift, double range) {
     const std::string unit = drift_unit_on_paper(drift);
-    return fixed(range, drift_decimals(range)) + (unit == "µm" ? " " : "") + unit;
+    return fixed(range, length_decimals(range)) + (unit == "µm" ? " " : "") + unit;
 }
 
 std::string resting_axis_words(const RunDrift& drift) {
@@ -39,25 +23,15 @@ std::string resting_axis_words(const RunDrift& drift) {
            (drift.unit == "um" ? " at 20 °C" : "");
 }
 
-/// From the two readings to the right, and their distance there.
-void draw_figure(Canvas& canvas,
-                 const PlotFrame& frame,
-                 const Extremes& at,
-                 const RunDrift& drift) {
-    const double x = frame.box.right() + 9, tip = 3;
-    for (const PagePoint& point : {at.low, at.high}) {
-        canvas.line(point, {x + 4, point.y}, dashed_grey);
-        canvas.dot(point, 1.6, backward_vermilion);
-    }
-    canvas.line({x, at.high.y}, {x, at.low.y}, {ink, 0.7});
-    if (at.low.y - at.high.y > 4 * tip) {
-        constexpr double up = 1.5707963267948966;
-        canvas.pointer({x, at.high.y + tip}, up, ink);
-        canvas.pointer({x, at.low.y - tip}, -up, ink);
-    }
-    const double middle = (at.low.y + at.high.y) / 2;
-    canvas.text({x + 8, middle - 1}, "E_VE", {8, true});
-    canvas.text({x + 8, middle + 9}, drift_figure(drift, drift.eve.range), {8, true});
+/// Where the lowest and the highest reading lie, and E_VE between them.
+RangeMark range_mark_of(const RunDrift& drift, const PlotFrame& frame, double per_minute) {
+    const DriftSeries& axis = drift.axis;
+    const auto [low, high] = std::ranges::minmax_element(axis.readings);
+    const auto point = [&](std::vector<double>::const_iterator at) {
+        const auto index = static_cast<std::size_t>(at - axis.readings.begin());
+        return PagePoint{frame.px(axis.times[index] * per_minute), frame.py(*at)};
+    };
+    return {point(low), point(high), "E_VE", drift_figure(drift, drift.eve.range)};
 }
 
 /// The hour in which the range is largest.
@@ -103,7 +77,7 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
     constexpr double title = 14;
     canvas.text({box.x, box.y + 8}, resting_axis_words(drift) + ", " + drift_unit_on_paper(drift),
                 {7.5, true});
-    frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_figure,
+    frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_range,
                  box.height - title - room_of_times};
     shade_hour(canvas, frame, drift, per_minute);
     draw_columns(canvas, frame, true);
@@ -115,7 +89,7 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
     for (std::size_t i = 0; i < drawn.times.size(); ++i)
         points.push_back({frame.px(drawn.times[i] * per_minute), frame.py(drawn.readings[i])});
     canvas.polyline(points, {forward_blue, 0.9});
-    draw_figure(canvas, frame, extremes_of(axis, frame, per_minute), drift);
+    draw_range(canvas, frame, range_mark_of(drift, frame, per_minute));
     canvas.text({frame.box.right(), box.bottom() - 3},
                 "Time since the beginning of the test, " + scale.unit, label_style, Align::right);
 }
@@ -140,7 +114,7 @@ std::vector<EnvironmentTrace> drift_axis_traces_of(const RunDrift& drift) {
 EnvironmentPanel drift_axis_panel_of(const RunDrift& drift,
                                      const std::vector<EnvironmentTrace>& traces) {
     EnvironmentPanel panel{{"Axis at rest, change", drift_unit_on_paper(drift), 1,
-                            drift_decimals(drift.eve.range), least_span_um},
+                            length_decimals(drift.eve.range), least_span_um},
                            {}};
     for (const EnvironmentTrace& drawn : traces)
         panel.traces.push_back(&drawn);
@@ -173,11 +147,6 @@ ChannelPaper drift_paper_of(ChannelKind kind, Medium medium) {
     if (kind == ChannelKind::temperature && medium == Medium::none)
         paper.quantity = "Further temperature";
     return paper;
-}
-
-int drift_decimals(double range) {
-    if (range < 1) return 3;
-    return range < 100 ? 2 : 1;
 }
 
 std::string drift_unit_on_paper(const RunDrift& drift) {

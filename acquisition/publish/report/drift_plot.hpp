@@ -29,10 +29,6 @@ std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace
 /// temperature without a medium by no medium's name. Pure.
 ChannelPaper drift_paper_of(ChannelKind kind, Medium medium);
 
-/// How many decimals figures of the axis are printed with whose range is this: nanometres below
-/// 1 um, thousandths below a second of arc. Pure.
-int drift_decimals(double range);
-
 /// Of the figures of the axis: "µm" | "″". Pure.
 std::string drift_unit_on_paper(const RunDrift& drift);
 

@@ -30,24 +30,14 @@ std::string axis_words(const Certificate& certificate) {
 }
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certificate) {
-    const Statements& said = certificate.run.statements;
-    const std::vector<StatedField> fields{
-        {"Laboratory", stated(said.laboratory)},
-        {"Certificate number", stated(said.certificate_number)},
-        {"Customer", stated(said.customer)},
-        {"Measured", measured_span(certificate.started_utc, certificate.finished_utc)},
-        {"Place", stated(said.place)},
-        {"Issued on", stated(certificate.issued_on)},
-        {"Machine", stated(said.machine)},
-        {"Next calibration due", stated(certificate.next_due)},
-        {"Maker", stated(said.machine_maker)},
-        {"Procedure", stated(said.procedure)},
-        {"Serial number", stated(said.machine_serial)},
-        {"Control compensation", stated(said.control_compensation)},
-        {"Axis", axis_words(certificate)},
+    const std::string measured = measured_span(certificate.started_utc, certificate.finished_utc);
+    auto fields = identity_fields(certificate.run.statements,
+                                  {measured, certificate.issued_on, certificate.next_due});
+    fields.push_back({"Axis", axis_words(certificate)});
+    fields.push_back(
         certificate.run.rotary
             ? StatedField{"Run-out of the set-up", stated(certificate.run.rotary->run_out)}
-            : StatedField{"Reference temperature", "20 °C; all values hold there"}};
+            : StatedField{"Reference temperature", "20 °C; all values hold there"});
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;

@@ -23,6 +23,43 @@ void draw_front_title(Sheet& sheet, const FrontTitle& title) {
     sheet.rule();
 }
 
+PageFrame page_frame_of(const RunRecord& run, const std::string& run_file_sha256) {
+    constexpr std::size_t digits_of_hash = 16;
+    const Statements& said = run.statements;
+    PageFrame frame;
+    frame.laboratory = said.laboratory.empty() ? "Laboratory not stated" : said.laboratory;
+    frame.certificate_number = stated(said.certificate_number);
+    frame.subject = stated(said.machine) + ", serial " + stated(said.machine_serial);
+    frame.foot = "Run " + stated(run.run_id) + " · run file SHA-256 " +
+                 stated(run_file_sha256.substr(0, digits_of_hash)) + "… · axiscal " +
+                 stated(run.software_version);
+    return frame;
+}
+
+CertificateDates dates_of_test(const RunRecord& run) {
+    constexpr std::size_t length_of_date = 10;
+    const std::string started = iso8601_utc(run.opened.utc_ns);
+    const std::string finished = iso8601_utc(run.closed.utc_ns);
+    return {measured_span(started, finished), finished.substr(0, length_of_date),
+            run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
+                                            : run.statements.next_due};
+}
+
+std::vector<StatedField> identity_fields(const Statements& said, const CertificateDates& dates) {
+    return {{"Laboratory", stated(said.laboratory)},
+            {"Certificate number", stated(said.certificate_number)},
+            {"Customer", stated(said.customer)},
+            {"Measured", dates.measured},
+            {"Place", stated(said.place)},
+            {"Issued on", stated(dates.issued_on)},
+            {"Machine", stated(said.machine)},
+            {"Next calibration due", stated(dates.next_due)},
+            {"Maker", stated(said.machine_maker)},
+            {"Procedure", stated(said.procedure)},
+            {"Serial number", stated(said.machine_serial)},
+            {"Control compensation", stated(said.control_compensation)}};
+}
+
 std::string measured_span(const std::string& started_utc, const std::string& finished_utc) {
     std::string begin = readable_instant(started_utc);
     const std::string end = readable_instant(finished_utc);
@@ -68,7 +105,8 @@ void draw_signature(Canvas& canvas, PageBox box, const char* role, const std::st
 
 void draw_signatures(Sheet& sheet,
                      const Statements& said,
-                     const std::vector<StatedField>& evidence) {
+                     const std::vector<StatedField>& evidence,
+                     const char* traceability) {
     Canvas& canvas = sheet.canvas();
     const double y = sheet.y() + sheet.remaining() - signature_height;
     canvas.line({Sheet::left, y}, {Sheet::right, y}, {pale, 0.6});
@@ -82,9 +120,7 @@ void draw_signatures(Sheet& sheet,
         canvas.paragraph({Sheet::left + 88, line - 6.6}, Sheet::width - 88, field.value, {7}, 1);
         line += 10;
     }
-    canvas.text({Sheet::left, line},
-                "Traceability: through the certificates of the instruments named above.",
-                {7, false, grey});
+    canvas.text({Sheet::left, line}, traceability, {7, false, grey});
 }
 
 std::vector<TableColumn> instrument_columns() {

@@ -87,4 +87,21 @@ void draw_columns(Canvas& canvas, const PlotFrame& frame, bool labels) {
     }
 }
 
+void draw_range(Canvas& canvas, const PlotFrame& frame, const RangeMark& mark) {
+    const double x = frame.box.right() + 9, tip = 3;
+    for (const PagePoint& point : {mark.low, mark.high}) {
+        canvas.line(point, {x + 4, point.y}, {grey, 0.7, true});
+        canvas.dot(point, 1.6, backward_vermilion);
+    }
+    canvas.line({x, mark.high.y}, {x, mark.low.y}, {ink, 0.7});
+    if (mark.low.y - mark.high.y > 4 * tip) {
+        constexpr double up = 1.5707963267948966;
+        canvas.pointer({x, mark.high.y + tip}, up, ink);
+        canvas.pointer({x, mark.low.y - tip}, -up, ink);
+    }
+    const double middle = (mark.low.y + mark.high.y) / 2;
+    canvas.text({x + 8, middle - 1}, mark.symbol, {8, true});
+    canvas.text({x + 8, middle + 9}, mark.words, {8, true});
+}
+
 } // namespace axiscal

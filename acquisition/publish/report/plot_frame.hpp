@@ -3,6 +3,7 @@
 
 #include "acquisition/publish/report/page.hpp"
 
+#include <string>
 #include <vector>
 
 namespace axiscal {
@@ -49,5 +50,14 @@ TimeScale time_scale_for(double span_s);
 double widest(Canvas& canvas, const Ticks& ticks);
 void draw_rows(Canvas& canvas, const PlotFrame& frame);
 void draw_columns(Canvas& canvas, const PlotFrame& frame, bool labels);
+
+/// The lowest and the highest point of a plot, and what their distance is called and measures.
+struct RangeMark {
+    PagePoint low, high;
+    std::string symbol, words;
+};
+inline constexpr double room_of_range = 62; ///< right of the frame, for the mark
+/// Both points carried to the right of the frame, and their distance there.
+void draw_range(Canvas& canvas, const PlotFrame& frame, const RangeMark& mark);
 
 } // namespace axiscal

@@ -71,4 +71,20 @@ void Sheet::text(std::string_view words, TextStyle style) {
     y_ += canvas().paragraph({left, y_}, width, words, style).height + 2;
 }
 
+Result<std::string> render_pages(const PdfLabel& label,
+                                 const PageFrame& frame,
+                                 const std::function<void(Sheet&)>& draw_pages) {
+    AXISCAL_CHECK(check_certificate_font());
+    const auto draw = [&](PdfDocument& document, int total_pages) {
+        Sheet sheet{document, frame, total_pages};
+        draw_pages(sheet);
+        sheet.finish();
+    };
+    PdfDocument counting{label.title, label.subject, label.created};
+    draw(counting, 0);
+    PdfDocument document{label.title, label.subject, label.created};
+    draw(document, counting.pages());
+    return document.finish();
+}
+
 } // namespace axiscal

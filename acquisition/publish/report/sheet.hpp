@@ -4,6 +4,7 @@
 
 #include "acquisition/publish/report/page.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -76,5 +77,18 @@ private:
     int total_pages_;
     double y_ = content_top;
 };
+
+/// What a PDF says of itself; `created` is an ISO 8601 instant taken from the run.
+struct PdfLabel {
+    std::string title, subject, created;
+};
+
+/// The bytes of a document whose pages say "page n of m": drawn once to be counted, then for good.
+/// @param draw_pages  draws everything on the sheet it is given; called twice.
+/// @errors Fault::not_found without the font; Fault::refused naming a text that the font cannot
+/// print; Fault::io from Cairo.
+Result<std::string> render_pages(const PdfLabel& label,
+                                 const PageFrame& frame,
+                                 const std::function<void(Sheet&)>& draw_pages);
 
 } // namespace axiscal

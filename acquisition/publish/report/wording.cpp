@@ -54,6 +54,11 @@ std::string fixed_up(double value, int decimals) {
     return fixed(value < 0 ? -digits : digits, decimals);
 }
 
+int length_decimals(double range_um) {
+    if (range_um < 1) return 3;
+    return range_um < 100 ? 2 : 1;
+}
+
 std::string stated(const std::string& text) {
     const bool empty = text.find_first_not_of(" \t\r\n") == std::string::npos;
     return empty ? "not stated" : text;

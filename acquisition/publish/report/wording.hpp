@@ -13,6 +13,8 @@ namespace axiscal {
 std::string fixed(double value, int decimals);
 /// The same, rounded away from zero: an uncertainty is never printed smaller than it is.
 std::string fixed_up(double value, int decimals);
+/// How many decimals lengths are printed with whose range is this: nanometres below 1 um.
+int length_decimals(double range_um);
 /// The text, or "not stated" when a person left it empty.
 std::string stated(const std::string& text);
 /// A stated number with the digits that were stated, six at most.
