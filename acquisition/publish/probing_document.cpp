@@ -52,6 +52,7 @@ Json run_of(const ProbingDocument& document) {
     object["machine"] = run.statements.machine;
     object["machine_serial"] = run.statements.machine_serial;
     object["operator"] = run.statements.operator_name;
+    object["statements"] = statements_json(run.statements);
     object["probe"] = document.record.probe;
     object["signal_path"] = document.record.signal_path;
     return object;
@@ -91,9 +92,17 @@ Json probing_to_json(const ProbingDocument& document) {
     object["standard"] = "ISO 230-10, 6.9 (steps reconstructed)";
     object["unit"] = "mm";
     object["feed_mm_per_min"] = document.record.feed_mm_per_min;
+    object["feed_mm_per_ms"] = feed_mm_per_ms(document.record);
     object["parameters"] = series_list(document.results);
+    object["preliminary"] = true;
+    object["missing"] = Json::array({"an uncertainty budget"});
     object["run"] = run_of(document);
     return object;
+}
+
+double feed_mm_per_ms(const ProbingRecord& record) {
+    constexpr double ms_per_min = 60'000;
+    return record.feed_mm_per_min / ms_per_min;
 }
 
 std::string probing_json_text(const ProbingDocument& document) {

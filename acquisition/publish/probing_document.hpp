@@ -27,6 +27,11 @@ Result<ProbingDocument> probing_of_run_file(const std::string& run_file);
 /// The first evaluation: stores digest and figures in the closed run file, once.
 Result<void> seal_probing(const std::string& run_file);
 
+/// How far the tip moves in a millisecond, the usual servo tick of a control, mm. Pure.
+double feed_mm_per_ms(const ProbingRecord& record);
+
+/// Feed, figures of each series, what is stated. "preliminary" is true: no uncertainty of these
+/// figures is known, as "missing" says.
 nlohmann::ordered_json probing_to_json(const ProbingDocument& document);
 std::string probing_json_text(const ProbingDocument& document);
 /// Every touch: direction, kind, approach, the latched X, Y, Z.

@@ -96,13 +96,6 @@ ProbingDelay evaluate(const ProbingSeries& series, double feed_mm_per_ms) {
     return result;
 }
 
-bool same_direction(const ProbingDelay& a, const ProbingDelay& b) {
-    double product = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        product += a.unit_direction[i] * b.unit_direction[i];
-    return product > 1 - 1e-9;
-}
-
 void add_reference(const std::vector<ProbingDelay>& all, ProbingDelay& result) {
     for (const ProbingDelay& other : all)
         if (other.reference && same_direction(other, result))
@@ -114,6 +107,13 @@ void add_reference(const std::vector<ProbingDelay>& all, ProbingDelay& result) {
 }
 
 } // namespace
+
+bool same_direction(const ProbingDelay& a, const ProbingDelay& b) {
+    double product = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        product += a.unit_direction[i] * b.unit_direction[i];
+    return product > 1 - 1e-9;
+}
 
 Result<std::vector<ProbingDelay>> evaluate_probing_delay(const ProbingDelayCase& stated) {
     // below 1e-6 mm/min a millisecond has no meaning any more

@@ -47,6 +47,9 @@ struct ProbingDelay {
     std::optional<double> net_variation_mm;
 };
 
+/// Both go the same way; an oblique direction within rounding. Pure.
+bool same_direction(const ProbingDelay& a, const ProbingDelay& b);
+
 /// One result a series, in the same order.
 /// @errors Fault::bad_case with the field: a feed not above 0, no series, lists empty or of
 /// different length, fewer touches than required, a direction of length 0, numbers not finite or

@@ -8,6 +8,7 @@
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/report/circular_report.hpp"
 #include "acquisition/publish/report/drift_report.hpp"
+#include "acquisition/publish/report/probing_report.hpp"
 #include "acquisition/publish/report/report.hpp"
 
 #include <filesystem>
@@ -64,22 +65,6 @@ Result<void> write_circular_files(const CircularCertificate& certificate,
     return write_all(papers, source_file, certificate.file_sha256, folder);
 }
 
-namespace {
-
-/// Documents without pages: two texts and the run file.
-Result<void> write_texts(const std::string& json,
-                         const std::string& csv,
-                         const std::string& run_file,
-                         const std::string& sha256,
-                         const std::string& folder) {
-    AXISCAL_CHECK(write_synced(folder + "/" + certificate_json_name, json));
-    AXISCAL_CHECK(write_synced(folder + "/" + certificate_csv_name, csv));
-    const std::string name = std::filesystem::path(run_file).filename();
-    return copy_verified(run_file, folder + "/" + name, sha256);
-}
-
-} // namespace
-
 Result<void> write_drift_files(const DriftDocument& document,
                                const std::string& run_file,
                                const std::string& folder) {
@@ -91,8 +76,9 @@ Result<void> write_drift_files(const DriftDocument& document,
 Result<void> write_probing_files(const ProbingDocument& document,
                                  const std::string& run_file,
                                  const std::string& folder) {
-    return write_texts(probing_json_text(document), probing_csv(document), run_file,
-                       document.run_file_sha256, folder);
+    AXISCAL_TRY(std::string pdf, render_probing_pdf(document));
+    const Papers papers{probing_json_text(document), probing_csv(document), std::move(pdf)};
+    return write_all(papers, run_file, document.run_file_sha256, folder);
 }
 
 } // namespace axiscal

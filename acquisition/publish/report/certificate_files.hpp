@@ -32,7 +32,8 @@ Result<void> write_circular_files(const CircularCertificate& certificate,
 Result<void> write_drift_files(const DriftDocument& document,
                                const std::string& run_file,
                                const std::string& folder);
-/// Of a probing test, with every touch; it has no .pdf.
+/// The same of a probing test; its .csv holds every touch.
+/// @errors Fault::io; Fault::refused when the run file changed meanwhile; render_probing_pdf().
 Result<void> write_probing_files(const ProbingDocument& document,
                                  const std::string& run_file,
                                  const std::string& folder);

@@ -6,6 +6,7 @@ tick of the servo thread; with a constant delay only the tick's saw-tooth shows,
 
 A missing LinuxCNC is a failure unless AXISCAL_MAY_SKIP names linuxcnc (then exit 77)."""
 import json
+import pathlib
 import random
 import re
 import sys
@@ -85,6 +86,8 @@ def probing(bench):
     checked = json.loads(bench.axiscal("verify", shown["file"], "--json"))
     assert checked["findings"] == [] and checked["complete"], checked
     assert checked["result_digest"] == shown["result"]["run"]["result_digest"], checked
+    papers = json.loads(bench.axiscal("export", shown["file"], "--out", bench.scratch, "--json"))
+    assert pathlib.Path(papers["pdf"]).read_bytes().startswith(b"%PDF-"), papers
     # The zero: the corner found by one touch each, as late as the first delay and a tick.
     offsets = dict(re.findall(r"^(522[123])\s+(\S+)$", (bench.scratch / "machine.var").read_text(), re.M))
     assert len(offsets) == 3, offsets

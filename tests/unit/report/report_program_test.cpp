@@ -4,6 +4,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "tests/unit/publish/probed_block.hpp"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -18,9 +19,10 @@ using testing::ScratchFolder;
 
 class ReportProgram : public ::testing::Test {
 protected:
-    std::string write_run(RunRecord run, bool complete = true) {
+    std::string
+    write_run(RunRecord run, bool complete = true, const RunAttachments& attachments = {}) {
         const std::string path = folder_.file(run.run_id + ".axiscal");
-        auto writer = RunFileWriter::create(path, run).value();
+        auto writer = RunFileWriter::create(path, run, attachments).value();
         EXPECT_TRUE(writer.append_environment(run.environment));
         for (const DatumRecord& datum : run.datums)
             EXPECT_TRUE(writer.append_datum(datum));
@@ -67,6 +69,26 @@ TEST_F(ReportProgram, GivesEqualBytesEachTime) {
     const auto b = nlohmann::json::parse(out_);
     for (const char* key : {"json", "csv", "pdf", "run_file"})
         EXPECT_TRUE(read_bytes(a.at(key)) == read_bytes(b.at(key))) << key;
+}
+
+TEST_F(ReportProgram, StagesTheFourFilesOfAProbingTest) {
+    RunAttachments attachments;
+    attachments.probing = test::probed_block();
+    const std::string run = write_run(test::probing_header(), true, attachments);
+    for (const char* place : {"outbox", "to"}) { // the station's own report, and an export
+        const std::string folder = folder_.file(place);
+        ASSERT_EQ(start(run + " --" + place + " " + folder), 0) << err_;
+        const auto line = nlohmann::json::parse(out_);
+        EXPECT_EQ(line.at("entry"), folder + "/20260101T010000Z-probing");
+        const auto document = nlohmann::json::parse(read_bytes(line.at("json")));
+        EXPECT_EQ(document.at("run").at("run_file_sha256"),
+                  sha256_of_file(line.at("run_file").get<std::string>()).value());
+        const std::string words = test::text_of(line.at("pdf"));
+        for (const char* word : {"E_TD,X", "E_TD,Y", "E_TD,Z", "40.00"})
+            EXPECT_NE(words.find(word), std::string::npos) << word;
+        EXPECT_GT(std::filesystem::file_size(line.at("csv").get<std::string>()), 500u);
+    }
+    EXPECT_TRUE(read_stored_result(run)) << "the first evaluation is kept in the run file";
 }
 
 TEST_F(ReportProgram, RefusesAnIncompleteRunWithASentence) {
