@@ -9,6 +9,7 @@
 #include "drivers/cnc/trigger_ports.hpp"
 #include "drivers/link/line_writer.hpp"
 #include "drivers/link/link_opener.hpp"
+#include "drivers/link/service_manager.hpp"
 #include "drivers/spawn.hpp"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +19,6 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
-#include <systemd/sd-daemon.h>
 
 #include <csignal>
 #include <cstdio>
@@ -28,6 +28,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -63,11 +64,11 @@ Result<int> lock_state(const std::string& folder) {
 /// systemd's watchdog is fed by the loop itself: a loop that hangs is restarted. An idle station
 /// wakes for nothing else, so three fifths of its time go by in between: of 10 s, 4 are to spare.
 Task<void> feed_watchdog(Scheduler& scheduler) {
-    std::uint64_t limit_us = 0;
-    if (::sd_watchdog_enabled(0, &limit_us) <= 0) co_return;
+    const std::optional<Duration> limit = watchdog_limit();
+    if (!limit) co_return;
     for (;;) {
-        ::sd_notify(0, "WATCHDOG=1");
-        co_await scheduler.sleep_for(std::chrono::microseconds{limit_us / 5 * 3});
+        tell_service_manager("WATCHDOG=1");
+        co_await scheduler.sleep_for(*limit / 5 * 3);
     }
 }
 
@@ -100,13 +101,13 @@ struct Daemon {
             co_return;
         }
         spdlog::info("ready");
-        ::sd_notify(0, "READY=1");
+        tell_service_manager("READY=1");
     }
 
     Task<void> end_on_signal() {
         boost::asio::signal_set signals{loop, SIGTERM, SIGINT};
         co_await signals.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
-        ::sd_notify(0, "STOPPING=1");
+        tell_service_manager("STOPPING=1");
         spdlog::info("stopping; an open run stays open and is continued at the next start");
         co_await station.stop();
         loop.stop();
