@@ -49,7 +49,7 @@ Result<std::string> sha256_of_file(const std::string& path, const std::function<
     const FileHandle file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
     if (!file) return fail_io("cannot open", path);
     Sha256 hash;
-    std::vector<char> block(1U << 20U);
+    std::vector<char> block(block_for(file));
     for (;;) {
         const auto got = ::read(file.get(), block.data(), block.size());
         if (got < 0 && errno == EINTR) continue;

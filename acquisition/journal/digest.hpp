@@ -32,8 +32,8 @@ Digest sha256_link(const Digest& previous, std::string_view bytes);
 std::string hex_of(const Digest& digest); ///< 64 lower-case digits
 std::string sha256_hex(std::string_view bytes);
 
-/// Of the whole file as it is on disk, read in blocks. `progress` is called after each block
-/// (1 MiB). @errors Fault::io naming the path.
+/// Of the whole file as it is on disk, read in blocks (block_for). `progress` is called
+/// after each. @errors Fault::io naming the path.
 Result<std::string> sha256_of_file(const std::string& path,
                                    const std::function<void()>& progress = {});
 

@@ -1,5 +1,6 @@
 #include "acquisition/journal/durable_file.hpp"
 
+#include <algorithm>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
@@ -18,6 +19,13 @@ bool FileHandle::close() {
 tl::unexpected<Error> fail_io(std::string_view what, const std::string& path, int error) {
     return fail(Fault::io, std::string{what} + " " + path,
                 std::error_code{error, std::generic_category()});
+}
+
+std::size_t block_for(const FileHandle& file) {
+    constexpr off_t least = 4096, most = 1 << 20;
+    struct stat found {};
+    if (::fstat(file.get(), &found) != 0) return most;
+    return static_cast<std::size_t>(std::clamp(found.st_size, least, most));
 }
 
 Result<void> sync_file(const std::string& path) {

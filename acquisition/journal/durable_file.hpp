@@ -5,6 +5,7 @@
 #include "analysis/quantity/result.hpp"
 
 #include <cerrno>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -33,6 +34,10 @@ private:
 
 /// Fault::io: "<what> <path>" with errno as cause.
 tl::unexpected<Error> fail_io(std::string_view what, const std::string& path, int error = errno);
+
+/// How much of a file to read at once: all that it says it holds, from 4 KiB (a file of /proc says
+/// 0) to 1 MiB. A buffer that is larger than the file costs its zeroing, page by page.
+std::size_t block_for(const FileHandle& file);
 
 Result<void> sync_file(const std::string& path);
 /// Makes names in the folder durable. A share that cannot sync folders (EINVAL) is no error.

@@ -203,7 +203,7 @@ Result<std::string> SmbDestination::write_and_read_back(const std::string& sourc
     if (!from) return fail_io("cannot open", source);
     SmbFile to{session_->context(), url(path), O_RDWR | O_CREAT | O_TRUNC};
     if (!to) return refused("cannot write", path, errno);
-    std::vector<char> bytes(block);
+    std::vector<char> bytes(block_for(from));
     std::uint64_t size = 0;
     for (;;) {
         const auto got = ::read(from.get(), bytes.data(), bytes.size());

@@ -24,6 +24,13 @@ TEST(Digest, OfAFileIsThatOfItsBytes) {
     EXPECT_EQ(sha256_of_file(scratch.file("none")).error().fault, Fault::io);
 }
 
+TEST(Digest, OfAFileThatSaysItIsEmptyIsThatOfWhatItHolds) {
+    const testing::ScratchFolder scratch;
+    testing::write_bytes(scratch.file("f"), "");
+    EXPECT_EQ(sha256_of_file(scratch.file("f")).value(), sha256_hex(""));
+    EXPECT_EQ(sha256_of_file("/proc/sys/kernel/ostype").value(), sha256_hex("Linux\n"));
+}
+
 TEST(Digest, OfALinkIsThatOfPreviousAndBytesInARow) {
     const Digest previous = sha256("before");
     EXPECT_EQ(sha256_link(previous, "row"),
