@@ -5,14 +5,15 @@
 namespace axiscal {
 
 void SampleHistory::push(const Sample& sample) {
-    if (const auto last = newest()) {
-        if (sample.at < last->at) {
+    if (!samples_.empty()) {
+        const Sample& last = samples_.back();
+        if (sample.at < last.at) {
             ++disordered_;
             return;
         }
-        if (sample.epoch != last->epoch)
+        if (sample.epoch != last.epoch)
             epoch_changed_at_ = sample.at;
-        else if (last->device_count != 0 && sample.device_count > last->device_count + 1)
+        else if (last.device_count != 0 && sample.device_count > last.device_count + 1)
             ++gaps_;
     }
     if (!began_at_) began_at_ = sample.at;

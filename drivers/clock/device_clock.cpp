@@ -71,7 +71,11 @@ PlacedTime DeviceClock::place(std::uint64_t number,
     }
     const Duration since_first = period * static_cast<std::int64_t>(number - first_number_);
     const Duration newest = since_first + period * behind;
-    observe({seconds_of(newest), seconds_of(read_at - first_read_ - newest)});
+    // Records that were read together all tell of the newest of them: once is enough.
+    if (const Read read{newest, read_at}; seen_ != read) {
+        seen_ = read;
+        observe({seconds_of(newest), seconds_of(read_at - first_read_ - newest)});
+    }
     const double late_s = delay_s(seconds_of(since_first)) - early_s_;
     return {first_read_ + since_first + from_seconds(late_s), uncertainty_};
 }
@@ -92,10 +96,7 @@ double DeviceClock::delay_s(double device_s) const {
     return line_s + std::min(0.0, open_->delay_s - line_.at(open_->device_s));
 }
 
-/// Records that were read together all tell of the newest of them: once is enough.
 void DeviceClock::observe(ClockPoint newest) {
-    if (seen_ == newest) return;
-    seen_ = newest;
     if (open_ && std::floor(open_->device_s / bucket_s) != std::floor(newest.device_s / bucket_s))
         close_bucket();
     if (!open_ && lowest_.empty()) line_ = {newest.delay_s, 0};

@@ -35,6 +35,11 @@ public:
     place(std::uint64_t number, MonotonicTime read_at, Duration period, std::int64_t behind = 0);
 
 private:
+    struct Read {
+        Duration newest; ///< its last record, since the first of all
+        MonotonicTime read_at;
+        bool operator==(const Read&) const = default;
+    };
     void observe(ClockPoint newest);
     void close_bucket();
     void refit();
@@ -50,7 +55,7 @@ private:
     bool begun_ = false;
     std::deque<ClockPoint> lowest_;  ///< of each bucket of the window
     std::optional<ClockPoint> open_; ///< of the bucket that is filling
-    std::optional<ClockPoint> seen_; ///< the newest record of the last read
+    std::optional<Read> seen_;       ///< the last one
     ClockLine line_;
     double fit_uncertainty_s_ = 0;
     double early_s_ = 0;     ///< a record lies this much before the line

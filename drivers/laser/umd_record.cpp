@@ -1,5 +1,6 @@
 #include "drivers/laser/umd_record.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 
@@ -16,10 +17,10 @@ constexpr std::ptrdiff_t safe_digits = 18;
 const char* read_integer(const char* begin, const char* end, std::int64_t& value) {
     const bool negative = begin != end && *begin == '-';
     const char* const digits = begin + (negative ? 1 : 0);
+    const char* const safe_end = digits + std::min(end - digits, safe_digits);
     const char* at = digits;
     std::int64_t sum = 0;
-    for (; at != end && static_cast<unsigned char>(*at - '0') <= 9 && at - digits < safe_digits;
-         ++at)
+    for (; at != safe_end && static_cast<unsigned char>(*at - '0') <= 9; ++at)
         sum = sum * 10 + (*at - '0');
     if (at == digits) return nullptr;
     value = negative ? -sum : sum;
