@@ -39,7 +39,8 @@ EnvironmentHistory::EnvironmentHistory(const RunRecord& run)
         case ChannelKind::humidity: return in_air ? &humidity_ : nullptr;
         case ChannelKind::carbon_dioxide: return in_air ? &carbon_dioxide_ : nullptr;
         case ChannelKind::displacement:
-        case ChannelKind::strength: return nullptr;
+        case ChannelKind::strength:
+        case ChannelKind::angle: return nullptr;
         }
         return nullptr;
     };

@@ -31,6 +31,7 @@ std::string_view name_of(ChannelKind kind) {
     case ChannelKind::humidity: return "humidity";
     case ChannelKind::carbon_dioxide: return "carbon_dioxide";
     case ChannelKind::strength: return "strength";
+    case ChannelKind::angle: return "angle";
     }
     return "?";
 }
@@ -63,6 +64,7 @@ std::string_view stored_unit_of(ChannelKind kind) {
     case ChannelKind::humidity: return "%";
     case ChannelKind::carbon_dioxide: return "ppm";
     case ChannelKind::strength: return "%";
+    case ChannelKind::angle: return "arcsec";
     }
     return "?";
 }

@@ -28,7 +28,8 @@ enum class ChannelKind : std::uint8_t {
     pressure,
     humidity,
     carbon_dioxide,
-    strength
+    strength,
+    angle ///< of an autocollimator
 };
 enum class Medium : std::uint8_t { none, air, material };
 enum class AirFormula : std::uint8_t { ciddor, edlen };
@@ -46,7 +47,7 @@ std::string_view name_of(Medium medium);
 std::string_view name_of(AirFormula formula);
 std::string_view name_of(ExpansionForm form);
 std::string_view name_of(EveModel model);
-/// The unit in which a channel's value is stored: "m", "degC", "Pa", "%", "ppm".
+/// The unit in which a channel's value is stored: "m", "degC", "Pa", "%", "ppm", "arcsec".
 std::string_view stored_unit_of(ChannelKind kind);
 
 /// One position to be reached, in the order of the cycle.

@@ -42,7 +42,7 @@ constexpr std::array drivers{
     InstrumentDriver{"vaisala", "Vaisala PTU300 or PTB330 air sensor, serial ASCII", make_vaisala,
                      &vaisala_appearance},
     InstrumentDriver{"ascii-gauge",
-                     "HEIDENHAIN ND 28x, Mitutoyo, Sylvac length gauges, serial ASCII",
+                     "HEIDENHAIN ND 28x, Mitutoyo, Sylvac gauges, ELCOMAT 3000, serial ASCII",
                      make_ascii_gauge, &ascii_gauge_appearance},
     InstrumentDriver{"dracal-usbtenki", "Dracal USBTenki air sensor (P, T, RH, probe), USB",
                      make_dracal_usbtenki, &dracal_usbtenki_appearance},

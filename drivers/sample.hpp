@@ -51,7 +51,7 @@ public:
         sample.quality_ = why;
         return sample;
     }
-    /// In stored_unit_of(kind): m, degC, Pa, %, ppm. Displacement: of an interferometer vacuum
+    /// In stored_unit_of(kind): m, degC, Pa, %, ppm, arcsec. Displacement: of an interferometer vacuum
     /// wavelengths (n = 1), of a gauge or ballbar the length itself.
     [[nodiscard]] std::optional<double> value() const {
         return quality_ == Quality::good ? std::optional{value_} : std::nullopt;

@@ -176,7 +176,8 @@ void read_channel(RunRecord& run, RowReader& in) {
     channel.place = in.text();
     channel.kind =
         in.choice({ChannelKind::displacement, ChannelKind::temperature, ChannelKind::pressure,
-                   ChannelKind::humidity, ChannelKind::carbon_dioxide, ChannelKind::strength});
+                   ChannelKind::humidity, ChannelKind::carbon_dioxide, ChannelKind::strength,
+                   ChannelKind::angle});
     channel.medium = in.choice({Medium::none, Medium::air, Medium::material});
     channel.correction = in.real();
     run.channels.push_back(std::move(channel));

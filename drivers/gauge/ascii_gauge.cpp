@@ -1,5 +1,5 @@
-// Length gauges and read-outs on a serial line that answer a request with one line of ASCII. What
-// differs between makers is a row in gauge_answer.cpp; there is one driver.
+// Length gauges, read-outs and autocollimators on a serial line that answer a request with one line
+// of ASCII. What differs between makers is a row in gauge_answer.cpp; there is one driver.
 //
 // Documents:
 //   nd-28x    HEIDENHAIN, user's manuals ND 281B (page 47), ND 280, ND 287: "Data format and
@@ -10,7 +10,11 @@
 //   sylvac    Sylvac and Bowers, manuals of the opto RS duplex interface (commands ?, SET?, MM,
 //   IN).
 //             The frame 7E2 is common knowledge and not in them.
-// Of all of them: revision not stated. Nothing here was seen on a real device yet.
+//   elcomat-* Two open programs that agree on line, request and answer of the ELCOMAT 3000:
+//             dls-controls/elcomat3000 (elcomat3000.cpp and stexample.src at 2ef0b5187a0c, and the
+//             bytes of etc/simulations/elcomat3000.py at 7079e644fad5), lnls-ima/ima-utils
+//             (imautils/devices/ElcomatLib.py at db70e0b3dff1). The maker's manual was not seen.
+// Of all manuals: revision not stated. Nothing here was seen on a real device yet.
 //
 // A gauge is asked each period and heard all the time: a value that a person sends with the DATA
 // key counts as well. A value belongs to the arrival of its last byte less the time that its line
@@ -44,9 +48,8 @@ struct GaugeSetup {
     Duration poll_period{};
 };
 
-/// Of the longest answer, 18 characters with start, parity and stop bits.
-Duration time_on_wire(const LinkSettings& line) {
-    constexpr int characters = 18;
+/// Of the longest answer, its characters with start, parity and stop bits.
+Duration time_on_wire(const LinkSettings& line, int characters) {
     const int bits = 1 + line.data_bits + (line.parity == 'N' ? 0 : 1) + line.stop_bits;
     return std::chrono::nanoseconds{std::int64_t{1'000'000'000} * characters * bits / line.baud};
 }
@@ -60,8 +63,10 @@ class AsciiGauge final : public Instrument {
 public:
     explicit AsciiGauge(GaugeSetup setup)
         : setup_{std::move(setup)}
-        , latency_{time_on_wire(setup_.link)}
-        , channels_{{"length", ChannelKind::displacement, Medium::none}} {}
+        , latency_{time_on_wire(setup_.link, setup_.model->longest_answer)}
+        , channels_{setup_.model->angular()
+                        ? Channel{"angle", ChannelKind::angle, Medium::none}
+                        : Channel{"length", ChannelKind::displacement, Medium::none}} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
@@ -73,6 +78,8 @@ private:
     Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
+    void take_error(const Error& error, MonotonicTime at, SampleSink& sink);
+    void tell_identity(SampleSink& sink);
     [[nodiscard]] Duration uncertainty_at(MonotonicTime at);
     void learn_unit(GaugeUnit unit);
     [[nodiscard]] bool is_echo(std::string_view line) const;
@@ -122,14 +129,30 @@ void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, Sample
     const auto unit = told_unit_ ? told_unit_ : setup_.unit;
     if (contradiction_ || !unit) return;
     ++counters_.samples;
-    if (!std::exchange(identified_, true))
-        sink.identify(
-            Identity{std::string{setup_.model->maker}, std::string{setup_.model->model}, "", ""});
-    const double metres = setup_.sign * length_of(answer.number, *unit).si();
-    Sample sample{0, at - latency_, metres, 0, epoch_};
+    tell_identity(sink);
+    const double stored =
+        setup_.model->angular() ? answer.number : length_of(answer.number, *unit).si();
+    Sample sample{0, at - latency_, setup_.sign * stored, 0, epoch_};
     sample.time_uncertainty = uncertainty;
     sink.take(sample);
     counted_before_ = true;
+}
+
+void AsciiGauge::tell_identity(SampleSink& sink) {
+    if (std::exchange(identified_, true)) return;
+    sink.identify(
+        Identity{std::string{setup_.model->maker}, std::string{setup_.model->model}, "", ""});
+}
+
+/// An autocollimator sees no mirror whenever the axis turns: its quality says so, and no note.
+void AsciiGauge::take_error(const Error& error, MonotonicTime at, SampleSink& sink) {
+    answered_ = true;
+    if (error.fault == Fault::beam_lost) {
+        tell_identity(sink);
+        return sink.take(Sample::bad(0, at - latency_, Quality::beam_lost, 0, epoch_));
+    }
+    sink.note(error.fault, error.detail);
+    sink.take(Sample::bad(0, at - latency_, Quality::signal_error, 0, epoch_));
 }
 
 void AsciiGauge::take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink) {
@@ -149,9 +172,7 @@ void AsciiGauge::take_line(std::string_view line, MonotonicTime read_at, SampleS
         return;
     }
     ++counters_.frames;
-    answered_ = true;
-    sink.note(answer.error().fault, answer.error().detail);
-    sink.take(Sample::bad(0, read_at - latency_, Quality::signal_error, 0, epoch_));
+    take_error(answer.error(), read_at, sink);
 }
 
 /// The link and the framer are owned by run()'s frame, which waits.
@@ -212,7 +233,7 @@ Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
         co_await context.links->open(setup_.link, context.scheduler->now() + link_patience);
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     const std::unique_ptr<ByteLink> link = *std::move(opened);
-    // Answers have 10 to 18 characters; an adapter keeps them for as long as its timer runs.
+    // Answers have 10 to 24 characters; an adapter keeps them for as long as its timer runs.
     time_uncertainty_ = link->latency_uncertainty() + latency_ / 2;
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
     asked_at_.reset();
@@ -241,6 +262,10 @@ std::vector<std::string> model_names() {
 }
 
 std::optional<GaugeUnit> read_unit(Settings& options, const GaugeModel& model) {
+    if (model.angular()) {
+        options.choice("unit", {"arcsec"}, "arcsec"); // the key is known, there is no other one
+        return GaugeUnit::arcseconds;
+    }
     if (!options.has("unit") && model.tells_unit()) {
         options.choice("unit", {"mm", "inch"}, "mm"); // the key is known, the gauge tells
         return std::nullopt;
@@ -256,7 +281,8 @@ const Appearance ascii_gauge_appearance{
     {},
     true,
     "gauge",
-    "model = \"nd-28x\"               # or \"mitutoyo\" with unit = \"mm\", or \"sylvac\"\n"};
+    "model = \"nd-28x\"               # or \"mitutoyo\" with unit = \"mm\", or \"sylvac\", or\n"
+    "                               # \"elcomat-x\", an autocollimator\n"};
 
 std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& /*config*/,
                                              Settings& options) {

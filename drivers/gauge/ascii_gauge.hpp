@@ -1,5 +1,5 @@
 #pragma once
-// Length gauges and read-outs that answer in ASCII, see ascii_gauge.cpp.
+// Length gauges, read-outs and autocollimators that answer in ASCII, see ascii_gauge.cpp.
 
 #include "drivers/instrument.hpp"
 

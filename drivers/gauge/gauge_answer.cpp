@@ -18,11 +18,20 @@ constexpr std::array<std::string_view, 1> mitutoyo_shapes{"0cA+########"};
 constexpr std::array<std::string_view, 4> sylvac_shapes{"M+999.999M", "M+999.99M", "M+99.9999M",
                                                         "M+9.99999M"};
 
+// 003: both axes are valid, 001 and 002: the first or the second alone.
+constexpr std::array<std::string_view, 2> elcomat_x_shapes{"4 003 N V", "4 001 N V"};
+constexpr std::array<std::string_view, 2> elcomat_y_shapes{"4 003 V N", "4 002 V N"};
+
 constexpr std::span<const GaugeError> no_errors{};
 constexpr std::array mitutoyo_errors{
     GaugeError{"91", Fault::signal_error, "the gauge sends an error code instead of a value"}};
 constexpr std::array sylvac_errors{
     GaugeError{"ERR", Fault::signal_error, "the gauge answers with an error"}};
+constexpr std::string_view no_mirror = "the autocollimator sees no mirror before this axis";
+constexpr std::array elcomat_x_errors{GaugeError{"4 000 ", Fault::beam_lost, no_mirror},
+                                      GaugeError{"4 002 ", Fault::beam_lost, no_mirror}};
+constexpr std::array elcomat_y_errors{GaugeError{"4 000 ", Fault::beam_lost, no_mirror},
+                                      GaugeError{"4 001 ", Fault::beam_lost, no_mirror}};
 
 LinkSettings serial(int baud, char parity, int data_bits, int stop_bits) {
     LinkSettings line;
@@ -40,8 +49,12 @@ LinkSettings opto_powered(LinkSettings line) {
     return line;
 }
 
-const std::array<GaugeModel, 4>& models() {
-    static const std::array<GaugeModel, 4> rows{
+constexpr std::string_view moeller_wedel = "MÖLLER-WEDEL", elcomat = "ELCOMAT 3000";
+/// "4 003 -1000.00 -1000.00" and its CR.
+constexpr int elcomat_characters = 24;
+
+const std::array<GaugeModel, 6>& models() {
+    static const std::array<GaugeModel, 6> rows{
         GaugeModel{"nd-28x", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
                    heidenhain_shapes, no_errors, "", 200ms},
         GaugeModel{"nd-28x-nine", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
@@ -50,6 +63,12 @@ const std::array<GaugeModel, 4>& models() {
                    mitutoyo_shapes, mitutoyo_errors, "", 200ms},
         GaugeModel{"sylvac", "Sylvac", "opto RS duplex", opto_powered(serial(4800, 'E', 7, 2)),
                    "?\r", '\r', sylvac_shapes, sylvac_errors, "SET?\r", 200ms},
+        GaugeModel{"elcomat-x", moeller_wedel, elcomat, serial(19200, 'N', 8, 1), "a\r\n", '\r',
+                   elcomat_x_shapes, elcomat_x_errors, "", 100ms, GaugeUnit::arcseconds,
+                   elcomat_characters},
+        GaugeModel{"elcomat-y", moeller_wedel, elcomat, serial(19200, 'N', 8, 1), "a\r\n", '\r',
+                   elcomat_y_shapes, elcomat_y_errors, "", 100ms, GaugeUnit::arcseconds,
+                   elcomat_characters},
     };
     return rows;
 }
@@ -92,6 +111,34 @@ bool take(char shape, char letter, Match& match) {
     }
 }
 
+bool is_digit(char letter) {
+    return letter >= '0' && letter <= '9';
+}
+
+/// Takes "-12.34" at the begin of `rest`, with at most six places before the point and as many
+/// behind it; its sign and places stand in `match` if it is the number.
+bool take_free_number(std::string_view& rest, bool taken, Match& match) {
+    constexpr std::size_t most_places = 6;
+    std::string_view text = rest;
+    const bool negative = text.starts_with('-');
+    if (negative) text.remove_prefix(1);
+    const auto places = [](std::string_view digits) {
+        const auto end = std::ranges::find_if_not(digits, is_digit);
+        return static_cast<std::size_t>(end - digits.begin());
+    };
+    const std::size_t whole = places(text);
+    if (whole == 0 || whole > most_places || whole == text.size() || text[whole] != '.')
+        return false;
+    const std::size_t fraction = places(text.substr(whole + 1));
+    if (fraction == 0 || fraction > most_places) return false;
+    if (taken) {
+        match.sign = negative ? '-' : '+';
+        match.number = text.substr(0, whole + 1 + fraction);
+    }
+    rest = text.substr(whole + 1 + fraction);
+    return true;
+}
+
 std::optional<Match> match_shape(std::string_view line, std::string_view shape) {
     Match match;
     std::size_t at = 0;
@@ -99,6 +146,12 @@ std::optional<Match> match_shape(std::string_view line, std::string_view shape) 
         if (letter == 'M') {
             const bool marked = at < line.size() && tolerance_marks.find(line[at]) != line.npos;
             at += marked ? 1 : 0;
+            continue;
+        }
+        if (letter == 'N' || letter == 'V') {
+            std::string_view rest = line.substr(at);
+            if (!take_free_number(rest, letter == 'N', match)) return std::nullopt;
+            at = line.size() - rest.size();
             continue;
         }
         if (at == line.size() || !take(letter, line[at], match)) return std::nullopt;

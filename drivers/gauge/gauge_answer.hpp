@@ -1,6 +1,7 @@
 #pragma once
-// What ASCII length gauges and read-outs answer, one row a model: the request, the shape of the
-// answer, its unit, its error answers. Pure. Documents of the rows: see ascii_gauge.cpp.
+// What ASCII length gauges, read-outs and autocollimators answer, one row a model: the request, the
+// shape of the answer, its unit, its error answers. Pure. Documents of the rows: see
+// ascii_gauge.cpp.
 
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/result.hpp"
@@ -13,7 +14,7 @@
 
 namespace axiscal {
 
-enum class GaugeUnit : std::uint8_t { millimetres, inches };
+enum class GaugeUnit : std::uint8_t { millimetres, inches, arcseconds };
 
 /// An answer that begins so is an error of the gauge and no value.
 struct GaugeError {
@@ -28,8 +29,11 @@ struct GaugeError {
 ///   m  a tolerance mark: < = > ? or blank    M  the same, or nothing
 ///   s  a mark of a series: S A G D or blank  c  the input, a digit
 ///   u  the unit: blank mm, '"' inch, '?' a fault    any other: itself
-/// Every shape has one length: a record that lost a letter is refused, since -5.23 without its
-/// point is a number as well.
+///   N  the number with as many places as it has: its sign, '-' or nothing, digits, point, digits
+///   V  another number like this, which is not taken
+/// Without N and V a shape has one length: a record that lost a letter is refused, since -5.23
+/// without its point is a number as well. With them it is refused without its point, too; a lost
+/// digit passes.
 struct GaugeModel {
     std::string_view name; ///< in the station file
     std::string_view maker, model;
@@ -40,7 +44,11 @@ struct GaugeModel {
     std::span<const GaugeError> errors;
     std::string_view unit_request; ///< asked once at the beginning; empty: the gauge cannot tell
     Duration poll_period{};
+    std::optional<GaugeUnit> only_unit = {}; ///< it has no other one
+    int longest_answer = 18;                 ///< characters, its end included
     [[nodiscard]] bool tells_unit() const;
+    /// It reads an angle, no length.
+    [[nodiscard]] bool angular() const { return only_unit == GaugeUnit::arcseconds; }
     [[nodiscard]] bool has_inputs() const;
 };
 
@@ -56,12 +64,14 @@ struct GaugeAnswer {
 
 /// One line without its end. A blank where a digit may stand counts only before the first digit:
 /// "-      5.23" is -5.23; "5 23" is none.
-/// @errors Fault::signal_error with the gauge's own complaint; Fault::bad_frame for any other text.
+/// @errors Fault::signal_error with the gauge's own complaint, Fault::beam_lost where it sees no
+/// light; Fault::bad_frame for any other text.
 Result<GaugeAnswer> decode_gauge_answer(std::string_view line, const GaugeModel& model);
 
 /// The unit in the answer to `unit_request`: a word "MM" or "IN". Empty when it holds neither.
 std::optional<GaugeUnit> unit_in_settings(std::string_view line);
 
+/// Of a gauge that reads lengths; `unit` is no angle.
 Length length_of(double number, GaugeUnit unit);
 
 } // namespace axiscal

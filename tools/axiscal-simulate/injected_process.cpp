@@ -39,6 +39,7 @@ double scale_error_k(const Scenario& s, double true_c) {
 
 double index_error(const Scenario& s, const TrueAir& air) {
     if (s.laser.resolution_um) return 0; // a scale does not look through the air
+    if (s.polygon) return 0;             // air does not turn a beam
     const AirSteps steps = air_steps(s);
     TrueAir shown = air;
     shown.temperature =
@@ -86,6 +87,7 @@ Weather weather_at(const Scenario& s, double seconds) {
 }
 
 double samples_a_window(const Scenario& s) {
+    if (s.polygon) return std::max(1.0, s.truth.window_s / s.polygon->poll_s);
     return std::max(1.0, s.truth.window_s * UmdCounter{s.laser}.rate_hz());
 }
 
@@ -132,7 +134,7 @@ double InjectedProcess::environment_um(double target_mm, double seconds, double 
     const Weather& now = weather(seconds);
     double um = scenario_.errors.drift_um_per_hour * seconds / 3600.0 -
                 beam_mm(scenario_, target_mm) * 1e3 * now.index_error;
-    if (scenario_.indexing_table) return um; // an angle does not expand
+    if (scenario_.rotary()) return um; // an angle does not expand
     const ThermalScenario& thermal = scenario_.thermal;
     const double alpha = thermal.expansion_um_per_m_k * 1e-6;
     const double datum_mm = scenario_.axis.start_mm;

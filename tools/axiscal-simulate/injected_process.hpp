@@ -30,7 +30,7 @@ AirSteps air_steps(const Scenario& scenario);
 /// Standard deviation of one capture, um, without vibration: the offset of the stop, and what a
 /// window leaves of the noise of its samples.
 double capture_sigma_um(const Scenario& scenario);
-/// Samples of the laser that one window holds, at least 1.
+/// Samples of the laser, or of the autocollimator, that one window holds, at least 1.
 double samples_a_window(const Scenario& scenario);
 
 class InjectedProcess {

@@ -192,7 +192,7 @@ void read_sensor(Fields& f, SensorScenario& sensor) {
     f.read("name", sensor.name);
     f.one_of("kind", sensor.kind,
              {"dracal-vcp", "tm-th8", "xy-md02", "comet", "nd-28x", "mitutoyo", "sylvac", "vaisala",
-              "vaisala-hmp", "labjack-t7", "m-7015", "ds18b20", "temper-serial"});
+              "vaisala-hmp", "labjack-t7", "m-7015", "ds18b20", "temper-serial", "elcomat"});
     f.read("path", sensor.path);
     f.read("port", sensor.port);
     f.read("unit", sensor.unit);
@@ -210,6 +210,25 @@ void read_indexing_table(Fields& f, TableScenario& table) {
     f.positive("arm_mm", table.arm_mm);
     f.positive("range_deg", table.range_deg);
     f.read("deviation_arcsec", table.deviation_arcsec);
+}
+
+void read_polygon(Fields& f, PolygonScenario& polygon) {
+    f.read("faces", polygon.faces);
+    f.positive("range_arcsec", polygon.range_arcsec);
+    f.read("y_arcsec", polygon.y_arcsec);
+    f.positive("poll_s", polygon.poll_s);
+    f.read("deviation_arcsec", polygon.deviation_arcsec);
+    if (polygon.faces < 3) f.refuse("faces", "is at least 3");
+}
+
+/// An autocollimator looks at the slide that the laser's face moves.
+void refuse_blind_autocollimator(Fields& f, const Scenario& s) {
+    for (const SensorScenario& sensor : s.sensors) {
+        if (sensor.kind != "elcomat") continue;
+        if (!s.polygon) f.refuse("polygon", "is missing: \"elcomat\" has nothing to look at");
+        if (s.laser.path.empty() || s.laser.kind == "ids3010")
+            f.refuse("laser.path", "is missing: \"elcomat\" looks at the axis of a uMD's face");
+    }
 }
 
 void read_ballbar(Fields& f, BallbarScenario& bar) {
@@ -283,6 +302,8 @@ void read_all(Fields& f, Scenario& s) {
     f.tables("sensor", [&](Fields& t) { read_sensor(t, s.sensors.emplace_back()); });
     f.table("indexing_table",
             [&](Fields& t) { read_indexing_table(t, s.indexing_table.emplace()); });
+    f.table("polygon", [&](Fields& t) { read_polygon(t, s.polygon.emplace()); });
+    refuse_blind_autocollimator(f, s);
     f.table("ballbar", [&](Fields& t) { read_ballbar(t, s.ballbar.emplace()); });
     f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });
     f.table("truth", [&](Fields& t) {

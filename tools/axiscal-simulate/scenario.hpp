@@ -81,6 +81,16 @@ struct TableScenario {
     std::vector<double> deviation_arcsec; ///< of each position; + stands turned with the axis
 };
 
+/// A polygon on a rotary axis before an autocollimator (sensor kind "elcomat"); mm and um stand for
+/// degrees and thousandths as with an indexing table. The first face stands before it at 0.
+struct PolygonScenario {
+    int faces = 8;
+    double range_arcsec = 1000;           ///< beyond it no light comes back
+    double y_arcsec = 0;                  ///< what its second axis shows
+    double poll_s = 0.1;                  ///< how often the station asks; for the truth alone
+    std::vector<double> deviation_arcsec; ///< of each face; + stands turned with the axis
+};
+
 /// A ballbar between spindle and table, and what it shall find; ways of its plane move it.
 struct BallbarScenario {
     std::string path, plane = "XY"; ///< letters of the first and the second axis
@@ -135,9 +145,12 @@ struct Scenario {
     LaserScenario laser;
     std::vector<SensorScenario> sensors;
     std::optional<TableScenario> indexing_table;
+    std::optional<PolygonScenario> polygon;
     std::optional<BallbarScenario> ballbar;
     std::optional<CncScenario> cnc;
     TruthScenario truth;
+    /// A rotary axis: an angle does not expand.
+    [[nodiscard]] bool rotary() const { return indexing_table || polygon; }
 };
 
 /// @errors bad_configuration naming the key: unknown keys, wrong types and unknown kinds, all at

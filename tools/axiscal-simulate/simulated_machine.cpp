@@ -20,6 +20,13 @@ double table_um(const std::vector<TablePoint>& table, double position_mm) {
     return a.error_um + share * (above->error_um - a.error_um);
 }
 
+/// The deviation of a position of the turn, that of position 0 first; none is stated: 0.
+double of_turn(const std::vector<double>& deviations, long position) {
+    const auto count = static_cast<long>(deviations.size());
+    if (count == 0) return 0;
+    return deviations[static_cast<std::size_t>(((position % count) + count) % count)];
+}
+
 /// An axis settles to its stop; 10 ms is a stiff drive's time constant.
 constexpr double settle_s = 0.01;
 /// A sample step below this is standing still: 1 nm, the print step of a position stream.
@@ -71,14 +78,16 @@ double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperatu
 }
 
 double rest_deg(const TableScenario& table, double axis_deg, double table_deg) {
-    const auto count = static_cast<long>(table.deviation_arcsec.size());
     const long position = std::lround(table_deg / table.step_deg);
-    const double deviation_arcsec =
-        count == 0
-            ? 0
-            : table
-                  .deviation_arcsec[static_cast<std::size_t>(((position % count) + count) % count)];
-    return axis_deg - table_deg + deviation_arcsec / 3600.0;
+    return axis_deg - table_deg + of_turn(table.deviation_arcsec, position) / 3600.0;
+}
+
+std::optional<double> face_arcsec(const PolygonScenario& polygon, double axis_deg) {
+    const double step_deg = 360.0 / polygon.faces;
+    const long face = std::lround(axis_deg / step_deg);
+    const double shown = (axis_deg - static_cast<double>(face) * step_deg) * 3600.0 +
+                         of_turn(polygon.deviation_arcsec, face);
+    return std::abs(shown) <= polygon.range_arcsec ? std::optional{shown} : std::nullopt;
 }
 
 SimulatedMachine::SimulatedMachine(const Scenario& scenario)
@@ -118,7 +127,7 @@ double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t
     last_drive_mm_ = drive_mm;
     last_seconds_ = seconds;
     const double at_20_mm = drive_mm + deviation_um * 1e-3 + offset_mm;
-    if (scenario_.indexing_table) return at_20_mm; // an angle does not grow
+    if (scenario_.rotary()) return at_20_mm; // an angle does not grow
     return grown_mm(scenario_.thermal, at_20_mm, material_at(scenario_.thermal, seconds));
 }
 

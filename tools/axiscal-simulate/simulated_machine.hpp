@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 
 namespace axiscal::simulate {
 
@@ -56,6 +57,9 @@ double grown_mm(const ThermalScenario& thermal, double position_20_mm, Temperatu
 /// What is left of the axis's angle after the table was turned back to `table_deg`: true steps, and
 /// the deviation of the position that is nearest. Pure.
 double rest_deg(const TableScenario& table, double axis_deg, double table_deg);
+
+/// What an autocollimator shows of the face that is nearest to it; nothing beyond its range. Pure.
+std::optional<double> face_arcsec(const PolygonScenario& polygon, double axis_deg);
 
 /// Steps through samples in order. One thread.
 class SimulatedMachine {

@@ -49,8 +49,9 @@ Result<void> Simulator::open_faces() {
         const auto table = [this](double seconds) { return table_.position_mm(seconds); };
         laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_, drive, table);
     }
+    const auto slide = [this] { return laser_ ? laser_->slide_mm() : 0.0; };
     for (const SensorScenario& sensor : scenario_.sensors) {
-        AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_));
+        AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_, slide));
         sensors_.push_back(std::move(face));
     }
     if (scenario_.ballbar) {

@@ -147,6 +147,15 @@ Systematic systematic_of_angle(const Scenario& s, const TableScenario& table) {
     return sys;
 }
 
+/// An autocollimator shows hundredths of a second of arc, and no air acts on what it shows.
+Systematic systematic_of_polygon(const Scenario& s) {
+    constexpr double shown_arcsec = 0.01, arcsec_per_mdeg = 3.6;
+    Systematic sys;
+    sys.counting = shown_arcsec / arcsec_per_mdeg;
+    sys.drift = std::abs(s.errors.drift_um_per_hour) * s.truth.duration_s / 3600.0;
+    return sys;
+}
+
 /// The scale's sensor shows its temperature in steps, and its lines move about its zero; no air
 /// acts.
 void replace_air_by_scale(
@@ -160,6 +169,7 @@ void replace_air_by_scale(
 
 Systematic systematic_of(const Scenario& s, const TruthPlan& plan) {
     if (s.indexing_table) return systematic_of_angle(s, *s.indexing_table);
+    if (s.polygon) return systematic_of_polygon(s);
     const double span_um = (plan.targets_mm.back() - plan.targets_mm.front()) * 1e3;
     const double beam_um = span_um + s.laser.dead_path_mm * 1e3;
     const double alpha = s.thermal.expansion_um_per_m_k * 1e-6;
@@ -227,7 +237,8 @@ const char* const bound_formula =
     "dT)^2 + count + drift time + fixed point; between readings at one place (B, B_mean): the "
     "material sensor's change of error in place of the scale terms. Of a rotary axis (mm stands "
     "for degree): 2 rests of half a step times (2 air steps + 6e-8) + count / (arm pi / 180) + "
-    "drift time. R, A: the middle 99.9 % of the draws, in which noise, vibration, drift, the "
+    "drift time; before an autocollimator 0.01 arcsec + drift time, and the rate is that of its "
+    "answers. R, A: the middle 99.9 % of the draws, in which noise, vibration, drift, the "
     "sensors' steps and the pace of the run are drawn; beside it count (1 + 2 sqrt(n/(n-1))), and "
     "for A span 6e-8 + span (alpha dT)^2: the formulas of air and of expansion are not drawn.";
 

@@ -122,7 +122,7 @@ EnvironmentPanel drift_axis_panel_of(const RunDrift& drift,
 }
 
 std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace>& traces) {
-    constexpr std::array<std::pair<ChannelKind, Medium>, 8> order{
+    constexpr std::array<std::pair<ChannelKind, Medium>, 9> order{
         {{ChannelKind::displacement, Medium::none},
          {ChannelKind::temperature, Medium::material},
          {ChannelKind::temperature, Medium::air},
@@ -130,7 +130,8 @@ std::vector<EnvironmentPanel> drift_panels_of(const std::vector<EnvironmentTrace
          {ChannelKind::pressure, Medium::none},
          {ChannelKind::humidity, Medium::none},
          {ChannelKind::carbon_dioxide, Medium::none},
-         {ChannelKind::strength, Medium::none}}};
+         {ChannelKind::strength, Medium::none},
+         {ChannelKind::angle, Medium::none}}};
     std::vector<EnvironmentPanel> panels;
     for (const auto& [kind, medium] : order) {
         EnvironmentPanel panel{drift_paper_of(kind, medium), {}};

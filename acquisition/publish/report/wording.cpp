@@ -168,6 +168,7 @@ ChannelPaper paper_of(ChannelKind kind, Medium medium) {
     case ChannelKind::carbon_dioxide: return {"Carbon dioxide", "ppm", 1, 0, 50};
     case ChannelKind::strength: return {"Beam strength", "%", 1, 0, 10};
     case ChannelKind::displacement: return {"Displacement", "mm", 1000, 4, 0.001};
+    case ChannelKind::angle: return {"Angle", "″", 1, 2, 0.1};
     }
     return {};
 }

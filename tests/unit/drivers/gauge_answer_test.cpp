@@ -1,4 +1,5 @@
-// Literal answers: ND 281B manual page 47, QM-Height manual 6.2.2, Sylvac opto RS manual.
+// Literal answers: ND 281B manual page 47, QM-Height manual 6.2.2, Sylvac opto RS manual; of the
+// ELCOMAT 3000 the record of dls-controls/elcomat3000 (etc/simulations/elcomat3000.py).
 #include "drivers/gauge/gauge_answer.hpp"
 #include "tests/support/made_instrument.hpp"
 
@@ -89,6 +90,71 @@ TEST(GaugeAnswer, RefusesWhatIsNoNumber) {
     for (const std::string_view line : {"+", "+.", "+1.2.3", "012.345", "+12.345", "+0123.456"})
         EXPECT_EQ(decode_gauge_answer(line, model("sylvac")).error().fault, Fault::bad_frame)
             << line;
+}
+
+TEST(GaugeAnswer, ReadsTheAxisOfTheAutocollimatorThatTheModelNames) {
+    const auto first = decode_gauge_answer("4 003 4.500000 2.300000", model("elcomat-x"));
+    ASSERT_TRUE(first) << first.error().detail;
+    EXPECT_EQ(first->number, 4.5);
+    const auto second = decode_gauge_answer("4 003 4.500000 2.300000", model("elcomat-y"));
+    ASSERT_TRUE(second) << second.error().detail;
+    EXPECT_EQ(second->number, 2.3);
+    EXPECT_EQ(decode_gauge_answer("4 003 -12.34 0.56", model("elcomat-x"))->number, -12.34);
+    EXPECT_EQ(decode_gauge_answer("4 003 12.34 -0.56", model("elcomat-y"))->number, -0.56);
+    EXPECT_EQ(decode_gauge_answer("4 001 1.25 0.00", model("elcomat-x"))->number, 1.25);
+}
+
+// The third digit of the state: 1 the first axis is valid, 2 the second, 3 both.
+TEST(GaugeAnswer, HasNoAngleOfAnAxisThatTheAutocollimatorDoesNotCallValid) {
+    for (const std::string_view dark : {"4 000 0.00 0.00", "4 002 3.21 0.56"})
+        EXPECT_EQ(decode_gauge_answer(dark, model("elcomat-x")).error().fault, Fault::beam_lost)
+            << dark;
+    for (const std::string_view dark : {"4 000 0.00 0.00", "4 001 3.21 0.56"})
+        EXPECT_EQ(decode_gauge_answer(dark, model("elcomat-y")).error().fault, Fault::beam_lost)
+            << dark;
+}
+
+TEST(GaugeAnswer, TakesNoOtherRecordOfTheAutocollimatorForAnAbsoluteReading) {
+    for (const std::string_view line :
+         {"2 103 4.500000 2.300000", "1 103 4.500000 2.300000", "3 003 4.500000 2.300000",
+          "8 423 12 1 2001 300", "4 103 4.5 2.3", "4 003", "4 003 4.5", "4 003 45 2.3",
+          "4 003 4.5 23", "4 003 4.5 2.3 1", "4 003 4.5. 2.3", "4 003 - 2.3", "4 003 .5 2.3",
+          "4 003 5. 2.3", "4 003 1e5 2.3", "4 003  4.5 2.3", "4 003 4,5 2,3",
+          "4 003 1234567.0 2.3", "4 003 1.2345678 2.3", "4003 4.5 2.3"})
+        for (const std::string_view name : {"elcomat-x", "elcomat-y"})
+            EXPECT_EQ(decode_gauge_answer(line, model(name)).error().fault, Fault::bad_frame)
+                << name << ": " << line;
+}
+
+// There is no checksum: without one of its digits, or its sign, a number is a number as well.
+TEST(GaugeAnswer, LetsPassNothingButALostDigitOrSignInARecordOfTheAutocollimator) {
+    const std::string record = "4 003 -12.34 0.56";
+    for (std::size_t at = 0; at < record.size(); ++at) {
+        std::string cut = record, other = record;
+        const char letter = cut[at];
+        cut.erase(at, 1);
+        other[at] = 'x';
+        EXPECT_FALSE(decode_gauge_answer(other, model("elcomat-x"))) << other;
+        const bool of_a_number = at >= 6 && (letter == '-' || (letter >= '0' && letter <= '9'));
+        if (of_a_number) continue;
+        EXPECT_FALSE(decode_gauge_answer(cut, model("elcomat-x"))) << cut;
+    }
+}
+
+TEST(AsciiGauge, GivesAnAngleWhereItsModelIsAnAutocollimator) {
+    const std::string keys = "link = \"serial:/dev/null\"\nmodel = ";
+    const auto angular = testing::make_instrument("ascii-gauge", keys + "\"elcomat-y\"\n");
+    EXPECT_TRUE(angular.refusals.empty());
+    ASSERT_EQ(angular.instrument->channels().size(), 1U);
+    EXPECT_EQ(angular.instrument->channels()[0].name, "angle");
+    EXPECT_EQ(angular.instrument->channels()[0].kind, ChannelKind::angle);
+    EXPECT_EQ(stored_unit_of(ChannelKind::angle), "arcsec");
+    const auto in_mm =
+        testing::make_instrument("ascii-gauge", keys + "\"elcomat-y\"\nunit = \"mm\"\n");
+    ASSERT_EQ(in_mm.refusals.size(), 1U);
+    EXPECT_EQ(in_mm.refusals[0].key, "unit");
+    const auto length = testing::make_instrument("ascii-gauge", keys + "\"nd-28x\"\n");
+    EXPECT_EQ(length.instrument->channels()[0].kind, ChannelKind::displacement);
 }
 
 TEST(AsciiGauge, WantsTheUnitOfAGaugeThatDoesNotTellIt) {

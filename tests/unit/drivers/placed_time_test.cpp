@@ -146,7 +146,10 @@ INSTANTIATE_TEST_SUITE_P(
         Polled{"gauge-nd-28x", "ascii-gauge", serial + "model = \"nd-28x\"\n", 19.375,
                19.375 / root_3},
         // 100 and 160 ms at 4800 baud: half of the 41.25 ms of a line on the wire is more
-        Polled{"gauge-sylvac", "ascii-gauge", serial + "model = \"sylvac\"\n", 118.75, 20.625}),
+        Polled{"gauge-sylvac", "ascii-gauge", serial + "model = \"sylvac\"\n", 118.75, 20.625},
+        // 0 and 40 ms, less 24 characters of 10 bits at 19200 baud
+        Polled{"gauge-elcomat", "ascii-gauge", serial + "model = \"elcomat-x\"\n", 27.5,
+               27.5 / root_3}),
     [](const auto& which) {
         std::string name = which.param.tape;
         std::erase(name, '-');

@@ -131,6 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"gauge-mitutoyo", "ascii-gauge",
                                model_keys + "\"mitutoyo\"\nunit = \"mm\"\n"},
                       TapeCase{"gauge-sylvac", "ascii-gauge", model_keys + "\"sylvac\"\n"},
+                      TapeCase{"gauge-elcomat", "ascii-gauge", model_keys + "\"elcomat-x\"\n"},
                       TapeCase{"ids3010", "ids3010", ids_keys},
                       TapeCase{"ids3010-corrects-twice", "ids3010", ids_keys},
                       TapeCase{"vaisala-ptu300", "vaisala", model_keys + "\"ptu300\"\n"},

@@ -87,6 +87,11 @@ nlohmann::json LaserFace::status() const {
             {"slide_mm", slide_mm_}};
 }
 
+double LaserFace::slide_mm() const {
+    const std::lock_guard lock{mutex_};
+    return slide_mm_;
+}
+
 void LaserFace::set_beam(bool on) {
     const std::lock_guard lock{mutex_};
     beam_ = on;

@@ -31,6 +31,8 @@ public:
 
     [[nodiscard]] nlohmann::json place() const override;
     [[nodiscard]] nlohmann::json status() const override;
+    /// Where the slide is, of the last sample.
+    [[nodiscard]] double slide_mm() const;
     void set_beam(bool on);
     void restart_counter();
     void skip_records(int count);

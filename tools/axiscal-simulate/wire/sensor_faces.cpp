@@ -265,10 +265,12 @@ double temperature_step_k(const SensorScenario& sensor) {
     return sensor.kind == "dracal-vcp" ? std::pow(10.0, -sensor.fraction_digits) : 0.1;
 }
 
-Result<std::unique_ptr<Face>>
-open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+Result<std::unique_ptr<Face>> open_sensor_face(const Scenario& scenario,
+                                               const SensorScenario& sensor,
+                                               SimClock clock,
+                                               const std::function<double()>& slide_mm) {
     if (sensor.kind == "ds18b20") return open_w1_face(scenario, sensor, clock);
-    if (is_text_kind(sensor.kind)) return open_text_face(scenario, sensor, clock);
+    if (is_text_kind(sensor.kind)) return open_text_face(scenario, sensor, clock, slide_mm);
     if (sensor.path.empty()) {
         auto face = std::make_unique<TcpFace>(scenario, sensor, clock);
         auto opened = face->open();

@@ -9,6 +9,7 @@
 #include "wire/pty.hpp"
 #include "wire/tcp_slave.hpp"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,8 +20,11 @@ RegisterBank sensor_bank(const Scenario& scenario, const SensorScenario& sensor,
 /// Resolution of the sensor's temperature, K. tM-TH8, XY-MD02 and Comet: 0.1; Dracal: its digits.
 double temperature_step_k(const SensorScenario& sensor);
 
-/// Opens the wire of one sensor. @errors io, refused.
-Result<std::unique_ptr<Face>>
-open_sensor_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock);
+/// Opens the wire of one sensor; `slide_mm` tells where the axis is, thread-safe.
+/// @errors io, refused.
+Result<std::unique_ptr<Face>> open_sensor_face(const Scenario& scenario,
+                                               const SensorScenario& sensor,
+                                               SimClock clock,
+                                               const std::function<double()>& slide_mm);
 
 } // namespace axiscal::simulate

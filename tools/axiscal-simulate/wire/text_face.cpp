@@ -1,6 +1,7 @@
 #include "wire/text_face.hpp"
 
 #include "simulated_machine.hpp"
+#include "wire/elcomat_line.hpp"
 #include "wire/gauge_line.hpp"
 #include "wire/pty.hpp"
 #include "wire/temper_line.hpp"
@@ -64,7 +65,8 @@ void TextFace::run(std::stop_token stop) {
 } // namespace
 
 bool is_text_kind(const std::string& kind) {
-    return kind == "vaisala" || kind == "temper-serial" || gauge_kinds.contains(kind);
+    return kind == "vaisala" || kind == "temper-serial" || kind == "elcomat" ||
+           gauge_kinds.contains(kind);
 }
 
 double gauge_reading_mm(const Scenario& scenario, double seconds) {
@@ -85,7 +87,14 @@ std::string answer_of_temper(const Scenario& scenario, std::string& typed, doubl
     return temper_answer(typed, truth);
 }
 
-TextFace::Answer answer_of(const Scenario& scenario, const std::string& kind) {
+TextFace::Answer answer_of(const Scenario& scenario,
+                           const std::string& kind,
+                           const std::function<double()>& slide_mm) {
+    if (kind == "elcomat")
+        return [polygon = scenario.polygon.value_or(PolygonScenario{}),
+                slide_mm](std::string& typed, double /*seconds*/) {
+            return elcomat_answer(typed, face_arcsec(polygon, slide_mm()), polygon.y_arcsec);
+        };
     if (kind == "temper-serial")
         return [scenario](std::string& typed, double seconds) {
             return answer_of_temper(scenario, typed, seconds);
@@ -104,11 +113,13 @@ TextFace::Answer answer_of(const Scenario& scenario, const std::string& kind) {
 
 } // namespace
 
-Result<std::unique_ptr<Face>>
-open_text_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock) {
+Result<std::unique_ptr<Face>> open_text_face(const Scenario& scenario,
+                                             const SensorScenario& sensor,
+                                             SimClock clock,
+                                             const std::function<double()>& slide_mm) {
     AXISCAL_TRY(Pty pty, Pty::open(sensor.path));
     return std::make_unique<TextFace>(sensor, scenario.seed, clock, std::move(pty),
-                                      answer_of(scenario, sensor.kind));
+                                      answer_of(scenario, sensor.kind, slide_mm));
 }
 
 } // namespace axiscal::simulate

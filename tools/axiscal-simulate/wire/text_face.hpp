@@ -1,10 +1,11 @@
 #pragma once
-// Instruments that answer text on a serial line: length gauges and air sensors.
+// Instruments that answer text on a serial line: length gauges, autocollimators and air sensors.
 
 #include "scenario.hpp"
 #include "sim_clock.hpp"
 #include "wire/face.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace axiscal::simulate {
@@ -16,8 +17,10 @@ bool is_text_kind(const std::string& kind);
 /// growth since the beginning, in mm.
 double gauge_reading_mm(const Scenario& scenario, double seconds);
 
-/// @errors io, refused.
-Result<std::unique_ptr<Face>>
-open_text_face(const Scenario& scenario, const SensorScenario& sensor, SimClock clock);
+/// `slide_mm` tells where the axis is, for an autocollimator; thread-safe. @errors io, refused.
+Result<std::unique_ptr<Face>> open_text_face(const Scenario& scenario,
+                                             const SensorScenario& sensor,
+                                             SimClock clock,
+                                             const std::function<double()>& slide_mm);
 
 } // namespace axiscal::simulate
