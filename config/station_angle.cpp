@@ -64,19 +64,22 @@ void read_certificate(Settings& angle, RotarySetup& setup, InstrumentRecord& art
 
 } // namespace
 
-AngleConfig read_angle(Settings angle, bool has_laser) {
+AngleConfig read_angle(Settings angle, bool has_laser, const StationConfig& station) {
     AngleConfig config;
     const bool polygon = angle.choice("method", {"indexing-table", "polygon"}) == "polygon";
     if (polygon)
         read_polygon(angle, config.setup);
     else
         read_table(angle, config.setup);
+    if (polygon && angle.has("autocollimator"))
+        config.autocollimator = read_role(angle, "autocollimator", station);
     config.artefact.name = polygon ? "polygon" : "indexing table";
     config.artefact.driver = "none";
     read_certificate(angle, config.setup, config.artefact);
     if (!angle.refused("method") && polygon == has_laser)
         angle.refuse("method",
-                     polygon ? "is read by an autocollimator: remove axis.laser"
+                     polygon ? "is read by an autocollimator: remove axis.laser, and name the instrument "
+                               "as axis.angle.autocollimator, if it is one"
                              : "needs the angular interferometer: name its channel in axis.laser");
     return config;
 }

@@ -185,7 +185,7 @@ void read_rotary(Settings axis, StationConfig& config) {
         config.axis.material_temperature =
             RoleReader{material, config}.several("temperature", Medium::material);
     if (has_laser) read_air(axis.table("air"), config);
-    config.axis.angle = read_angle(axis.table("angle"), has_laser);
+    config.axis.angle = read_angle(axis.table("angle"), has_laser, config);
 }
 
 } // namespace

@@ -99,6 +99,7 @@ struct CircularConfig {
 /// Of a rotary axis: the artefact under the instrument, and its papers.
 struct AngleConfig {
     RotarySetup setup;
+    RoleConfig autocollimator; ///< reads the faces of a polygon; empty: a person types
     InstrumentRecord artefact;
 };
 

@@ -52,8 +52,9 @@ template <class Certified> void read_certificate_dates(Settings& table, Certifie
 void read_instruments(Settings root, StationConfig& config);
 /// After the instruments, which its roles name. Travel and kind go to config.cycle.
 void read_axis(Settings axis, AxisUnits units, StationConfig& config);
-/// How the angle of a rotary axis is measured. `has_laser`: axis.laser is named.
-AngleConfig read_angle(Settings angle, bool has_laser);
+/// How the angle of a rotary axis is measured, after the instruments, which a role names.
+/// `has_laser`: axis.laser is named.
+AngleConfig read_angle(Settings angle, bool has_laser, const StationConfig& station);
 /// Of a station without [axis], whose [circular] says what is known of the machine.
 void read_machine_of_circles(Settings circular, StationConfig& config);
 /// Nothing without the table.

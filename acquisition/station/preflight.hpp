@@ -41,7 +41,9 @@ struct PreflightFacts {
     bool circular = false;                   ///< for circles: a ballbar in the laser's place
     std::optional<Duration> bar_age = {};    ///< of its last reading, good or not
     const SensorLog* bar = nullptr;          ///< its good readings lately, m
-    bool typed = false;                      ///< a person reads the angle and types it
+    bool polygon = false;                    ///< before an autocollimator, typed or read
+    bool faces_read = false;                 ///< by the autocollimator itself, not typed
+    std::optional<Duration> face_age = {};   ///< of its last reading, with a face in sight or not
     std::string run_out = {};                ///< of a rotary axis's set-up, as stated
 };
 

@@ -66,7 +66,10 @@ PreflightRecord check_drift(const PreflightFacts& facts) {
     const PreflightConfig& limits = facts.config.preflight;
     if (limits.drift_window <= Duration{})
         return passed("drift", "Not asked: preflight.drift_window is 0.");
-    if (facts.typed) return passed("drift", "Not judged: a person reads the autocollimator.");
+    if (facts.polygon)
+        return passed("drift", facts.faces_read
+                                   ? "Not judged: the autocollimator sees a face at targets alone."
+                                   : "Not judged: a person reads the autocollimator.");
     constexpr double moved_um = 50; // no drift: the axis was driven
     const DriftSeries series =
         facts.circular ? readings_of_the_bar(facts) : readings_of_the_laser(facts);

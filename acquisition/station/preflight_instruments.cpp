@@ -28,8 +28,10 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
             join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
     // At rest a ballbar may be out of its range: that it speaks is enough.
     const auto& age = facts.circular ? facts.bar_age : facts.laser_age;
-    if (!facts.typed && (!age || *age > length_limit))
+    if (!facts.polygon && (!age || *age > length_limit))
         join(wrong, length_of(facts) + " gives no fresh reading");
+    if (facts.faces_read && (!facts.face_age || *facts.face_age > length_limit))
+        join(wrong, "the autocollimator does not answer");
     if (wrong.empty())
         return passed("instruments", "Every instrument is there and its readings are fresh.");
     return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
@@ -41,7 +43,11 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
     for (const SensorFacts& strength : facts.strengths)
         if (const auto found = strength.log->lowest())
             lowest = std::min(lowest.value_or(*found), *found);
-    if (facts.typed) return passed("strength", "A person reads the autocollimator.");
+    if (facts.polygon)
+        return passed("strength",
+                      facts.faces_read
+                          ? "The autocollimator does not tell the strength of its light."
+                          : "A person reads the autocollimator.");
     if (!lowest && facts.circular)
         return passed("strength", "The ballbar does not tell the strength of its signal.");
     if (!lowest && facts.config.axis.scale)

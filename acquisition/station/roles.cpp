@@ -117,6 +117,10 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
     if (roles.laser) {
         AXISCAL_CHECK(check_laser(*roles.laser, reference_key(axis), channels));
     }
+    if (axis.angle && !axis.angle->autocollimator.instrument.empty()) {
+        const Wanted face{"axis.angle.autocollimator", ChannelKind::angle, Medium::none};
+        AXISCAL_TRY(roles.autocollimator, find(axis.angle->autocollimator, face, channels));
+    }
     AXISCAL_CHECK(fill(roles.air_temperature, axis.air_temperature,
                        {"axis.air.temperature", ChannelKind::temperature, Medium::air}));
     AXISCAL_CHECK(fill(roles.air_pressure, axis.air_pressure,

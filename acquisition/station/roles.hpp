@@ -13,6 +13,7 @@ namespace axiscal {
 struct StationRoles {
     /// What measures the axis: a laser, or a scale. Absent: the station measures circles alone.
     std::optional<int> laser;
+    std::optional<int> autocollimator; ///< reads the faces of a polygon, which are typed else
     std::optional<int> air_temperature, air_pressure, air_humidity; ///< all, where there is a laser
     std::vector<int> material;  ///< contact temperatures; at least one, where a length is measured
     std::vector<int> scale;     ///< temperatures on the scale that measures the axis

@@ -33,7 +33,10 @@ LaserSetup laser_of(const RunHeaderParts& parts) {
     const AxisConfig& axis = parts.config.axis;
     LaserSetup laser;
     laser.sign = axis.sign;
-    if (!parts.roles.laser) return laser;
+    if (!parts.roles.laser) { // a polygon's autocollimator, empty where its readings are typed
+        if (axis.angle) laser.instrument = axis.angle->autocollimator.instrument;
+        return laser;
+    }
     laser.instrument = axis.laser.instrument;
     if (axis.scale) return laser; // which has no beam
     laser.dead_path = axis.dead_path;

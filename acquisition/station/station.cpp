@@ -119,6 +119,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , bell_{scheduler.executor()} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
+    if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
 }
 
 Station::~Station() = default;
@@ -185,6 +186,7 @@ void Station::on_sample(const Sample& sample) {
     time_counts_until_ = sample.at + growing_old_;
     if (asleep_) bell_.ring();
     if (sample.channel == roles_.laser) return take_reading(sample);
+    if (sample.channel == roles_.autocollimator) return take_face(sample);
     if (sample.channel == roles_.ballbar) return take_bar(sample);
     if (circular_ && sample.channel == roles_.bar_temperature)
         log_environment(sample.channel, sample);
@@ -223,6 +225,7 @@ void Station::log_environment(int channel, const Sample& sample) {
 }
 
 void Station::on_instrument_state(const InstrumentView& view) {
+    if (!tells_of(view)) return;
     const bool plays = view.state == InstrumentState::available && !view.tape.empty();
     const std::string how = plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
     record_instrument(view.name + " " + how + ".", Fault::none);

@@ -9,6 +9,7 @@
 #include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/sample_history.hpp"
 #include "acquisition/capture/sample_rate.hpp"
+#include "acquisition/capture/stillness.hpp"
 #include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/journal/run_store.hpp"
@@ -130,7 +131,18 @@ private:
     void perform(SetState action);
     void perform(Close action);
     Task<void> watch_window(OpenWindow window);
-    Task<void> await_typed(OpenWindow window); ///< station_polygon.cpp
+
+    // station_polygon.cpp: the faces of a polygon, typed or read
+    Task<void> await_typed(OpenWindow window);
+    void take_face(const Sample& sample);
+    /// Why no still window was found in time, in seconds of arc.
+    [[nodiscard]] Error no_still_face(const StillnessVerdict& seen) const;
+    /// Whether a change of its state is worth a word: not that it sees no face on the way.
+    [[nodiscard]] bool tells_of(const InstrumentView& view);
+    [[nodiscard]] Result<void> autocollimator_speaks() const;
+    /// Its channel, where the checks look at it; its facts are filled in then.
+    std::optional<int> autocollimator_for(PreflightFacts& facts) const;
+
     template <class Record>
     Task<void> commit(Record record, std::optional<Synchronisation> synchronisation);
     Task<void> commit_event(CommitEvent action);
@@ -303,10 +315,12 @@ private:
         return config_.axis.scale ? "scale" : "laser";
     }
     [[nodiscard]] std::optional<double> position_now_mm(Length reading) const;
-    /// A rotary axis whose angles a person reads off an autocollimator and types.
+    /// A rotary axis with a polygon before an autocollimator.
     [[nodiscard]] bool reads_polygon() const {
         return config_.axis.angle && config_.axis.angle->setup.method == AngleMethod::polygon;
     }
+    /// Its autocollimator is an instrument; else a person reads it and types.
+    [[nodiscard]] bool reads_faces() const { return roles_.autocollimator.has_value(); }
 
     Scheduler& scheduler_;
     StationConfig config_;
@@ -358,6 +372,7 @@ private:
     std::optional<Error> environment_outside_; ///< what lies outside its limits, while it does
     MonotonicTime last_outside_{};             ///< when something last did
     bool waiting_for_disk_ = false;            ///< the run file could not be written
+    bool autocollimator_away_ = true;          ///< as told last
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
     bool revising_ = false;         ///< a retake or an exclusion is being kept
     bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same

@@ -62,6 +62,7 @@ Result<void> Station::ready_to_measure() const {
                                      " is going on; let it end or 'axiscal abort' it first");
     const MonotonicTime now = scheduler_.now();
     AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
+    if (reads_faces()) return autocollimator_speaks();
     if (reads_polygon()) return {};
     const auto reading = history_.newest();
     if (!reading || now - reading->at > laser_limit)
@@ -74,8 +75,9 @@ Result<void> Station::ready_to_measure() const {
 }
 
 std::string Station::laser_serial() const {
-    if (!roles_.laser) return reads_polygon() ? "autocollimator" : "";
-    const int seat = channel_of(*roles_.laser).instrument;
+    const std::optional<int> id = roles_.laser ? roles_.laser : roles_.autocollimator;
+    if (!id) return reads_polygon() ? "autocollimator" : "";
+    const int seat = channel_of(*id).instrument;
     const std::string& serial = supervisor_.identity(seat).serial;
     return serial.empty() ? config_.instruments[static_cast<std::size_t>(seat)].serial : serial;
 }
@@ -244,8 +246,9 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     }
     if (!roles_.laser) {
         const std::string why =
-            reads_polygon() ? "What was typed before a restart is not gone on with: nobody knows "
-                              "whether autocollimator and polygon were touched meanwhile."
+            reads_polygon() ? std::string{"What was "} + (reads_faces() ? "read" : "typed") +
+                                  " before a restart is not gone on with: nobody knows whether "
+                                  "autocollimator and polygon were touched meanwhile."
                             : "The station file names no laser any more.";
         co_await close_left_over(path, why, Fault::bad_configuration, whole);
         co_return Result<void>{};

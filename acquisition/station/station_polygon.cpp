@@ -1,6 +1,7 @@
-// A rotary axis before an autocollimator: a person reads the polygon's faces and types what is
-// seen. Nothing is on a wire, so nothing proves that the axis stood still or from where it came;
-// the points are those of the program's requests, or marked manual.
+// A rotary axis before an autocollimator. Where the station file names it, a face is captured like
+// any reading, in a still window; else a person reads the polygon's faces and types what is seen,
+// and nothing proves that the axis stood still. From where it came neither shows; the points are
+// those of the program's requests, or marked manual.
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
@@ -23,7 +24,75 @@ Capture typed_capture(double seconds_of_arc, MonotonicTime now) {
     return capture;
 }
 
+/// As the history keeps it, a millimetre for a degree. An autocollimator counts nothing: neither
+/// without light nor by a line that was opened anew is a zero lost.
+Sample in_degrees(const Sample& shown) {
+    const auto seconds_of_arc = shown.value();
+    Sample kept = seconds_of_arc ? Sample{shown.channel, shown.at,
+                                          mm(*seconds_of_arc / arcsec_per_degree).si()}
+                                 : Sample::bad(shown.channel, shown.at, Quality::absent);
+    kept.time_uncertainty = shown.time_uncertainty;
+    return kept;
+}
+
+/// A micrometre stands for a thousandth of a degree.
+std::string arcsec_of_um(double thousandths) {
+    return plain_number(thousandths * arcsec_per_degree / 1000, 2) + " arcsec";
+}
+
 } // namespace
+
+void Station::take_face(const Sample& sample) {
+    history_.push(in_degrees(sample));
+}
+
+Error Station::no_still_face(const StillnessVerdict& seen) const {
+    const CaptureConfig& limits = config_.capture;
+    const WindowStatistics& found = seen.statistics;
+    std::string why = "its readings spread over " + arcsec_of_um(found.spread.in(um)) +
+                      " and drift by " + arcsec_of_um(found.slope_um_per_s) + "/s, " +
+                      arcsec_of_um(limits.spread_limit.in(um)) + " and " +
+                      arcsec_of_um(limits.slope_limit_um_per_s) + "/s are allowed";
+    if (found.n == 0)
+        why = "it shows no face, or does not answer";
+    else if (seen.fault == Fault::signal_error)
+        why = "the light was lost on the way";
+    else if (found.n < limits.minimum_samples)
+        why = "a window of " + in_seconds(limits.window) + " holds " + counted(found.n, "reading") +
+              ", " + std::to_string(limits.minimum_samples) +
+              " are needed: a shorter poll_period, or a longer capture.window";
+    return {Fault::not_still,
+            "The autocollimator shows no still face within " + in_seconds(limits.timeout) + ": " +
+                why + ".",
+            {},
+            {}};
+}
+
+bool Station::tells_of(const InstrumentView& view) {
+    const auto id = roles_.autocollimator;
+    if (!id || view.name != channel_of(*id).instrument_name) return true;
+    const bool away = view.state == InstrumentState::unavailable;
+    return std::exchange(autocollimator_away_, away) != away;
+}
+
+/// On the way to its first face it sees none: that it speaks is enough.
+Result<void> Station::autocollimator_speaks() const {
+    const auto id = roles_.autocollimator;
+    if (!id) return {};
+    const auto& last = latest_[static_cast<std::size_t>(*id)];
+    if (last && scheduler_.now() - last->at <= laser_limit) return {};
+    return fail(Fault::link_timeout, "the autocollimator (" + channel_of(*id).instrument_name +
+                                         ") sends nothing; see 'axiscal devices'");
+}
+
+std::optional<int> Station::autocollimator_for(PreflightFacts& facts) const {
+    const auto id = roles_.autocollimator;
+    if (!id || facts.circular) return std::nullopt;
+    facts.faces_read = true;
+    if (const auto& last = latest_[static_cast<std::size_t>(*id)])
+        facts.face_age = facts.now - last->at;
+    return id;
+}
 
 /// The zero of the autocollimator is the datum of every face; of a point the reading is awaited.
 Task<void> Station::await_typed(OpenWindow window) {
@@ -44,9 +113,11 @@ Task<void> Station::await_typed(OpenWindow window) {
 }
 
 Result<void> Station::type_reading(double seconds_of_arc) {
-    if (!reads_polygon())
-        return fail(Fault::bad_request, "this station reads its length by itself: 'axiscal "
-                                        "trigger' captures the next point");
+    if (!reads_polygon() || reads_faces())
+        return fail(Fault::bad_request,
+                    std::string{"this station reads its "} +
+                        (reads_faces() ? "autocollimator" : "length") +
+                        " by itself: 'axiscal trigger' captures the next point");
     if (!recording() || !datum_) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
     manual_refusal_.reset();
     run_->refusal.reset();

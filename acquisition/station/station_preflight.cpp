@@ -50,7 +50,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         {}};
     if (config_.axis.angle)
         facts.run_out = stated(request, "run_out", config_.axis.angle->setup.run_out);
-    facts.typed = reads_polygon();
+    facts.polygon = reads_polygon();
     const bool asked = request.pass == circular_pass || !roles_.laser;
     facts.circular = asked && roles_.ballbar && config_.circular;
     std::vector<int> roles = facts.circular ? roles_.of_circles() : roles_.environment();
@@ -58,6 +58,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         facts.sensors.push_back(sensor_facts(id));
     const std::optional<int> length_id = facts.circular ? roles_.ballbar : roles_.laser;
     if (length_id) roles.push_back(*length_id);
+    if (const auto id = autocollimator_for(facts)) roles.push_back(*id);
     const auto views = supervisor_.view();
     for (const int id : roles) {
         const StationChannel& channel = channel_of(id);
@@ -65,7 +66,10 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         if (std::ranges::find(facts.in_use, name) != facts.in_use.end()) continue;
         facts.in_use.push_back(name);
         const auto& view = views[static_cast<std::size_t>(channel.instrument)];
-        if (view.state != InstrumentState::available) facts.unavailable.push_back(name);
+        // An autocollimator between two faces has no good reading, and is there all the same.
+        const bool there = view.state == InstrumentState::available ||
+                           (id == roles_.autocollimator && view.state == InstrumentState::faulty);
+        if (!there) facts.unavailable.push_back(name);
     }
     if (!length_id) return facts;
     const int seat = channel_of(*length_id).instrument;

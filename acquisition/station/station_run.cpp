@@ -56,14 +56,17 @@ void Station::perform(PublishArmed) {
 
 void Station::perform(OpenWindow action) {
     open_window_ = action.window;
-    spawn(scheduler_, reads_polygon() ? await_typed(action) : watch_window(action));
+    const bool not_looked_for = reads_polygon() && (!reads_faces() || !action.approach);
+    spawn(scheduler_, not_looked_for ? await_typed(action) : watch_window(action));
 }
 
 void Station::perform(CloseWindow action) {
     if (open_window_ == action.window) open_window_ = 0;
 }
 
+/// From which side the axis came, an autocollimator cannot see.
 Task<void> Station::watch_window(OpenWindow window) {
+    const std::optional<ApproachClaim> claim = reads_faces() ? std::nullopt : window.approach;
     while (open_window_ == window.window && !stopping_) {
         const MonotonicTime now = scheduler_.now();
         const WindowSearch search = find_still_window(history_, window.from, now, config_.capture);
@@ -71,9 +74,10 @@ Task<void> Station::watch_window(OpenWindow window) {
         if (search.failure)
             found = tl::unexpected(*search.failure);
         else if (search.window)
-            found = make_capture(history_, *search.window, window.approach, config_.capture);
+            found = make_capture(history_, *search.window, claim, config_.capture);
         else if (now >= window.deadline)
-            found = tl::unexpected(give_up(search, now - window.from));
+            found = tl::unexpected(reads_faces() ? no_still_face(search.verdict)
+                                                 : give_up(search, now - window.from));
         if (found || found.error().fault != Fault::none) {
             feed_with_air(WindowResult{window.window, std::move(found), now});
             co_return;

@@ -149,12 +149,14 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     view.medium = channel.medium;
     const std::vector<int> environment = roles_.environment();
     view.used = channel.id == roles_.laser || channel.id == roles_.ballbar ||
+                channel.id == roles_.autocollimator ||
                 std::ranges::find(environment, channel.id) != environment.end();
     const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
     if (!sample) return view;
     const Duration age = scheduler_.now() - sample->at;
-    const bool stale =
-        age > (channel.kind == ChannelKind::displacement ? laser_limit : config_.axis.air.oldest);
+    const bool measures =
+        channel.kind == ChannelKind::displacement || channel.kind == ChannelKind::angle;
+    const bool stale = age > (measures ? laser_limit : config_.axis.air.oldest);
     view.age_s = seconds_of(age);
     view.quality = stale ? "stale" : std::string{name_of(sample->quality())};
     if (!stale) view.value = sample->value();

@@ -22,6 +22,19 @@ std::string deviation_words(const RotarySetup& rotary) {
            (rotary.certificate_with_axis ? "with" : "against") + " the axis";
 }
 
+/// `typed`: by a person; else the autocollimator is an instrument of the station.
+std::string faces_words(bool typed) {
+    return std::string{typed ? "At each target a person read the face that stands before the "
+                               "autocollimator and typed the reading a: "
+                             : "At each target the autocollimator was read in a still window: a is "
+                               "what it showed of the face before it; "} +
+           "angle = k 360° / faces + a − (d(k) − d(0)) with the certified deviation d(k) of "
+           "face k. Nothing shows " +
+           (typed ? "that the axis stood still, or from which side it came"
+                  : "from which side the axis came") +
+           ". An angle does not expand: nothing was brought to 20 °C.";
+}
+
 } // namespace
 
 void draw_angle(Sheet& sheet, const Certificate& certificate) {
@@ -50,10 +63,7 @@ void draw_angle(Sheet& sheet, const Certificate& certificate) {
                 "certified deviation d(k) of the table. The counting of the interferometer was "
                 "unbroken from the datum to the last target. An angle does not expand: nothing was "
                 "brought to 20 °C."
-              : "At each target a person read the face that stands before the autocollimator and "
-                "typed the reading a: angle = k 360° / faces + a − (d(k) − d(0)) with the "
-                "certified deviation d(k) of face k. Nothing shows that the axis stood still, or "
-                "from which side it came. An angle does not expand: nothing was brought to 20 °C.",
+              : faces_words(certificate.run.laser.instrument.empty()),
         note_style);
 }
 

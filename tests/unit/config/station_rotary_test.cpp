@@ -135,7 +135,8 @@ TEST(StationAngle, ReadsAnIndexingTableWithItsPapers) {
         list + "]\n");
     EXPECT_EQ(reading.told, "");
     ASSERT_TRUE(reading.config.axis.angle);
-    const auto& [setup, artefact] = *reading.config.axis.angle;
+    const RotarySetup& setup = reading.config.axis.angle->setup;
+    const InstrumentRecord& artefact = reading.config.axis.angle->artefact;
     EXPECT_EQ(setup.method, AngleMethod::indexing_table);
     EXPECT_DOUBLE_EQ(setup.step_deg, 10);
     EXPECT_DOUBLE_EQ(setup.arm.in(mm), 32.61);
@@ -156,6 +157,24 @@ TEST(StationAngle, ReadsAPolygonWithoutALaser) {
     ASSERT_TRUE(reading.config.axis.angle);
     EXPECT_EQ(reading.config.axis.angle->setup.method, AngleMethod::polygon);
     EXPECT_DOUBLE_EQ(reading.config.axis.angle->setup.step_deg, 30);
+}
+
+TEST(StationAngle, NamesTheAutocollimatorOfAPolygonOnly) {
+    const std::string key = "autocollimator = \"laser/axis 1\"\n"; // the channel is judged later
+    const Reading read = read_angle_table("method = \"polygon\"\nfaces = 12\n" + key, false);
+    EXPECT_EQ(read.told, "");
+    ASSERT_TRUE(read.config.axis.angle);
+    EXPECT_EQ(read.config.axis.angle->autocollimator.instrument, "laser");
+    EXPECT_EQ(read.config.axis.angle->autocollimator.channel, "axis 1");
+    const Reading typed = read_angle_table("method = \"polygon\"\nfaces = 12\n", false);
+    EXPECT_EQ(typed.config.axis.angle->autocollimator.instrument, "");
+    expect_refused_once(read_angle_table("method = \"indexing-table\"\nstep = \"5 deg\"\n"
+                                         "arm = \"32.61 mm\"\n" + key),
+                        "axis.angle.autocollimator: is not a key of this table");
+    expect_refused_once(
+        read_angle_table("method = \"polygon\"\nfaces = 12\nautocollimator = \"lase/angle\"\n",
+                         false),
+        "no [[instrument]] has the name \"lase\"");
 }
 
 TEST(StationAngle, TakesTheRunOutFromWhatPeopleState) {

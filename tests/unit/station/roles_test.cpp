@@ -47,6 +47,24 @@ TEST_F(Roles, AreFoundByName) {
     EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
 }
 
+TEST_F(Roles, AnAutocollimatorMustGiveAnAngle) {
+    axis.laser = axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
+    axis.material_temperature.clear();
+    add("collimator", "angle", ChannelKind::angle, Medium::none);
+    axis.angle.emplace().autocollimator = {"collimator", "angle"};
+    const auto roles = resolve_roles(axis, channels);
+    ASSERT_TRUE(roles) << describe(roles.error());
+    EXPECT_EQ(roles->autocollimator, 6);
+    EXPECT_FALSE(roles->laser);
+    axis.angle->autocollimator = {"laser", "axis 1"};
+    expect_refused(Fault::bad_configuration,
+                   "axis.angle.autocollimator = \"laser/axis 1\" measures displacement, not angle");
+    axis.angle->autocollimator = {}; // a person types
+    const auto typed = resolve_roles(axis, channels);
+    ASSERT_TRUE(typed);
+    EXPECT_FALSE(typed->autocollimator);
+}
+
 TEST_F(Roles, AScaleNeedsItsOwnTemperatureAndNoAir) {
     axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
     axis.scale = ScaleConfig{{}, {{"contacts", "2"}}};

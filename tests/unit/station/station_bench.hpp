@@ -234,8 +234,10 @@ struct Shop {
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
 
-    /// What the laser reads, in place of the moving axis in air.
+    /// What the laser reads, in place of the moving axis in air; of another `first_channel` in its
+    /// stored unit.
     std::function<double(MonotonicTime)> reading_m;
+    Channel first_channel{"axis 1", ChannelKind::displacement};
 
     [[nodiscard]] double laser_m(MonotonicTime at) const {
         if (reading_m) return reading_m(at);
@@ -424,7 +426,7 @@ private:
         made.report_program = report;
         made.journal_thread = JournalThread::caller;
         auto light = std::make_unique<BenchInstrument>(
-            std::vector<Channel>{{"axis 1", ChannelKind::displacement}}, 5ms,
+            std::vector<Channel>{shop.first_channel}, 5ms,
             [this](int, MonotonicTime at) { return shop.laser_m(at); });
         auto weather = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"air temperature", ChannelKind::temperature, Medium::air},

@@ -1,5 +1,5 @@
 // A rotary axis at the station: behind an indexing table with the interferometer's readings, and
-// before an autocollimator whose readings are typed.
+// before an autocollimator whose readings are typed, or captured where it is an instrument.
 #include "analysis/certificate.hpp"
 #include "analysis/drift/run_drift.hpp"
 #include "station_bench.hpp"
@@ -308,6 +308,159 @@ TEST(StationRotary, AStationWithAnInterferometerTakesNoTypedReading) {
     TableShop shop;
     Life life{shop};
     EXPECT_EQ(life.station->type_reading(1).error().fault, Fault::bad_request);
+}
+
+/// The bench's first instrument is the autocollimator, its reading in seconds of arc: it sees the
+/// face that is nearest.
+class CollimatorShop : public PolygonShop {
+public:
+    CollimatorShop() {
+        config.axis.angle->autocollimator = {"laser", "angle"};
+        config.cycle.datum = mm(-2);
+        first_channel = {"angle", ChannelKind::angle};
+        reading_m = [this](MonotonicTime at) { return shown_arcsec(at); };
+    }
+    [[nodiscard]] double shown_arcsec(MonotonicTime at) const {
+        const double face = std::round(axis.at(at) / 45);
+        const auto& faces = config.axis.angle->setup.deviations_arcsec;
+        return (axis.at(at) - 45 * face) * 3600 + error_arcsec +
+               faces[static_cast<std::size_t>(face)] + (sway_arcsec ? sway_arcsec(at) : 0.0);
+    }
+    double error_arcsec = 0; ///< of the axis, where it stands
+    std::function<double(MonotonicTime)> sway_arcsec;
+};
+
+/// Drives to the face; on the way no light comes back.
+void drive_to_face(Life& life, CollimatorShop& shop, const PlannedPoint& point) {
+    const double target = shop.plan().targets[static_cast<std::size_t>(point.target_index)].in(mm);
+    const int side = static_cast<int>(point.direction);
+    life.laser->quality = Quality::beam_lost;
+    for (const double stop : {target - 2 * side, target}) {
+        const Duration needed = shop.axis.time_to(stop, life.scheduler.now());
+        shop.axis.go(stop, life.scheduler.now());
+        life.run(needed + 50ms);
+    }
+    shop.error_arcsec = 3.0 * side;
+    life.laser->quality = Quality::good;
+}
+
+bool take_face(Life& life, CollimatorShop& shop, int step) {
+    const PlannedPoint point = shop.plan().points[static_cast<std::size_t>(step)];
+    drive_to_face(life, shop, point);
+    const auto sequence = static_cast<std::uint16_t>(step + 1);
+    life.ask(Life::request_for(point, sequence));
+    for (int i = 0; i < 40 && life.port->done != sequence && life.port->refusals.empty(); ++i)
+        life.run(100ms);
+    return life.port->done == sequence;
+}
+
+TEST(StationRotary, AnAutocollimatorReadsTheFacesByItself) {
+    CollimatorShop shop;
+    Life life{shop};
+    const auto armed = life.arm();
+    ASSERT_TRUE(armed) << describe(armed.error());
+    const int steps = static_cast<int>(shop.plan().points.size());
+    for (int step = 0; step < steps; ++step)
+        ASSERT_TRUE(take_face(life, shop, step)) << step << " " << life.status().run->last_sentence;
+    life.run_until([&] { return !life.status().run_open; });
+    const RunRecord run = read_run_file(shop.run_files().front()).value();
+    EXPECT_TRUE(run.complete);
+    EXPECT_EQ(run.laser.instrument, "laser"); // the bench's name of the autocollimator
+    EXPECT_EQ(run.points.front().origin, TriggerOrigin::cnc);
+    EXPECT_GE(run.points.front().n, shop.config.capture.minimum_samples);
+    const auto certificate = make_certificate(run, "hash");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    // The axis leads by 3 seconds of arc each way; what the polygon adds is certified.
+    constexpr double bound_deg = 1e-9;
+    EXPECT_NEAR(*certificate->result.parameters.E, 6.0 / 3600, bound_deg);
+    EXPECT_NEAR(*certificate->result.parameters.M, 0, bound_deg);
+    EXPECT_NEAR(*certificate->result.parameters.B_mean, 6.0 / 3600, bound_deg);
+}
+
+TEST(StationRotary, AFaceThatDoesNotStandStillIsRefusedInSecondsOfArc) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    drive_to_face(life, shop, shop.plan().points[0]);
+    shop.sway_arcsec = [](MonotonicTime at) { // two seconds of arc each way, in 0.4 s
+        return 2 * std::sin(5 * std::numbers::pi * seconds_of(at - MonotonicTime{}));
+    };
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    life.run(shop.config.capture.timeout + 1s);
+    ASSERT_FALSE(life.port->refusals.empty());
+    EXPECT_EQ(life.port->refusals.front().second, Fault::not_still);
+    const std::string said = life.status().run->last_sentence;
+    EXPECT_NE(said.find("its readings spread over 4 arcsec"), std::string::npos) << said;
+    EXPECT_NE(said.find(", 1 arcsec and "), std::string::npos) << said; // the limit
+}
+
+TEST(StationRotary, WithoutAFaceThePointIsRefusedAndTheRunGoesOn) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    drive_to_face(life, shop, shop.plan().points[0]);
+    life.laser->quality = Quality::beam_lost;
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    life.run(shop.config.capture.timeout + 1s);
+    ASSERT_FALSE(life.port->refusals.empty());
+    EXPECT_EQ(life.port->refusals.front().second, Fault::not_still);
+    EXPECT_NE(life.status().run->last_sentence.find("it shows no face"), std::string::npos)
+        << life.status().run->last_sentence;
+    EXPECT_TRUE(life.status().run_open);
+    life.port->refusals.clear();
+    EXPECT_TRUE(take_face(life, shop, 0)) << life.status().run->last_sentence;
+}
+
+TEST(StationRotary, AReadingBeyondTheRangeIsRefused) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    drive_to_face(life, shop, shop.plan().points[0]);
+    shop.error_arcsec = 400; // 0.111 degrees
+    life.ask(Life::request_for(shop.plan().points[0], 1));
+    life.run(shop.config.capture.timeout + 1s);
+    ASSERT_FALSE(life.port->refusals.empty());
+    EXPECT_EQ(life.port->refusals.front().second, Fault::outside_window);
+}
+
+TEST(StationRotary, TakesNoTypedReadingWhereTheAutocollimatorIsRead) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const auto typed = life.station->type_reading(1);
+    ASSERT_FALSE(typed);
+    EXPECT_EQ(typed.error().fault, Fault::bad_request);
+    EXPECT_NE(typed.error().detail.find("'axiscal trigger'"), std::string::npos);
+}
+
+TEST(StationRotary, PreflightWantsAnAutocollimatorThatAnswersButNoFaceYet) {
+    CollimatorShop shop;
+    Life life{shop};
+    const auto instruments = [&] {
+        const auto checks = life.station->preflight({}).value();
+        return *std::ranges::find(checks, "instruments", &PreflightRecord::name);
+    };
+    life.laser->quality = Quality::beam_lost; // between two faces
+    life.run(20s);
+    EXPECT_TRUE(instruments().passed) << instruments().verdict;
+    life.laser->silent = true;
+    life.run(20s);
+    EXPECT_FALSE(instruments().passed);
+    EXPECT_NE(instruments().verdict.find("the autocollimator does not answer"), std::string::npos)
+        << instruments().verdict;
+    EXPECT_EQ(life.arm().error().fault, Fault::link_timeout);
+}
+
+TEST(StationRotary, WhatAnAutocollimatorReadIsNotGoneOnWithAfterARestart) {
+    CollimatorShop shop;
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        ASSERT_TRUE(take_face(life, shop, 0));
+    }
+    const Life again{shop};
+    EXPECT_FALSE(again.status().run_open);
+    EXPECT_EQ(again.notes_with("was read before a restart"), 1);
 }
 
 } // namespace
