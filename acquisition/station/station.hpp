@@ -273,6 +273,8 @@ private:
     void watch_alignment(const Sample& sample);
     Result<void> keep_alignment(std::optional<double> spot_offset_mm);
     [[nodiscard]] AlignmentRecord alignment_so_far() const;
+    /// The latest strength that the laser told, if it is no more than 2 s old.
+    [[nodiscard]] std::optional<Sample> strength_told() const;
     [[nodiscard]] std::optional<double> strength_now() const;
     /// The last one kept, where it is of the laser that is there now. One that is still going on is
     /// kept first.
@@ -365,6 +367,7 @@ private:
     std::optional<CurrentDrift> drift_;
     std::optional<AlignmentWatch> aligning_;
     std::int64_t aligning_since_utc_ns_ = 0;
+    MonotonicTime strength_placed_at_;         ///< of the strength that was given a place last
     std::optional<AlignmentRecord> alignment_; ///< the last one kept since the start
     std::string port_note_, refused_note_;
     std::deque<std::string> notes_;

@@ -10,19 +10,31 @@ constexpr Duration strength_limit = std::chrono::seconds{2}; // an older strengt
 
 } // namespace
 
-std::optional<double> Station::strength_now() const {
+std::optional<Sample> Station::strength_told() const {
     if (!roles_.laser) return std::nullopt;
     const int seat = channel_of(*roles_.laser).instrument;
     for (const StationChannel& channel : supervisor_.channels()) {
         if (channel.kind != ChannelKind::strength || channel.instrument != seat) continue;
         const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
-        if (sample && scheduler_.now() - sample->at <= strength_limit) return sample->value();
+        if (sample && scheduler_.now() - sample->at <= strength_limit) return sample;
     }
     return std::nullopt;
 }
 
+std::optional<double> Station::strength_now() const {
+    const auto told = strength_told();
+    return told ? told->value() : std::nullopt;
+}
+
+/// A strength belongs to the reading that follows it, once: an instrument tells it a hundred times
+/// more seldom than the place, and an axis that moves has left that place by the next reading but
+/// one.
 void Station::watch_alignment(const Sample& sample) {
-    if (aligning_) aligning_->take(sample, strength_now());
+    if (!aligning_) return;
+    const auto told = strength_told();
+    if (!told || told->at <= strength_placed_at_) return aligning_->take(sample, std::nullopt);
+    strength_placed_at_ = told->at;
+    aligning_->take(sample, told->value());
 }
 
 AlignmentRecord Station::alignment_so_far() const {
@@ -65,6 +77,7 @@ Result<void> Station::align(AlignmentOrder order) {
         aligning_.emplace(config_.cycle.travel_high - config_.cycle.travel_low,
                           config_.capture.spread_limit);
         aligning_since_utc_ns_ = scheduler_.clock_tie().utc_ns;
+        strength_placed_at_ = scheduler_.now();
         return {};
     }
     if (!aligning_)

@@ -176,6 +176,13 @@ void read_laser(Fields& f, LaserScenario& laser) {
     f.read("partial_first_line", laser.partial_first_line);
     f.read("port", laser.port);
     f.read("device_corrects", laser.device_corrects);
+    f.read("beam_tilt_mrad", laser.beam_tilt_mrad);
+    f.read("contrast_percent", laser.contrast_percent);
+    f.read("beam_radius_mm", laser.beam_radius_mm);
+    if (laser.beam_radius_mm && !(*laser.beam_radius_mm > 0))
+        f.refuse("beam_radius_mm", "must be above 0");
+    if (laser.beam_radius_mm && laser.kind != "ids3010")
+        f.refuse("beam_radius_mm", "needs ids3010: the other kinds tell no strength");
     f.read("resolution_um", laser.resolution_um);
     f.read("scale_expansion_um_per_m_k", laser.scale_expansion_um_per_m_k);
     if (laser.resolution_um && !(*laser.resolution_um > 0))

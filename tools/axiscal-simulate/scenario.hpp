@@ -67,6 +67,11 @@ struct LaserScenario {
     bool partial_first_line = false;
     int port = 0;                 ///< ids3010: where it listens; 0 chooses
     bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
+    double beam_tilt_mrad = 0;    ///< how the beam is left at the start; `steer` turns it
+    double contrast_percent = 85; ///< ids3010: of the signal where the beam comes back upon itself
+    /// ids3010: 1/e^2 of the intensity; a beam that comes back beside itself has less contrast.
+    /// Absent: it has not.
+    std::optional<double> beam_radius_mm;
     /// A linear scale in its place, of a homodyne kind: one count; with it there is no beam.
     std::optional<double> resolution_um;
     double scale_expansion_um_per_m_k = 0; ///< about its zero_mm

@@ -94,7 +94,8 @@ SimulatedMachine::SimulatedMachine(const Scenario& scenario)
     : scenario_{scenario}
     , errors_{scenario.errors}
     , noise_{scenario.seed}
-    , play_{std::max(std::abs(scenario.errors.reversal_um) * 1e-3, least_play_mm)} {}
+    , play_{std::max(std::abs(scenario.errors.reversal_um) * 1e-3, least_play_mm)}
+    , beam_angle_rad_{scenario.laser.beam_tilt_mrad * 1e-3} {}
 
 /// Its offset belongs to a stop by the place and the visit: a turning point between two moves,
 /// which is seen as a stop or not by chance, changes no other.
@@ -136,6 +137,14 @@ double SimulatedMachine::cycles(double slide_mm, double seconds) {
     const double way_mm = laser.sign * (slide_mm - laser.zero_mm);
     if (laser.resolution_um) return cycles_of_scale(way_mm, seconds);
     return cycles_of_path(laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_), seconds);
+}
+
+double SimulatedMachine::contrast_percent(double slide_mm) const {
+    const LaserScenario& laser = scenario_.laser;
+    if (!laser.beam_radius_mm) return laser.contrast_percent;
+    const double walk_mm = 2 * (slide_mm - laser.zero_mm) * std::tan(beam_angle_rad_);
+    const double share = walk_mm / *laser.beam_radius_mm;
+    return laser.contrast_percent * std::exp(-0.5 * share * share);
 }
 
 double SimulatedMachine::cycles_of_scale(double way_mm, double seconds) {

@@ -80,6 +80,10 @@ public:
     /// The beam turns about the interferometer by this angle to the motion: of the way from the
     /// near end, where the axis stands at zero_mm, it sees the cosine.
     void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
+    /// Contrast of the signal, %. On the way D from the near end the return spot walks off by
+    /// e = 2 D tan(angle), since a retroreflector doubles it. Two equal Gaussian beams of radius w
+    /// that are e apart overlap by exp(-e^2 / (2 w^2)), and so falls their contrast.
+    [[nodiscard]] double contrast_percent(double slide_mm) const;
 
 private:
     /// Of a linear scale: its lines lie true at 20 C and move apart as it warms.

@@ -1,7 +1,6 @@
 #include "simulator.hpp"
 
 #include "truth.hpp"
-#include "wire/ids_face.hpp"
 #include "wire/sensor_faces.hpp"
 
 #include <filesystem>
@@ -43,6 +42,7 @@ Result<void> Simulator::open_faces() {
     const auto drive = [this](double seconds) { return axis_.position_mm(seconds); };
     if (scenario_.laser.kind == "ids3010") {
         AXISCAL_TRY(auto face, IdsFace::open(scenario_, clock_, drive));
+        ids_ = face.get();
         sensors_.push_back(std::move(face));
     } else if (!scenario_.laser.path.empty()) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
@@ -176,18 +176,21 @@ Result<void> Simulator::obey_laser(const std::string& word, std::istream& argume
         return fail(Fault::bad_request, "the beam is on or off");
     if (word == "beam") return laser_->set_beam(state == "on"), Result<void>{};
     if (word == "restart-counter") return laser_->restart_counter(), Result<void>{};
-    if (word == "steer") {
-        double milliradians = 0;
-        arguments >> milliradians;
-        if (!arguments) return fail(Fault::bad_request, "steer needs milliradians");
-        return laser_->steer(milliradians * 1e-3), Result<void>{};
-    }
     int number = 0;
     arguments >> number;
     if (!arguments) return fail(Fault::bad_request, word + " needs a number");
     if (word == "skip") laser_->skip_records(number);
     if (word == "fields") laser_->set_fields(number);
     if (word == "error-mask") laser_->set_error_mask(number);
+    return {};
+}
+
+Result<void> Simulator::obey_steer(std::istream& arguments) {
+    if (!laser_ && ids_ == nullptr) return fail(Fault::not_found, "this scenario has no laser");
+    double milliradians = 0;
+    if (!(arguments >> milliradians)) return fail(Fault::bad_request, "steer needs milliradians");
+    if (laser_) laser_->steer(milliradians * 1e-3);
+    if (ids_ != nullptr) ids_->steer(milliradians * 1e-3);
     return {};
 }
 
@@ -238,8 +241,9 @@ Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& ar
         return fail(Fault::not_found, "no sensor is named \"" + name + "\"");
     }
     if (word == "beam" || word == "restart-counter" || word == "skip" || word == "fields" ||
-        word == "error-mask" || word == "steer")
+        word == "error-mask")
         return done(obey_laser(word, arguments));
+    if (word == "steer") return done(obey_steer(arguments));
     if (word == "skip-bar") return done(obey_bar(arguments));
     if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect" ||
         word == "hold" || word == "go")

@@ -4,6 +4,7 @@
 #include "cnc/cnc_exchange.hpp"
 #include "cnc/cnc_runner.hpp"
 #include "wire/bar_face.hpp"
+#include "wire/ids_face.hpp"
 #include "wire/laser_face.hpp"
 #include "wire/serial_cable.hpp"
 
@@ -55,6 +56,7 @@ private:
     void feed_table(double position);
     Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
+    Result<void> obey_steer(std::istream& arguments);
     Result<void> obey_bar(std::istream& arguments);
     Result<void> obey_cnc(const std::string& word, std::istream& arguments);
     [[nodiscard]] nlohmann::json status() const;
@@ -68,6 +70,7 @@ private:
     std::unique_ptr<LaserFace> laser_;
     std::vector<std::unique_ptr<Face>> sensors_;
     BarFace* bar_ = nullptr;             ///< one of them
+    IdsFace* ids_ = nullptr;             ///< one of them: the laser in laser_'s place
     std::unique_ptr<SerialCable> cable_; ///< RTU: between the daemon's port and the CNC's
     std::unique_ptr<CncExchange> exchange_;
     CncClient* client_ = nullptr; ///< exchange_, where it is a client

@@ -39,6 +39,17 @@ TEST(IdsDevice, DividesByItsIndexWhenItFollowsItsUnit) {
     EXPECT_EQ(result(device, "getRefractiveIndexForCompensation", now)[1], 1.00027);
 }
 
+TEST(IdsDevice, TellsItsContrastInPermilleBeforeTheBaseline) {
+    IdsDevice device;
+    IdsReading now;
+    now.contrast_percent = 41.37;
+    const Json told = result(device, "getAxisSignalQuality", now);
+    EXPECT_EQ(told[0], 0);
+    EXPECT_EQ(told[1], 414);
+    device.beam = false;
+    EXPECT_LT(result(device, "getAxisSignalQuality", now)[1], 10);
+}
+
 TEST(IdsDevice, KnowsNoOtherMethodsAndNoOtherLayout) {
     IdsDevice device;
     EXPECT_EQ(Json::parse(device.answer(asking("com.attocube.ids.nothing"), {}))["error"]["code"],

@@ -41,6 +41,14 @@ TEST(Scenario, RefusesAllAtOnceByName) {
         EXPECT_NE(reasons.find(part), std::string::npos) << part << " in " << reasons;
 }
 
+TEST(Scenario, RefusesAContrastThatNoWireTells) {
+    const std::string reasons = refusal("[laser]\nkind = \"umd0\"\nbeam_radius_mm = 2.0\n");
+    EXPECT_NE(reasons.find("laser.beam_radius_mm needs ids3010"), std::string::npos) << reasons;
+    EXPECT_EQ(refusal("[laser]\nkind = \"ids3010\"\nbeam_radius_mm = 2.0\n"
+                      "beam_tilt_mrad = -3.0\ncontrast_percent = 70.0\n"),
+              "");
+}
+
 TEST(Scenario, RefusesTextThatIsNoToml) {
     EXPECT_NE(refusal("[errors\n"), "");
 }

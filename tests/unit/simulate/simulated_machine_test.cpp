@@ -63,6 +63,33 @@ TEST(SimulatedMachine, AScaleThatHasGrownCountsLess) {
     EXPECT_NEAR(machine.cycles(1000, 1), -1000 / (1 + 5.1e-5) / 0.4e-3, 1e-6);
 }
 
+// 500 mm at 2 mrad: the spot walks 2.000003 mm, the radius of the beam; exp(-1/2) of 80 % is left.
+TEST(SimulatedMachine, ABeamThatWalksOffLosesContrast) {
+    Scenario s = quiet();
+    s.laser.zero_mm = 100;
+    s.laser.contrast_percent = 80;
+    s.laser.beam_tilt_mrad = 2;
+    EXPECT_DOUBLE_EQ(SimulatedMachine{s}.contrast_percent(600), 80); // a spot without a size
+    s.laser.beam_radius_mm = 2;
+    SimulatedMachine machine{s};
+    EXPECT_DOUBLE_EQ(machine.contrast_percent(100), 80);
+    EXPECT_NEAR(machine.contrast_percent(600), 48.522, 1e-3);
+    EXPECT_NEAR(machine.contrast_percent(1100), 80 * std::exp(-2.0), 1e-3);
+    machine.steer(0);
+    EXPECT_DOUBLE_EQ(machine.contrast_percent(1100), 80);
+}
+
+TEST(SimulatedMachine, IsBornWithTheTiltOfItsScenario) {
+    Scenario s = quiet();
+    s.laser.beam_tilt_mrad = 10;
+    SimulatedMachine machine{s};
+    machine.cycles(0, 0);
+    const double tilted = machine.cycles(1000, 0);
+    machine.steer(0);
+    // 1 - cos(10 mrad) = 4.99996e-5
+    EXPECT_NEAR(1 - tilted / machine.cycles(1000, 0), 4.99996e-5, 1e-9);
+}
+
 TEST(SimulatedMachine, GrowsExactlyAboutItsFixedPoint) {
     ThermalScenario thermal;
     thermal.expansion_um_per_m_k = 11.7;

@@ -85,6 +85,29 @@ TEST_F(StationAligns, ThatOfAnotherLaserIsNotTheRunsOwn) {
     EXPECT_FALSE(alignment_of_run());
 }
 
+// The truth: 90 % less 5 % on each 100 mm, told once a second to an axis that drives 300 mm in that
+// second. A strength that was kept for the readings after it would stand 15 % too high.
+TEST_F(StationAligns, AStrengthStandsAtThePlaceWhereItWasTold) {
+    const auto strength_at = [](double at_mm) { return 90.0 - at_mm * 0.05; };
+    shop.laser_strength = [&](MonotonicTime at) { return strength_at(shop.axis.at(at)); };
+    shop.axis.speed_mm_per_s = 300;
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    drive(life, 0);
+    drive(life, 900);
+    const auto record = life.station->alignment().record;
+    ASSERT_TRUE(record);
+    ASSERT_GE(record->places.size(), 3U);
+    for (const AlignmentPlace& place : record->places) {
+        // The reading comes 5 ms after the strength: 1.5 mm; the beam reads 0.3 mm long.
+        const double before_mm = place.begin.in(mm)-2, behind_mm = place.end.in(mm) + 2;
+        EXPECT_LE(place.mean_percent, strength_at(before_mm)) << before_mm;
+        EXPECT_GE(place.weakest_percent, strength_at(behind_mm)) << behind_mm;
+    }
+    EXPECT_NEAR(record->places.back().last_percent, 45, 1e-9);
+    EXPECT_LE(record->places.back().readings, 6); // five seconds, not a thousand readings
+}
+
 TEST_F(StationAligns, IsRefusedWhileARunIsOpen) {
     Life life{shop};
     ASSERT_TRUE(life.arm());

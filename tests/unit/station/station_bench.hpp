@@ -95,6 +95,7 @@ public:
     }
 
     Duration send_every;              ///< the device may leave out some of its numbers
+    Duration strength_every{1s};      ///< of a channel that tells a strength
     std::optional<LinkSettings> link; ///< opened first, where there is one
     /// Mute: the next device is asked whether it is the wanted one.
     std::optional<LinkSettings> asks_the_next_too;
@@ -120,6 +121,7 @@ private:
         auto count = static_cast<std::uint64_t>((now - switched_on) / period_);
         if (number_wraps) count = first_count(count) + count - first_number_;
         for (int channel = 0; channel < static_cast<int>(channels_.size()); ++channel) {
+            if (!is_due(channel, now)) continue;
             Sample sample = quality == Quality::good
                                 ? Sample{channel, now, reading_(channel, now), count, epoch}
                                 : Sample::bad(channel, now, quality, count, epoch);
@@ -127,9 +129,19 @@ private:
             sink.take(sample);
         }
     }
+    /// A strength is told more seldom than the length that it belongs to.
+    bool is_due(int channel, MonotonicTime now) {
+        const bool strength =
+            channels_[static_cast<std::size_t>(channel)].kind == ChannelKind::strength;
+        if (!strength) return true;
+        if (now - strength_told_at_ < strength_every) return false;
+        strength_told_at_ = now;
+        return true;
+    }
     std::vector<Channel> channels_;
     Duration period_;
     Reading reading_;
+    MonotonicTime strength_told_at_{};
     InstrumentCounters counters_;
     std::uint64_t first_number_ = 0;
 };
@@ -230,6 +242,8 @@ struct Shop {
     bool linked = false; ///< each instrument opens a link of Life::links
     /// Reading of a ballbar in metres, 1 kHz; none: the station has no ballbar.
     std::function<double(MonotonicTime)> ballbar;
+    /// What the laser tells of its signal, %, each `strength_every`; empty: it tells nothing.
+    std::function<double(MonotonicTime)> laser_strength;
     MonotonicTime ballbar_switched_on{};
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
@@ -425,9 +439,12 @@ private:
         made.boot_id = "boot-1";
         made.report_program = report;
         made.journal_thread = JournalThread::caller;
+        std::vector<Channel> of_light{shop.first_channel};
+        if (shop.laser_strength) of_light.push_back({"contrast", ChannelKind::strength});
         auto light = std::make_unique<BenchInstrument>(
-            std::vector<Channel>{shop.first_channel}, 5ms,
-            [this](int, MonotonicTime at) { return shop.laser_m(at); });
+            std::move(of_light), 5ms, [this](int channel, MonotonicTime at) {
+                return channel == 0 ? shop.laser_m(at) : shop.laser_strength(at);
+            });
         auto weather = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"air temperature", ChannelKind::temperature, Medium::air},
                                  {"air pressure", ChannelKind::pressure, Medium::air},

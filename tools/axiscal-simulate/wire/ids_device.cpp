@@ -37,7 +37,8 @@ Json IdsDevice::result_of(const std::string& method,
                           const IdsReading& now) {
     const std::string name = bare(method);
     if (name == "getAxisDisplacement") return displacement(parameters, now);
-    if (name == "getAxisSignalQuality") return Json::array({0, beam ? 850 : 3, 512});
+    if (name == "getAxisSignalQuality")
+        return Json::array({0, beam ? std::llround(now.contrast_percent * 10) : 3, 512});
     if (name == "getCurrentMode") return Json::array({0, mode});
     if (name == "startMeasurement") return mode = "measurement starting", Json::array({0});
     if (name == "getSerialNumber") return Json::array({0, serial});

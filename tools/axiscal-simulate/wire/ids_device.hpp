@@ -15,6 +15,7 @@ struct IdsReading {
     std::array<double, 3> vacuum_mm{}; ///< displacement if there were no air
     double temperature_degC = 20, pressure_hPa = 1013.25, humidity_percent = 50;
     double index = 1; ///< of that air
+    double contrast_percent = 85;
 };
 
 class IdsDevice {

@@ -27,6 +27,7 @@ IdsFace::IdsFace(const Scenario& scenario,
     , clock_{clock}
     , drive_{std::move(drive)}
     , machine_{scenario}
+    , beam_angle_rad_{scenario.laser.beam_tilt_mrad * 1e-3}
     , listener_{listener}
     , port_{port} {
     device_.compensation_mode = scenario.laser.device_corrects ? 0 : 2;
@@ -64,6 +65,7 @@ IdsReading IdsFace::read_now() {
     const double seconds = clock_.now_s();
     const auto sample = static_cast<std::uint64_t>(seconds * samples_per_s);
     const double slide_mm = machine_.slide_mm(drive_(seconds), seconds, sample);
+    machine_.steer(beam_angle_rad_);
     const double cycles = machine_.cycles(slide_mm, seconds);
     const TrueAir air = air_at(scenario_.air, seconds);
     IdsReading now;
@@ -72,6 +74,7 @@ IdsReading IdsFace::read_now() {
     now.pressure_hPa = air.pressure.in(hectopascal);
     now.humidity_percent = air.humidity.in(percent);
     now.index = 1 + refractivity(air, nm(laser.wavelength_nm));
+    now.contrast_percent = machine_.contrast_percent(slide_mm);
     return now;
 }
 

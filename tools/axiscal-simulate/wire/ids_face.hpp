@@ -6,6 +6,7 @@
 #include "wire/face.hpp"
 #include "wire/ids_device.hpp"
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -25,6 +26,8 @@ public:
     IdsFace& operator=(IdsFace&&) = delete;
     void run(std::stop_token stop) override;
     [[nodiscard]] nlohmann::json place() const override { return {{"port", port_}}; }
+    /// Thread-safe: holds from the next answer on.
+    void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
 
 private:
     IdsFace(const Scenario& scenario,
@@ -40,6 +43,7 @@ private:
     std::function<double(double)> drive_;
     SimulatedMachine machine_;
     IdsDevice device_;
+    std::atomic<double> beam_angle_rad_;
     int listener_, port_;
     std::map<int, std::string> clients_; ///< socket -> bytes not yet a request
     std::uint64_t answers_ = 0;
