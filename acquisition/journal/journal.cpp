@@ -53,7 +53,7 @@ Task<Result<JournalReceipt>> Journal::commit(RunBatch batch, std::uint16_t seque
     Worker* worker = worker_.get();
     auto shared = std::make_shared<RunBatch>(std::move(batch));
     std::function<Result<void>()> work = [worker, shared] {
-        return worker->write_with_notes(*shared);
+        return worker->write_with_notes(std::move(*shared)); // called once
     };
     const auto written = co_await perform<Worker, void>(worker, std::move(work));
     if (!written) co_return tl::unexpected<Error>(written.error());

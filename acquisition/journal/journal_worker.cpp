@@ -87,20 +87,20 @@ void Journal::Worker::put_back(RunBatch notes) {
     noted.streams = std::move(notes.streams);
 }
 
-Result<void> Journal::Worker::write_with_notes(const RunBatch& batch) {
+Result<void> Journal::Worker::write_with_notes(RunBatch batch) {
     if (!writer) return fail(Fault::no_run_armed, "no run file is open");
     if (auto why = known_failure()) return tl::unexpected<Error>(*why);
-    RunBatch notes = take_notes(), whole = batch;
+    RunBatch notes = take_notes();
     // What was noted before comes first: the chain tells the order.
-    whole.events.insert(whole.events.begin(), notes.events.begin(), notes.events.end());
-    whole.environment = notes.environment;
-    whole.circular = notes.circular;
-    whole.streams = notes.streams;
-    whole.chunks = notes.chunks;
-    whole.preflight = notes.preflight;
-    whole.retakes = notes.retakes;
-    whole.exclusions = notes.exclusions;
-    auto written = write(whole);
+    batch.events.insert(batch.events.begin(), notes.events.begin(), notes.events.end());
+    batch.environment = notes.environment;
+    batch.circular = notes.circular;
+    batch.streams = notes.streams;
+    batch.chunks = notes.chunks;
+    batch.preflight = notes.preflight;
+    batch.retakes = notes.retakes;
+    batch.exclusions = notes.exclusions;
+    auto written = write(batch);
     if (!written) put_back(std::move(notes));
     return written;
 }

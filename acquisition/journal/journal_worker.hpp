@@ -54,7 +54,7 @@ struct Journal::Worker {
 
     // The rest is the thread's, between its jobs or as one of them.
     Result<void> save_notes();
-    Result<void> write_with_notes(const RunBatch& batch);
+    Result<void> write_with_notes(RunBatch batch);
     Result<void> take(Result<RunFileWriter> opened);
     /// A failure of another file, closed since, is no reason against a new one.
     Result<void> may_open();

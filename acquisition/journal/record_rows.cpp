@@ -224,12 +224,25 @@ ChainedRow row_of(const PointRecord& point) {
     const auto& [step, sequence, planned, origin, triggered_at, window_begin, window_end, reading,
                  spread, slope_um_per_s, n, approach_travel, datum_id, live_deviation, samples] =
         point;
-    return chained("point",
-                   {whole(step), whole(sequence), whole(planned.step), whole(planned.target_index),
-                    text(name_of(planned.direction)), whole(planned.approach),
-                    text(name_of(origin)), nanoseconds(triggered_at), nanoseconds(window_begin),
-                    nanoseconds(window_end), reading.si(), spread.si(), slope_um_per_s, whole(n),
-                    approach_travel.si(), datum_id, live_deviation.si(), pack(samples)});
+    Row row{whole(step),
+            whole(sequence),
+            whole(planned.step),
+            whole(planned.target_index),
+            text(name_of(planned.direction)),
+            whole(planned.approach),
+            text(name_of(origin)),
+            nanoseconds(triggered_at),
+            nanoseconds(window_begin),
+            nanoseconds(window_end),
+            reading.si(),
+            spread.si(),
+            slope_um_per_s,
+            whole(n),
+            approach_travel.si(),
+            datum_id,
+            live_deviation.si()};
+    row.push_back(pack(samples)); // a list in braces would copy all samples once more
+    return chained("point", std::move(row));
 }
 
 ChainedRow row_of(const EnvironmentReading& reading) {
