@@ -112,13 +112,37 @@ Json plan_of(const CircularMeasurement& measured) {
     return object;
 }
 
-Json capture_of(const CircularMeasurement& measured) {
+/// Null of a case. What is done again is told in the keys of "parameters".
+Json effect_of(const CircularCertificate& certificate) {
+    if (!certificate.capture_effect) return {};
+    const CaptureEffect& effect = *certificate.capture_effect;
+    Json object;
+    object["state"] = is_changed(effect.capture) ? "averaged_or_filtered" : "nothing_was_averaged";
+    if (!is_changed(effect.capture)) return object;
+    object["averaged"] = effect.capture.averaged;
+    object["low_pass_hz"] = stated_json(effect.capture.low_pass_hz);
+    object["undulations"] = Json::array();
+    for (const UndulationGain& one : effect.gains)
+        object["undulations"].push_back({{"per_revolution", one.per_revolution},
+                                         {"frequency_hz", one.frequency_hz},
+                                         {"gain", one.gain}});
+    object["one_percent_lost_at_per_revolution"] = stated_json(effect.one_percent_per_revolution);
+    object["change_when_done_again_mm"] = Json::object();
+    for (const auto& [key, change_mm] : effect.done_again_mm)
+        object["change_when_done_again_mm"][label_of(certificate, key)] = change_mm;
+    if (!effect.not_known.empty()) object["not_known"] = effect.not_known;
+    return object;
+}
+
+Json capture_of(const CircularCertificate& certificate) {
+    const CircularMeasurement& measured = certificate.measured;
     const CircularConditions& told = measured.conditions;
     Json object;
     object["source"] = measured.test.source == SignalSource::feedback ? "feedback" : "external";
     object["taken_elsewhere"] = measured.taken_elsewhere;
     object["sample_rate_hz"] = stated_json(told.sample_rate_hz);
     object["filter"] = stated_json(told.filter);
+    object["effect_on_G"] = effect_of(certificate);
     object["angle_origin"] = stated_json(told.angle_origin);
     object["missing_readings"] = measured.taken_elsewhere ? Json{} : Json(measured.run.missing);
     object["readings"] = Json::object();
@@ -181,7 +205,7 @@ Json run_of(const CircularCertificate& certificate) {
     object["result_digest"] = stated_json(certificate.result_digest);
     object["statements"] = statements_json(run.statements);
     object["plan"] = plan_of(measured);
-    object["capture"] = capture_of(measured);
+    object["capture"] = capture_of(certificate);
     if (!measured.taken_elsewhere) {
         object["bar"] = bar_of(run.bar);
         object["circles"] = circles_of(run);

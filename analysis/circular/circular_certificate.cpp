@@ -200,7 +200,10 @@ Result<CircularCertificate> evaluate_measurement(CircularMeasurement measured,
     AXISCAL_TRY(out.diagnosis, diagnose_circle(from.test, from.axes));
     AXISCAL_CHECK(evaluate_repeats(out));
     remark_on_figures(out);
-    if (!from.taken_elsewhere) remark_on_run(from.run, out.remarks);
+    if (!from.taken_elsewhere) {
+        remark_on_run(from.run, out.remarks);
+        out.capture_effect = capture_effect(from.test, from.run.capture);
+    }
     AXISCAL_CHECK(evaluate_uncertainty(out));
     return out;
 }

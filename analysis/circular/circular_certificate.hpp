@@ -2,6 +2,7 @@
 // Everything that the certificate of a circular test prints, computed once. Rendering only formats
 // it. Pure.
 
+#include "analysis/circular/capture_effect.hpp"
 #include "analysis/circular/circular_run.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
@@ -49,6 +50,8 @@ struct CircularCertificate {
     CircleDiagnosis diagnosis;
     /// By contract key: the figure of each repeat, in their order; empty for one repeat.
     std::map<std::string, std::vector<double>> of_repeats;
+    /// Of the readings that are evaluated; none of a case, which says only what it wants to.
+    std::optional<CaptureEffect> capture_effect;
     std::optional<CircularBudget> budget; ///< none without a statement
     std::vector<MissingTerm> missing;     ///< empty: the certificate is final
     bool preliminary = true;              ///< `missing` is not empty: printed on each page

@@ -74,7 +74,9 @@ void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
     add_senses(fields, measured.test);
     sheet.heading("Test conditions", 180);
     sheet.fields(fields, 2);
-    sheet.text("All readings count, spikes at reversals included; a filter changes G.", note_style);
+    if (!certificate.capture_effect)
+        sheet.text("All readings count, spikes at reversals included; a filter changes G.",
+                   note_style);
 }
 
 std::string expansion_words(double alpha_per_K) {
@@ -196,6 +198,7 @@ void draw_circular_condition_pages(Sheet& sheet,
                                    const std::vector<StatedField>& shortened) {
     const CircularRun& run = certificate.measured.run;
     draw_conditions(sheet, certificate);
+    draw_capture_effect(sheet, certificate);
     draw_temperatures(sheet, certificate);
     if (!certificate.measured.taken_elsewhere) draw_circles(sheet, certificate);
     draw_repeats(sheet, certificate);

@@ -27,6 +27,9 @@ void draw_circular_condition_pages(Sheet& sheet,
                                    const CircularCertificate& certificate,
                                    const std::vector<StatedField>& shortened);
 
+/// What averaging and filter do to G, or that there was none; nothing of a case.
+void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate);
+
 /// Budget: what is stated, each term, each figure by formula and by trials.
 void draw_circular_uncertainty(Sheet& sheet, const CircularCertificate& certificate);
 

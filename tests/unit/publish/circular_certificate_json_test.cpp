@@ -43,6 +43,26 @@ TEST(CircularCertificateJson, HoldsTheAnalysisUnchangedAndWhereItCameFrom) {
     EXPECT_EQ(document.at("repeats").at("G_b").size(), 2u);
 }
 
+TEST(CircularCertificateJson, SaysWhatTheCaptureDoesToG) {
+    const json none = document_of(test::circular_certificate());
+    EXPECT_EQ(none.at("run").at("capture").at("effect_on_G"),
+              json({{"state", "nothing_was_averaged"}}));
+    CircularRun run = test::circular_run();
+    run.capture.low_pass_hz = 40;
+    const json filtered = document_of(test::circular_certificate(std::move(run)));
+    const json& effect = filtered.at("run").at("capture").at("effect_on_G");
+    EXPECT_EQ(effect.at("state"), "averaged_or_filtered");
+    EXPECT_EQ(effect.at("low_pass_hz"), 40);
+    // 500 undulations at 1000 mm/min on 150 mm: 500 * 16.667 / 942.478 = 8.842 Hz; 40 Hz leaves
+    // 1 / sqrt(1 + (8.842/40)^2) = 0.97642.
+    EXPECT_NEAR(effect.at("undulations").back().at("frequency_hz").get<double>(), 8.842, 1e-3);
+    EXPECT_NEAR(effect.at("undulations").back().at("gain").get<double>(), 0.97642, 1e-4);
+    EXPECT_EQ(effect.at("change_when_done_again_mm").size(), 3U);
+    const json of_case = document_of(test::certificate_of(
+        test::bare_measurement(test::circular_test(test::circular_truth(), 1))));
+    EXPECT_TRUE(of_case.at("run").at("capture").at("effect_on_G").is_null());
+}
+
 TEST(CircularCertificateJson, HoldsTheCertificatesOfChannels) {
     CircularRun run = test::circular_run();
     run.channels.push_back({5, "table", "t", "", ChannelKind::temperature, Medium::material});

@@ -137,6 +137,18 @@ TEST_F(CircularReport, HoldsWhatTheStandardWantsTold) {
         EXPECT_THAT(page, HasSubstr(words));
 }
 
+TEST_F(CircularReport, SaysWhatAveragingAndFilterDoToG) {
+    EXPECT_THAT(text(circular_certificate()), HasSubstr("Nothing was averaged"));
+    CircularRun run = circular_run();
+    run.capture.averaged = 4;
+    run.capture.low_pass_hz = 40;
+    const std::string page = text(circular_certificate(std::move(run)));
+    EXPECT_THAT(page, HasSubstr("What averaging and filter do to G"));
+    EXPECT_THAT(page, HasSubstr("Amplitude left"));
+    EXPECT_THAT(page, HasSubstr("97.63")) << "of 500 undulations: 8.84 Hz";
+    EXPECT_THAT(page, Not(HasSubstr("Nothing was averaged")));
+}
+
 TEST_F(CircularReport, SaysNotStatedForEveryEmptyField) {
     const std::string page = text(unstated());
     for (const char* key : {"Laboratory",
