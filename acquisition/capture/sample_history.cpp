@@ -5,8 +5,8 @@
 namespace axiscal {
 
 void SampleHistory::push(const Sample& sample) {
-    if (!samples_.empty()) {
-        const Sample& last = samples_.back();
+    if (samples_.size() > 0) {
+        const Sample& last = samples_.all().back();
         if (sample.at < last.at) {
             ++disordered_;
             return;
@@ -17,26 +17,18 @@ void SampleHistory::push(const Sample& sample) {
             ++gaps_;
     }
     if (!began_at_) began_at_ = sample.at;
-    samples_.push_back(sample);
-    forget_old();
+    samples_.push(sample);
+    forget_old(sample.at - limits_.depth);
 }
 
-void SampleHistory::forget_old() {
-    const auto oldest_wanted = samples_.back().at - limits_.depth;
-    while (samples_.size() - first_ > 1 &&
-           (samples_[first_].at < oldest_wanted || samples_.size() - first_ > limits_.capacity)) {
-        newest_forgotten_ = samples_[first_].at;
-        ++first_;
+void SampleHistory::forget_old(MonotonicTime oldest_wanted) {
+    for (;;) {
+        const MonotonicTime oldest = samples_.all().front().at;
+        const bool wanted = oldest >= oldest_wanted && samples_.size() <= limits_.capacity;
+        if (wanted || samples_.size() == 1) return;
+        newest_forgotten_ = oldest;
+        samples_.pop();
     }
-    // Compacting only when half is dead moves each sample at most once: O(1) amortised.
-    if (first_ > 0 && first_ * 2 >= samples_.size()) {
-        samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(first_));
-        first_ = 0;
-    }
-}
-
-std::span<const Sample> SampleHistory::all() const {
-    return std::span{samples_}.subspan(first_);
 }
 
 std::span<const Sample> SampleHistory::between(MonotonicTime begin, MonotonicTime end) const {
@@ -49,7 +41,7 @@ std::span<const Sample> SampleHistory::between(MonotonicTime begin, MonotonicTim
 }
 
 std::optional<Sample> SampleHistory::newest() const {
-    return samples_.empty() ? std::nullopt : std::optional{samples_.back()};
+    return samples_.size() == 0 ? std::nullopt : std::optional{all().back()};
 }
 
 bool SampleHistory::reaches_back_to(MonotonicTime instant) const {

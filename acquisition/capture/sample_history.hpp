@@ -1,33 +1,35 @@
 #pragma once
 // The last minutes of one channel, ordered by time; gaps and lost zeros are known.
 
+#include "acquisition/capture/sample_ring.hpp"
 #include "drivers/sample.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace axiscal {
 
-/// Loop-bound. push() is O(1) amortised. Memory is bounded by twice `capacity` samples; the oldest
-/// go first, by age (`depth`) or by number. Spans are valid until the next push().
+/// Loop-bound. push() moves no other sample. Memory is bounded by `capacity` samples; the oldest go
+/// first, by age (`depth`) or by number. Spans are valid until the next push().
 class SampleHistory {
 public:
     struct Limits {
         Duration depth = std::chrono::minutes{5};
         std::size_t capacity = 600'000; ///< 5 minutes at 2 kHz
     };
-    SampleHistory() = default;
+    SampleHistory()
+        : SampleHistory{Limits{}} {}
     explicit SampleHistory(Limits limits)
-        : limits_{limits} {}
+        : limits_{limits}
+        , samples_{limits.capacity + 1} {}
 
     /// A sample older than its predecessor is dropped and counted: order is what a search relies
     /// on. Bad samples are kept: they are evidence.
     void push(const Sample& sample);
 
-    [[nodiscard]] std::span<const Sample> all() const;
+    [[nodiscard]] std::span<const Sample> all() const { return samples_.all(); }
     /// Samples with begin <= at <= end.
     [[nodiscard]] std::span<const Sample> between(MonotonicTime begin, MonotonicTime end) const;
     [[nodiscard]] std::optional<Sample> newest() const;
@@ -43,11 +45,10 @@ public:
     }
 
 private:
-    void forget_old();
+    void forget_old(MonotonicTime oldest_wanted);
 
-    Limits limits_{};
-    std::vector<Sample> samples_; ///< samples_[first_...] are alive
-    std::size_t first_ = 0;
+    Limits limits_;
+    SampleRing samples_;
     std::uint64_t disordered_ = 0, gaps_ = 0;
     std::optional<MonotonicTime> epoch_changed_at_, newest_forgotten_, began_at_;
 };

@@ -1,0 +1,63 @@
+#include "acquisition/capture/sample_ring.hpp"
+
+#include <new>
+#include <numeric>
+#include <sys/mman.h>
+#include <type_traits>
+#include <unistd.h>
+
+namespace axiscal {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<Sample>);
+
+/// Whole pages that hold whole samples.
+std::size_t places_of(std::size_t capacity) {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    const std::size_t step = std::lcm(page, sizeof(Sample)) / sizeof(Sample);
+    return (capacity + step - 1) / step * step;
+}
+
+bool map_at(void* place, std::size_t bytes, int memory) {
+    return ::mmap(place, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, memory, 0) !=
+           MAP_FAILED;
+}
+
+} // namespace
+
+void SampleRing::Unmap::operator()(Sample* places) const {
+    ::munmap(places, 2 * bytes);
+}
+
+std::unique_ptr<Sample[], SampleRing::Unmap> SampleRing::mapped_twice(std::size_t bytes) {
+    const int memory = ::memfd_create("axiscal samples", MFD_CLOEXEC);
+    if (memory < 0) throw std::bad_alloc{};
+    void* const place = ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    const bool mapped = place != MAP_FAILED &&
+                        ::ftruncate(memory, static_cast<off_t>(bytes)) == 0 &&
+                        map_at(place, bytes, memory) &&
+                        map_at(static_cast<std::byte*>(place) + bytes, bytes, memory);
+    ::close(memory);
+    if (place == MAP_FAILED) throw std::bad_alloc{};
+    std::unique_ptr<Sample[], Unmap> places{static_cast<Sample*>(place), Unmap{bytes}};
+    if (!mapped) throw std::bad_alloc{};
+    return places;
+}
+
+SampleRing::SampleRing(std::size_t capacity)
+    : count_{places_of(capacity)}
+    , places_{mapped_twice(count_ * sizeof(Sample))} {}
+
+void SampleRing::push(const Sample& sample) {
+    // The second copy would do as well, but its pages would have to be mapped too.
+    const std::size_t at = first_ + size_;
+    ::new (&places_[at < count_ ? at : at - count_]) Sample{sample};
+    ++size_;
+}
+
+void SampleRing::pop() {
+    if (++first_ == count_) first_ = 0;
+    --size_;
+}
+
+} // namespace axiscal
