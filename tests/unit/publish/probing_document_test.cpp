@@ -43,7 +43,7 @@ TEST_F(ProbingPapers, TellFeedFiguresAndWhatIsMissing) {
     EXPECT_EQ(json.at("feed_mm_per_min"), 480);
     EXPECT_EQ(json.at("feed_mm_per_ms"), 0.008); // of the standard: 0.008 mm a millisecond
     EXPECT_EQ(json.at("preliminary"), true);
-    EXPECT_EQ(json.at("missing"), nlohmann::json::array({"an uncertainty budget"}));
+    EXPECT_EQ(json.at("missing"), nlohmann::ordered_json::array({"an uncertainty budget"}));
     const auto& series = json.at("parameters");
     ASSERT_EQ(series.size(), 6U);
     EXPECT_NEAR(series[1].at("variation_ms").get<double>(), 0.8, 1e-9);
