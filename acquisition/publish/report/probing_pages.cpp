@@ -255,7 +255,7 @@ std::vector<std::string> saw_tooth_words(const std::vector<ProbingDelay>& result
         words.push_back("Saw-tooth found: " + found +
                         ". The control latches at ticks of its own, that far apart.");
     for (const auto& [reason, symbols] : lacking)
-        words.push_back(symbols + ": no period is told: " + reason + ".");
+        words.emplace_back(symbols).append(": no period is told: ").append(reason).append(".");
     return words;
 }
 
