@@ -18,11 +18,6 @@ std::size_t places_of(std::size_t capacity) {
     return (capacity + step - 1) / step * step;
 }
 
-bool map_at(void* place, std::size_t bytes, int memory) {
-    return ::mmap(place, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, memory, 0) !=
-           MAP_FAILED;
-}
-
 } // namespace
 
 void SampleRing::Unmap::operator()(Sample* places) const {
@@ -30,16 +25,16 @@ void SampleRing::Unmap::operator()(Sample* places) const {
 }
 
 std::unique_ptr<Sample[], SampleRing::Unmap> SampleRing::mapped_twice(std::size_t bytes) {
-    const int memory = ::memfd_create("axiscal samples", MFD_CLOEXEC);
-    if (memory < 0) throw std::bad_alloc{};
+    // No file: memory must not depend on how long a file may be, as a full disk is tried with.
     void* const place = ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    const bool mapped = place != MAP_FAILED &&
-                        ::ftruncate(memory, static_cast<off_t>(bytes)) == 0 &&
-                        map_at(place, bytes, memory) &&
-                        map_at(static_cast<std::byte*>(place) + bytes, bytes, memory);
-    ::close(memory);
     if (place == MAP_FAILED) throw std::bad_alloc{};
     std::unique_ptr<Sample[], Unmap> places{static_cast<Sample*>(place), Unmap{bytes}};
+    constexpr int shared = MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED;
+    // mremap(2): of a length of 0, pages that are shared are seen at the new place as well.
+    const bool mapped =
+        ::mmap(place, bytes, PROT_READ | PROT_WRITE, shared, -1, 0) != MAP_FAILED &&
+        ::mremap(place, 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED,
+                 static_cast<std::byte*>(place) + bytes) != MAP_FAILED;
     if (!mapped) throw std::bad_alloc{};
     return places;
 }
