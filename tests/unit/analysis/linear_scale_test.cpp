@@ -1,4 +1,5 @@
 // A linear scale in the place of the laser: its own expansion, and nothing of air.
+#include "largest_error.hpp"
 #include "linear_scale_run.hpp"
 #include "stated_uncertainty.hpp"
 
@@ -14,25 +15,9 @@ namespace axiscal::linear_scale_test {
 namespace {
 
 using test::at_seconds;
+using test::largest_error_mm;
 using test::run_by_scale;
 using test::ScaleTruth;
-
-/// Largest |found - true| deviation over all points, in mm.
-double largest_error_mm(const ScaleTruth& truth) {
-    const RunRecord run = run_by_scale(truth);
-    const auto found = compensate_to_20C(run);
-    if (!found) return 1e9;
-    double largest = 0;
-    for (const PlannedPoint& point : run.plan.points) {
-        const auto target = static_cast<std::size_t>(point.target_index);
-        const auto& rows = point.direction == Direction::positive ? found->deviations.forward()
-                                                                  : found->deviations.backward();
-        const double expected = truth.deviation_mm(point, run.plan.targets[target].in(mm));
-        const double error = rows[target][static_cast<std::size_t>(point.approach)] - expected;
-        largest = std::max(largest, std::fabs(error));
-    }
-    return largest;
-}
 
 /// One point at 500 mm, of which the scale counts just 500 mm: scale 10e-6 / K at 24 degC, machine
 /// 22e-6 / K at 25 degC.
@@ -79,7 +64,7 @@ TEST(LinearScale, FindsTheTruthWithoutAnyAirSensorWhicheverWayItCounts) {
             ScaleTruth truth;
             truth.sign = sign;
             truth.machine_C = [celsius](double) { return celsius; };
-            EXPECT_LT(largest_error_mm(truth), 1e-9) << sign << " " << celsius;
+            EXPECT_LT(largest_error_mm(run_by_scale(truth), truth), 1e-9) << sign << " " << celsius;
         }
 }
 
@@ -87,7 +72,7 @@ TEST(LinearScale, FollowsAScaleThatWarmsDuringTheRun) {
     ScaleTruth truth;
     truth.scale_C = [](double s) { return 20 + 3 * s / 2300; };
     truth.machine_C = [](double s) { return 22 - s / 2300; };
-    EXPECT_LT(largest_error_mm(truth), 1e-9);
+    EXPECT_LT(largest_error_mm(run_by_scale(truth), truth), 1e-9);
     RunRecord run = run_by_scale(truth);
     run.scale->coefficient = Expansion{}; // 3 K at 1 m of glass: 25 um
     const auto blind = compensate_to_20C(run);

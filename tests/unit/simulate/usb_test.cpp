@@ -6,12 +6,13 @@
 #include "wire/usb/usb_descriptors.hpp"
 #include "wire/usb/usb_kinds.hpp"
 
+#include "tests/support/scratch_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <filesystem>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
@@ -245,11 +246,10 @@ TEST(UsbWish, IsAKindAndItsSettings) {
 /// SIO_SET_MODEM_CTRL of drivers/usb/serial/ftdi_sio.h: levels in the low byte, which of them are
 /// meant in the high one.
 TEST(FtdiUart, ShowsTheModemLinesAsTheHostHasSetThem) {
-    std::string folder = (std::filesystem::temp_directory_path() / "usb-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-    auto pty = Pty::open(folder + "/tty");
+    const testing::ScratchFolder folder;
+    auto pty = Pty::open(folder.file("tty"));
     ASSERT_TRUE(pty);
-    const auto device = make_ftdi_uart({"ftdi", {{"behind", folder + "/tty"}}}, {});
+    const auto device = make_ftdi_uart({"ftdi", {{"behind", folder.file("tty")}}}, {});
     ASSERT_TRUE(device);
     (*device)->plugged();
     EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR low, RTS low");
@@ -259,16 +259,14 @@ TEST(FtdiUart, ShowsTheModemLinesAsTheHostHasSetThem) {
     EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR high, RTS low");
     (*device)->plugged();
     EXPECT_EQ((*device)->state(), "latency timer 16 ms, DTR low, RTS low");
-    std::filesystem::remove_all(folder);
 }
 
 /// AN232B-04: two status bytes before each 62 of data; bytes wait for the latency timer.
 TEST(FtdiUart, PutsItsStatusBeforeEvery62Bytes) {
-    std::string folder = (std::filesystem::temp_directory_path() / "usb-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(folder.data()), nullptr);
-    auto pty = Pty::open(folder + "/tty");
+    const testing::ScratchFolder folder;
+    auto pty = Pty::open(folder.file("tty"));
     ASSERT_TRUE(pty);
-    const auto device = make_ftdi_uart({"ftdi", {{"behind", folder + "/tty"}}}, {});
+    const auto device = make_ftdi_uart({"ftdi", {{"behind", folder.file("tty")}}}, {});
     ASSERT_TRUE(device);
     (*device)->plugged();
     (*device)->control({0x40, 9, 1, 0, 0}, {}); // latency timer 1 ms
@@ -283,7 +281,6 @@ TEST(FtdiUart, PutsItsStatusBeforeEvery62Bytes) {
     wanted.insert(wanted.end(), {1, 0x60});
     wanted.insert(wanted.end(), 8, 'x');
     EXPECT_EQ(answer.bytes, wanted);
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace
