@@ -82,6 +82,7 @@ private:
     void tell_identity(SampleSink& sink);
     [[nodiscard]] Duration uncertainty_at(MonotonicTime at);
     void learn_unit(GaugeUnit unit);
+    [[nodiscard]] tl::unexpected<Error> why_no_unit(const InstrumentCounters& before) const;
     [[nodiscard]] bool is_echo(std::string_view line) const;
 
     GaugeSetup setup_;
@@ -198,6 +199,7 @@ Task<Result<void>> AsciiGauge::hear_until(ByteLink& link,
 Task<Result<void>>
 AsciiGauge::ask_unit(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     if (setup_.model->unit_request.empty()) co_return Result<void>{};
+    const InstrumentCounters before = counters_;
     auto request = bytes_of(setup_.model->unit_request);
     const MonotonicTime end = context.scheduler->now() + link_patience;
     auto written = co_await link.write_all(std::move(request), end);
@@ -208,11 +210,23 @@ AsciiGauge::ask_unit(ByteLink& link, InstrumentContext context, LineFramer& fram
         const auto heard = co_await hear_until(link, context, framer, soon);
         if (!heard) co_return heard;
     }
-    if (!told_unit_ && !setup_.unit)
-        co_return fail(Fault::bad_configuration,
-                       "the gauge on " + setup_.link.describe() +
-                           " does not tell its unit: state `unit` in the station file");
+    if (!told_unit_ && !setup_.unit) co_return why_no_unit(before);
     co_return Result<void>{};
+}
+
+/// Of a gauge that was asked for its unit, by what was heard of it since `before`.
+tl::unexpected<Error> AsciiGauge::why_no_unit(const InstrumentCounters& before) const {
+    const std::string gauge = "the gauge on " + setup_.link.describe();
+    if (counters_.frames > before.frames)
+        return fail(Fault::bad_configuration,
+                    gauge + " does not tell its unit: state `unit` in the station file");
+    if (counters_.bad_frames > before.bad_frames)
+        return fail(Fault::bad_frame, gauge + " sends what cannot be read: is it this model, and "
+                                              "are its line settings these?");
+    return fail(Fault::link_timeout,
+                gauge + " says nothing when it is asked for its unit: is it switched on, and are "
+                        "its line settings these? One that cannot tell needs `unit` in the station "
+                        "file");
 }
 
 Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
