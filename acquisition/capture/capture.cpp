@@ -87,7 +87,7 @@ Result<Length> approach_travel(const SampleHistory& history,
                              side_of(claim.direction) + ", " + in_mm(needed) + " are needed";
     if (path.end == PathEnd::samples_missing)
         return fail(Fault::samples_lost,
-                    "The axis " + seen + "; before that the laser's readings are missing.");
+                    "The axis " + seen + "; before that its readings are missing.");
     return fail(Fault::wrong_direction,
                 "The axis " + seen +
                     ": let the program go further past the target before it comes back.");

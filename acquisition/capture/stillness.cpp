@@ -41,8 +41,8 @@ Fault fault_of(Quality quality) {
 std::string worded(Quality quality) {
     switch (quality) {
     case Quality::beam_lost: return "the beam was lost";
-    case Quality::signal_error: return "the laser flagged its signal (slew or phase error)";
-    case Quality::absent: return "the laser gave no value";
+    case Quality::signal_error: return "the instrument flagged its signal (slew or phase error)";
+    case Quality::absent: return "the instrument gave no value";
     case Quality::good: break;
     }
     return "good";
@@ -123,7 +123,7 @@ std::optional<Error> find_lost_count(std::span<const Sample> samples, Speed fast
     const Sample* previous = nullptr; // last good one
     for (const auto& sample : samples) {
         if (sample.epoch != samples.front().epoch)
-            return Error{Fault::datum_lost, "The laser's counter lost its zero.", {}, {}};
+            return Error{Fault::datum_lost, "The counter lost its zero.", {}, {}};
         if (sample.quality() == Quality::beam_lost)
             return Error{Fault::beam_lost, "The laser beam was interrupted.", {}, {}};
         if (!sample.value()) continue;

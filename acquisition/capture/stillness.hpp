@@ -1,5 +1,5 @@
 #pragma once
-// Does the axis stand? Judged over a window of laser samples: number, spread, slope, gaps,
+// Does the axis stand? Judged over a window of length samples: number, spread, slope, gaps,
 // quality, one epoch. Pure.
 
 #include "acquisition/capture/sample_history.hpp"

@@ -122,11 +122,12 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const Sample& first_after,
                                   const ContinuityLimits& limits) {
     const auto reading = first_after.value();
-    if (!reading) return lost("the laser gives no good reading.");
+    if (!reading) return lost("the axis has no good reading.");
     if (last_before.device_count == 0 || first_after.device_count == 0)
-        return lost("this laser does not number its samples, so nothing proves that it ran on.");
+        return lost(
+            "this instrument does not number its samples, so nothing proves that it ran on.");
     if (limits.rate_hz <= 0)
-        return lost("the run was too young to tell how fast the laser counts.");
+        return lost("the run was too young to tell how fast the counter runs.");
     const Duration elapsed = first_after.at - last_before.at;
     if (elapsed < Duration{}) return lost("its reading is older than the run's last one.");
     const double expected = seconds_of(elapsed) * limits.rate_hz;
@@ -134,13 +135,14 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
         limits.rate_share * expected + seconds_of(limits.stamp_slack) * limits.rate_hz;
     const auto before = static_cast<double>(last_before.device_count);
     if (limits.count_modulus == 0 && before <= 2 * tolerance)
-        return lost("the laser was switched on too shortly before to tell that it was not switched "
-                    "off again.");
+        return lost("the counter was switched on too shortly before to tell that it was not "
+                    "switched off again.");
     double advance = static_cast<double>(first_after.device_count) - before;
     if (limits.count_modulus > 0) {
         const auto modulus = static_cast<double>(limits.count_modulus);
         if (expected + tolerance >= modulus)
-            return lost("after " + in_seconds(elapsed) + " the laser's short number says nothing.");
+            return lost("after " + in_seconds(elapsed) +
+                        " the counter's short number says nothing.");
         advance = std::fmod(std::fmod(advance, modulus) + modulus, modulus);
     }
     const std::string numbers = "its number advanced by " + plain_number(advance, 0) + " in " +

@@ -29,16 +29,16 @@ void Station::watch_set_up(const Sample& sample) {
     const std::string since =
         run_ && interruption_.empty() ? " since the run was closed" : " since axiscald was started";
     if (sample.epoch != epoch)
-        set_up_lost_ = "the laser's counter lost its zero" + since;
+        set_up_lost_ = "the " + reference_word() + "'s counter lost its zero" + since;
     else if (sample.quality() == Quality::beam_lost)
-        set_up_lost_ = "the laser's beam was interrupted" + since;
+        set_up_lost_ = "the " + reference_word() + "'s beam was interrupted" + since;
     else if (sample.value() && last_reading_ && config_.capture.fastest.si() > 0) {
         const auto jump = abs(metre(*sample.value()) - metre(*last_reading_->value()));
         const auto reach =
             metre(config_.capture.fastest.si() * seconds_of(sample.at - last_reading_->at));
         if (jump > reach + reading_slack)
-            set_up_lost_ = "the laser's reading jumped by " + in_mm(jump) + since +
-                           ", faster than the axis can move";
+            set_up_lost_ = "the " + reference_word() + "'s reading jumped by " + in_mm(jump) +
+                           since + ", faster than the axis can move";
     }
     if (sample.value()) last_reading_ = sample;
 }

@@ -13,7 +13,7 @@ namespace axiscal {
 namespace {
 
 constexpr Duration hear_every = std::chrono::milliseconds{50}; // an abort is heard within it
-constexpr const char* lost_zero = "The laser's counter lost its zero: the readings cannot be "
+constexpr const char* lost_zero = "The counter lost its zero: the readings cannot be "
                                   "compared any more.";
 
 /// E_VE of a sealed test, one millimetre for one degree of a rotary axis. Nothing where the test

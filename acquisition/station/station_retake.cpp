@@ -29,9 +29,10 @@ Result<void> Station::set_up_stands() const {
     if (!set_up_lost_.empty()) return fail(Fault::datum_lost, set_up_lost_ + ": arm a new run");
     const auto reading = history_.newest();
     if (!reading || scheduler_.now() - reading->at > laser_limit || !reading->value())
-        return fail(Fault::link_timeout, "the laser gives no good reading now");
+        return fail(Fault::link_timeout, "the " + reference_word() + " gives no good reading now");
     if (reading->epoch != datum_epoch_)
-        return fail(Fault::datum_lost, "the laser's counter lost its zero: arm a new run");
+        return fail(Fault::datum_lost,
+                    "the " + reference_word() + "'s counter lost its zero: arm a new run");
     for (std::size_t i = 0; i < run_->header.instruments.size(); ++i) {
         const InstrumentRecord& then = run_->header.instruments[i];
         const std::string& serial = supervisor_.identity(static_cast<int>(i)).serial;

@@ -34,7 +34,7 @@ constexpr std::array rows{
     FaultRow{Fault::not_durable, 7, "not_durable", "The run file cannot be written to disk."},
     FaultRow{
         Fault::datum_lost, 8, "datum_lost",
-        "The laser lost its zero: this run cannot go on; move to the datum and arm a new run."},
+        "The counter lost its zero: this run cannot go on; move to the datum and arm a new run."},
     FaultRow{Fault::wrong_target, 9, "wrong_target",
              "The CNC asks for another target than the plan."},
     FaultRow{
