@@ -15,7 +15,7 @@ from pathlib import Path
 
 from guest import SOURCE, check, expect, load_modules, run, run_checks, start_udev, wait_until
 from tcp_cable import TcpCable
-from usb_station import Commands, Undisturbed, UsbStation
+from usb_station import Commands, Undisturbed, UsbStation, channels_of
 
 BUS = "vcan0"
 GONE = ("unavailable", "faulty")
@@ -95,10 +95,10 @@ class CanStation(UsbStation):
     def can_status(self):
         return Commands(self.folder / "can.sock").ask("status")
 
-    def good(self, name):
+    def good(self, status, name):
         if name in ("laser", "air", *NETWORK):
-            return super().good(name)
-        channels = [c for c in self.status()["channels"] if c["instrument"] == name]
+            return super().good(status, name)
+        channels = channels_of(status, name)
         return channels and all(c["value"] is not None for c in channels)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import guest_clock
 from guest import check, expect, load_modules, run, run_checks, wait_until
-from usb_station import LINKS, Undisturbed, UsbStation, bench
+from usb_station import LINKS, Undisturbed, UsbStation, bench, value_in
 from truth import BOUNDED, compare  # of the whole-run tests, as bench
 
 PUBLISHED = Path("/mnt/quality")
@@ -64,9 +64,11 @@ class ServiceStation(UsbStation):
         self.wires["tenki"] = ("usbtenki", {"called": "tenki", "serial": "A10234"})
         self.wires["stick"] = ("temper", {"called": "stick"})
 
-    def good(self, name):
+    def good(self, status, name):
         """Of the stick its probe, the one sensor that it has."""
-        return self.value(name, "probe temperature") is not None if name == "stick" else super().good(name)
+        if name == "stick":
+            return value_in(status, name, "probe temperature") is not None
+        return super().good(status, name)
 
     def program(self, name):
         """The installed one, where there is one."""

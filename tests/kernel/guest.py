@@ -21,7 +21,7 @@ from pathlib import Path
 SOURCE = Path(os.environ["AXISCAL_SOURCE"])
 PROGRAMS = Path(os.environ["AXISCAL_PATH"])
 SHARE = Path("/hostshare")  # what is written here stays after the guest's end
-LOOK_S = 0.05
+LOOK_S = 0.1
 READY_S = 30.0
 
 _checks = []

@@ -51,11 +51,21 @@ def kernel_drivers(numbers):
     raise AssertionError(f"the kernel shows no USB device {':'.join(numbers)}")
 
 
+def channels_of(status, name):
+    return [c for c in status["channels"] if c["instrument"] == name]
+
+
+def value_in(status, instrument, channel):
+    return next(c["value"] for c in channels_of(status, instrument) if c["channel"] == channel)
+
+
 class UsbStation(bench.Bench):
     """As Bench; `wires` says which kind of adapter each instrument sits behind."""
 
     def __init__(self):
         super().__init__()
+        # A counter sends a thousand records a second; each costs the emulation a dozen changes of task.
+        self.scenario["laser"]["rate_hz"] = 250.0
         self.links = dict(LINKS)
         self.wires = {"laser": ("cdc-acm", LASER), "air": ("cdc-acm", AIR), "material": ("ftdi", MATERIAL)}
         for instrument in self.station["instrument"]:
@@ -124,12 +134,11 @@ class UsbStation(bench.Bench):
         return wait_until(f"{name} is {' or '.join(states)}", lambda: self.state(name) in states, limit_s)
 
     def value(self, instrument, channel):
-        return next(c["value"] for c in self.status()["channels"]
-                    if c["instrument"] == instrument and c["channel"] == channel)
+        return value_in(self.status(), instrument, channel)
 
-    def good(self, name):
-        """Every channel of the instrument that a role uses has a value now; each it has where none does."""
-        channels = [c for c in self.status()["channels"] if c["instrument"] == name]
+    def good(self, status, name):
+        """Every channel of the instrument that a role uses has a value; each it has where none does."""
+        channels = channels_of(status, name)
         used = [c for c in channels if c["used"]] or [c for c in channels if c["quality"] != "none"]
         return used and all(c["value"] is not None for c in used)
 
@@ -138,7 +147,9 @@ class UsbStation(bench.Bench):
         late = list(names)
 
         def all_were_good():
-            late[:] = [name for name in late if self.state(name) != "available" or not self.good(name)]
+            status = self.status()  # once for all of them: the guest is slow
+            here = {one["name"] for one in status["instruments"] if one["state"] == "available"}
+            late[:] = [name for name in late if name not in here or not self.good(status, name)]
             return not late
 
         try:

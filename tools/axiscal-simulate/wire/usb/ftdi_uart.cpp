@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 namespace axiscal::simulate {
 
@@ -52,18 +53,23 @@ public:
     UsbAnswer control(const UsbSetup& setup, std::span<const std::uint8_t> data) override;
     UsbAnswer out(std::uint8_t endpoint, std::span<const std::uint8_t> data) override;
     UsbAnswer in(std::uint8_t endpoint, std::size_t most) override;
-    /// The chip looks when its timer runs out, not when a byte comes.
+    [[nodiscard]] int wake_descriptor() const override { return behind_.descriptor(); }
     [[nodiscard]] std::chrono::milliseconds pace() const override {
         return std::chrono::milliseconds{1};
     }
     [[nodiscard]] std::string state() const override;
 
 private:
+    [[nodiscard]] std::int64_t ends_of_the_timer() const {
+        return (Steady::now() - plugged_at_) / std::chrono::milliseconds{latency_ms_};
+    }
+
     UsbDescriptors descriptors_;
     TtyBehind behind_;
     std::atomic<int> latency_ms_{16};
     std::atomic<int> modem_lines_{0};
-    Steady::time_point last_packet_;
+    Steady::time_point plugged_at_;
+    std::optional<std::int64_t> waiting_since_; ///< ends of the timer when bytes were first there
 };
 
 std::string FtdiUart::state() const {
@@ -76,7 +82,8 @@ void FtdiUart::plugged() {
     behind_.flush();
     latency_ms_ = 16;
     modem_lines_ = 0;
-    last_packet_ = Steady::now();
+    plugged_at_ = Steady::now();
+    waiting_since_.reset();
 }
 
 UsbAnswer FtdiUart::control(const UsbSetup& setup, std::span<const std::uint8_t>) {
@@ -99,15 +106,19 @@ UsbAnswer FtdiUart::out(std::uint8_t, std::span<const std::uint8_t> data) {
     return UsbAnswer::done();
 }
 
-/// At each end of the timer: packets of two status bytes and up to 62 of data. A chip with nothing
-/// to say sends the status alone; here the host is left in peace, which no driver can tell apart.
+/// The timer runs all the time; at its first end after a byte came: packets of two status bytes and
+/// up to 62 of data. A chip with nothing to say sends the status alone; here the host is left in
+/// peace, which no driver can tell apart.
 UsbAnswer FtdiUart::in(std::uint8_t, std::size_t most) {
-    const auto now = Steady::now();
-    if (now - last_packet_ < std::chrono::milliseconds{latency_ms_}) return UsbAnswer::hold();
+    if (!behind_.has_bytes()) return UsbAnswer::hold();
+    const std::int64_t ends = ends_of_the_timer();
+    if (ends == waiting_since_.value_or(ends)) {
+        waiting_since_ = ends;
+        return UsbAnswer::hold();
+    }
+    waiting_since_.reset();
     const std::size_t packets = std::max<std::size_t>(1, most / packet);
     const Bytes data = behind_.read(packets * (packet - status_size));
-    if (data.empty()) return UsbAnswer::hold();
-    last_packet_ = now;
     Bytes told;
     told.reserve(packets * packet);
     for (std::size_t i = 0; i < data.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 #include <utility>
@@ -26,6 +27,11 @@ TtyBehind::TtyBehind(TtyBehind&& other) noexcept
 
 TtyBehind::~TtyBehind() {
     if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool TtyBehind::has_bytes() const {
+    int count = 0;
+    return ::ioctl(descriptor_, FIONREAD, &count) == 0 && count > 0;
 }
 
 Bytes TtyBehind::read(std::size_t most) const {

@@ -16,6 +16,7 @@ public:
     TtyBehind& operator=(TtyBehind&&) = delete;
     ~TtyBehind();
 
+    [[nodiscard]] bool has_bytes() const;
     /// What is there, at most this many bytes; empty when nothing is, or the face has gone.
     [[nodiscard]] Bytes read(std::size_t most) const;
     void write(std::span<const std::uint8_t> bytes) const;

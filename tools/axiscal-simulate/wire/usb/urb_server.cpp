@@ -126,9 +126,10 @@ void UrbServer::serve(int socket, const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const int wake = held_.empty() || in_vain ? -1 : device_.wake_descriptor();
         std::array<pollfd, 2> polls{pollfd{socket, POLLIN, 0}, pollfd{wake, POLLIN, 0}};
-        const auto pace = static_cast<int>(device_.pace().count());
+        const bool woken = held_.empty() || wake >= 0;
         constexpr int look_for_stop_ms = 50;
-        ::poll(polls.data(), polls.size(), held_.empty() ? look_for_stop_ms : pace);
+        const auto pace = static_cast<int>(device_.pace().count());
+        ::poll(polls.data(), polls.size(), woken ? look_for_stop_ms : pace);
         if (polls[0].revents != 0 && !take_one(socket)) return;
         if (!ask_held_again(socket)) return;
         in_vain = polls[1].revents != 0 && !finished_some_;

@@ -80,7 +80,7 @@ public:
 
     /// When this descriptor is readable, held transfers are asked again; -1: only by pace().
     [[nodiscard]] virtual int wake_descriptor() const { return -1; }
-    /// Held transfers are asked again at least this often.
+    /// Held transfers are asked again at least this often, where nothing wakes them.
     [[nodiscard]] virtual std::chrono::milliseconds pace() const {
         return std::chrono::milliseconds{5};
     }
