@@ -41,29 +41,6 @@ inline double counted_mm(const ScaleTruth& truth, double position_mm, double at_
     return truth.sign * grown_mm / (1 + truth.scale_per_K * (truth.scale_C(at_s) - 20));
 }
 
-inline void add_scale_points(RunRecord& run, const ScaleTruth& truth) {
-    constexpr double offset_mm = -3.5; // a counter need not be zero at the datum
-    DatumRecord datum;
-    datum.id = "serial/0/1";
-    datum.at = at_seconds(datum_s);
-    datum.reading = mm(offset_mm);
-    run.datums = {datum};
-    for (const PlannedPoint& planned : run.plan.points) {
-        const double middle_s = first_point_s + seconds_per_point * planned.step;
-        const double target_mm =
-            run.plan.targets[static_cast<std::size_t>(planned.target_index)].in(mm);
-        PointRecord point;
-        point.step = planned.step;
-        point.planned = planned;
-        point.window_begin = at_seconds(middle_s - 1);
-        point.window_end = at_seconds(middle_s + 1);
-        point.datum_id = datum.id;
-        const double position_mm = target_mm + truth.deviation_mm(planned, target_mm);
-        point.reading = mm(offset_mm + counted_mm(truth, position_mm, middle_s));
-        run.points.push_back(point);
-    }
-}
-
 inline RunRecord run_by_scale(const ScaleTruth& truth) {
     RunRecord run;
     run.run_id = "scale-run";
@@ -74,7 +51,7 @@ inline RunRecord run_by_scale(const ScaleTruth& truth) {
     run.material.form = truth.form;
     run.scale = ScaleSetup{um(0.1), per_kelvin(truth.scale_per_K), {}, {}, {scale_channel}};
     add_scale_environment(run, truth);
-    add_scale_points(run, truth);
+    add_points(run, truth, -3.5, counted_mm); // a counter need not be zero at the datum
     run.complete = true;
     run.opened = {at_seconds(0), 1'767'225'600'000'000'000, at_seconds(0)}; // 2026-01-01T00:00:00Z
     run.closed = {at_seconds(3600), 1'767'229'200'000'000'000, at_seconds(3600)};

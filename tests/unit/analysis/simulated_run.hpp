@@ -95,12 +95,15 @@ inline void add_environment(RunRecord& run, const Truth& truth) {
     }
 }
 
-inline void add_points(RunRecord& run, const Truth& truth) {
-    constexpr double offset_mm = 17.25; // a counter need not be zero at the datum
+/// The datum, and each planned point where its target and the truth's deviation put it.
+/// `beyond_mm` gives what the counter holds beyond `offset_mm` at a position and a time in
+/// seconds.
+template <typename AnyTruth, typename Counted>
+void add_points(RunRecord& run, const AnyTruth& truth, double offset_mm, const Counted& beyond_mm) {
     DatumRecord datum;
     datum.id = "serial/0/1";
     datum.at = at_seconds(datum_s);
-    datum.coordinate = mm(truth.datum_mm);
+    datum.coordinate = run.plan.datum;
     datum.reading = mm(offset_mm);
     run.datums = {datum};
     for (const PlannedPoint& planned : run.plan.points) {
@@ -114,9 +117,13 @@ inline void add_points(RunRecord& run, const Truth& truth) {
         point.window_end = at_seconds(middle_s + 1);
         point.datum_id = datum.id;
         const double position_mm = target_mm + truth.deviation_mm(planned, target_mm);
-        point.reading = mm(offset_mm + true_reading_mm(truth, position_mm, middle_s));
+        point.reading = mm(offset_mm + beyond_mm(truth, position_mm, middle_s));
         run.points.push_back(point);
     }
+}
+
+inline void add_points(RunRecord& run, const Truth& truth) {
+    add_points(run, truth, 17.25, true_reading_mm); // a counter need not be zero at the datum
 }
 
 inline RunRecord simulated_run(const Truth& truth) {
