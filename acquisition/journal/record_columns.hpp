@@ -101,7 +101,8 @@ inline constexpr std::array tables{
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
 
-inline constexpr std::size_t sample_bytes = 24; // at_ns, reading_m, device_count
+inline constexpr std::size_t sample_bytes = 24; // at_ns, reading_m, device_count: as they are
+inline constexpr int windows_packed_since = 6;  // format of the file
 
 // Statements are stored by name, so that a new one needs no new column.
 struct NamedStatement {

@@ -1,4 +1,5 @@
 #include "acquisition/journal/record_columns.hpp"
+#include "acquisition/journal/window_packing.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -19,7 +20,7 @@ Value text(std::string_view words) {
     return std::string{words};
 }
 
-Blob pack(const std::vector<WindowSample>& samples) {
+Blob as_they_are(const std::vector<WindowSample>& samples) {
     Blob blob;
     blob.bytes.reserve(samples.size() * sample_bytes);
     for (const auto& [at, reading_m, device_count] : samples) {
@@ -220,7 +221,7 @@ ChainedRow row_of(const DatumRecord& datum) {
                     slope_um_per_s, whole(n), whole(sequence), whole(device_count)});
 }
 
-ChainedRow row_of(const PointRecord& point) {
+ChainedRow row_of(const PointRecord& point, int format) {
     const auto& [step, sequence, planned, origin, triggered_at, window_begin, window_end, reading,
                  spread, slope_um_per_s, n, approach_travel, datum_id, live_deviation, samples] =
         point;
@@ -241,7 +242,9 @@ ChainedRow row_of(const PointRecord& point) {
             approach_travel.si(),
             datum_id,
             live_deviation.si()};
-    row.push_back(pack(samples)); // a list in braces would copy all samples once more
+    // A list in braces would copy all samples once more.
+    row.push_back(format < windows_packed_since ? as_they_are(samples)
+                                                : Blob{packed_window(samples)});
     return chained("point", std::move(row));
 }
 

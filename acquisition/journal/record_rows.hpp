@@ -3,6 +3,7 @@
 // A field added to a record breaks the structured binding in record_rows.cpp: give it a column.
 
 #include "acquisition/journal/row.hpp"
+#include "acquisition/journal/schema.hpp"
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
@@ -22,6 +23,7 @@ struct Closing {
 
 /// Everything that rows are placed into.
 struct RecordedRun : RunRecord {
+    int format = run_file_version;         ///< of the file that the rows stand in
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
@@ -43,7 +45,8 @@ const Table& table_named(std::string_view name);
 std::vector<ChainedRow> header_rows(const RunRecord& header,
                                     const RunAttachments& attachments = {});
 ChainedRow row_of(const DatumRecord& datum);
-ChainedRow row_of(const PointRecord& point);
+/// Its samples packed, or as they are where `format` is before 6.
+ChainedRow row_of(const PointRecord& point, int format);
 ChainedRow row_of(const EnvironmentReading& reading);
 ChainedRow row_of(const EventRecord& event);
 ChainedRow row_of(const Closing& closing);

@@ -36,7 +36,7 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_probing_touch,
     read_eve_source,
     measured<read_datum>,
-    measured<read_point>,
+    read_point,
     measured<read_environment>,
     measured<read_event>,
     read_circular,

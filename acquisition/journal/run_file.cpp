@@ -42,8 +42,9 @@ Result<void> sync_with_folder(const std::string& path) {
 }
 
 // What could not be read back is not written: a program error, not one of the disk.
-Result<void> check_before_writing(const ChainedRow& row) {
+Result<void> check_before_writing(const ChainedRow& row, int format) {
     RecordedRun scratch;
+    scratch.format = format;
     auto readable = check_row(*row.table, row.row);
     if (readable) readable = place_row(scratch, *row.table, row.row);
     if (!readable) return fail(Fault::internal, "not written: " + readable.error().detail);
@@ -75,7 +76,7 @@ std::vector<ChainedRow> rows_of_captures(const RunBatch& batch, int format) {
     }
     if (batch.point) {
         const PointRecord& point = *batch.point;
-        rows.push_back(row_of(point));
+        rows.push_back(row_of(point, format));
         if (known)
             rows.push_back(
                 row_of(SynchronisationRecord{point.step, point.datum_id, batch.synchronisation}));
@@ -203,7 +204,7 @@ Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
                                      const std::string& before) {
     if (broken_) return tl::unexpected<Error>(*broken_);
     for (const auto& row : rows)
-        AXISCAL_CHECK(check_before_writing(row));
+        AXISCAL_CHECK(check_before_writing(row, format_));
     return keep([&]() -> Result<void> {
         AXISCAL_CHECK(database_->execute("BEGIN IMMEDIATE"));
         if (!before.empty()) AXISCAL_CHECK(database_->execute(before));

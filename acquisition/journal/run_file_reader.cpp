@@ -250,6 +250,7 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
     AXISCAL_TRY(auto cursors, open_cursors(*database, path, format));
     RunFileContents contents;
     RecordedRun recorded;
+    recorded.format = format;
     while (TableCursor* next = next_of(cursors)) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));

@@ -56,11 +56,11 @@ std::string place_in_words(const StoredRow& row) {
 /// Rows of one table in the order of their numbers.
 class TableRows {
 public:
-    static Result<TableRows> open(const Database& database, const Table& table) {
+    static Result<TableRows> open(const Database& database, const Table& table, int format) {
         AXISCAL_TRY(auto select,
                     database.prepare("SELECT link, " + std::string{table.columns} + ", hash FROM " +
                                      std::string{table.name} + " ORDER BY link"));
-        TableRows rows{table, std::move(select)};
+        TableRows rows{table, std::move(select), format};
         AXISCAL_CHECK(rows.advance());
         return rows;
     }
@@ -73,9 +73,10 @@ public:
     }
 
 private:
-    TableRows(const Table& table, Statement select)
+    TableRows(const Table& table, Statement select, int format)
         : table_{&table}
-        , select_{std::move(select)} {}
+        , select_{std::move(select)}
+        , format_{format} {}
     Result<void> advance() {
         next_.reset();
         AXISCAL_TRY(const bool more, select_.step());
@@ -89,6 +90,7 @@ private:
         if (const auto* number = std::get_if<std::int64_t>(&link)) row.link = *number;
         if (const auto* bytes = std::get_if<Blob>(&hash)) row.hash = bytes->bytes;
         RecordedRun scratch;
+        scratch.format = format_;
         auto readable = check_row(*table_, row.row);
         if (readable) readable = place_row(scratch, *table_, row.row);
         if (!readable) row.misfit = readable.error().detail;
@@ -98,6 +100,7 @@ private:
 
     const Table* table_;
     Statement select_;
+    int format_;
     std::optional<StoredRow> next_;
 };
 
@@ -232,7 +235,7 @@ open_tables(const Database& database, int format, ChainReport& report) {
         const std::string name{table.name};
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         report.rows.emplace_back(name, count);
-        AXISCAL_TRY(auto rows, TableRows::open(database, table));
+        AXISCAL_TRY(auto rows, TableRows::open(database, table, format));
         tables.push_back(std::move(rows));
     }
     return tables;

@@ -1,5 +1,6 @@
 #include "acquisition/journal/stream_packing.hpp"
 
+#include "acquisition/journal/folding.hpp"
 #include "acquisition/journal/row.hpp"
 
 #include <algorithm>
@@ -14,14 +15,6 @@ constexpr int level = 3; ///< zstd's usual one: 300 MB/s and more
 /// Of a stream in a file: a thousand a second for thirty years.
 constexpr std::int64_t most_blocks = 1'000'000'000'000;
 constexpr char values_as_they_are = 1, values_as_differences = 2;
-
-/// Small numbers of either sign become small numbers.
-std::uint64_t folded(std::uint64_t difference) {
-    return (difference << 1U) ^ (0U - (difference >> 63U));
-}
-std::uint64_t unfolded(std::uint64_t word) {
-    return (word >> 1U) ^ (0U - (word & 1U));
-}
 
 /// Byte k of every word, then byte k + 1: equal bytes come to stand together.
 void put_planes(std::string& bytes, const std::vector<std::uint64_t>& words) {

@@ -17,6 +17,7 @@
 
 #include <fcntl.h>
 #include <filesystem>
+#include <random>
 
 namespace axiscal::bench {
 namespace {
@@ -25,6 +26,7 @@ constexpr int triggers = 100, samples = 1000;
 constexpr auto sample_period = std::chrono::microseconds{1000};
 constexpr std::size_t written_size = 12, read_size = 11; // replies to FC 6 and to FC 4 of one word
 constexpr std::size_t disk_block = 4096;
+constexpr double laser_step_m = 632.991e-9 / 512; // 64 of them: 80 nm of noise about 0.5 mm
 const testing::Bytes how_far = testing::framed(2, {4, 0, 0, 0, 1});
 
 /// On a real disk, as the tests' folders are not.
@@ -57,8 +59,10 @@ public:
         : scheduler_{scheduler}
         , journal_{journal}
         , port_{port} {
+        std::mt19937 noise{1};
         for (int i = 0; i < samples; ++i)
-            history_.push({0, began_ + i * sample_period, 1e-3 + 1e-9 * (i % 7),
+            history_.push({0, began_ + i * sample_period + std::chrono::nanoseconds{noise() % 3},
+                           (405'000 + static_cast<int>(noise() % 64)) * laser_step_m,
                            static_cast<std::uint64_t>(i), 0});
         config_.minimum_samples = samples;
     }

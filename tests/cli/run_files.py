@@ -8,9 +8,13 @@ import os
 import re
 import sqlite3
 import struct
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import run_file_window
 
 SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4", "5")]
-IDENTITY, FORMAT = 0x4158434C, 5
+IDENTITY, FORMAT = 0x4158434C, 6
 NAMES_OF_COLUMNS = "record_columns.hpp"
 
 
@@ -34,7 +38,7 @@ def canonical(table, values):
 
 
 def new_file(path, source):
-    """An empty run file of format 5, with every table."""
+    """An empty run file of format 6, with every table."""
     base = sqlite3.connect(path)
     for name in SCHEMAS:
         with open(os.path.join(source, "acquisition", "journal", name), encoding="utf-8") as schema:
@@ -109,6 +113,12 @@ def put_behind(rows, table, more):
     rows[last + 1:last + 1] = more
 
 
+def with_packed_windows(rows):
+    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 6 has them."""
+    return [(table, [*values[:-1], run_file_window.packed(list(struct.iter_unpack("<qdQ", values[-1])))])
+            if table == "point" else (table, values) for table, values in rows]
+
+
 def with_synchronisation(rows):
     """Each datum and point with what its uncertain time of 40 us adds."""
     out = []
@@ -122,8 +132,8 @@ def with_synchronisation(rows):
 
 
 def linear(reference):
-    """The reference run in format 5, with all that a header can hold of a positioning run."""
-    rows = with_synchronisation(read(reference))
+    """The reference run in format 6, with all that a header can hold of a positioning run."""
+    rows = with_synchronisation(with_packed_windows(read(reference)))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),
                              ("uncertainty_target", ["B_mean", 0.000005])])

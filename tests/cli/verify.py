@@ -56,7 +56,7 @@ class Verify(unittest.TestCase):
         self.path = os.path.join(self.folder, "run.axiscal")
 
     def make_whole(self, path):
-        """The reference run in format 5, with rows of every kind that a positioning run has and a result."""
+        """The reference run in format 6, with rows of every kind that a positioning run has and a result."""
         run_files.write(path, SOURCE, run_files.linear(RUN))
         told = self.verify(path)
         self.assertEqual(told["findings"], [])

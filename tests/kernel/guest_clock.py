@@ -9,11 +9,14 @@ import ctypes
 import datetime
 import os
 import sqlite3
-import struct
+import sys
 import time
 from pathlib import Path
 
 from guest import expect, run, wait_until
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import run_file_window
 
 SECOND_NS = 1_000_000_000
 DAY_NS = 86_400 * SECOND_NS
@@ -104,7 +107,7 @@ def judge_samples(points):
     """No sample is missing in a window, and none stands before an earlier one of the run."""
     last_ns = 0
     for point in points:
-        samples = list(struct.iter_unpack("<qdQ", point["samples"]))  # docs/run-file.md
+        samples = run_file_window.unpacked(point["samples"])
         numbers = [number for _, _, number in samples]
         expect(samples, f"step {point['step']} has no samples")
         whole = list(range(numbers[0], numbers[0] + len(numbers)))

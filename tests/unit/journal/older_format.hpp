@@ -5,6 +5,8 @@
 
 namespace axiscal::testing {
 
+/// Of a file without points: format 6 packs their samples.
+inline const std::string to_format_5 = "PRAGMA user_version=5";
 /// Without rows in them: their links would be missed.
 inline const std::string drop_format_5 =
     "DROP TABLE linear_scale; DROP TABLE linear_scale_sensor; ";

@@ -21,6 +21,7 @@ using testing::refusal_of;
 using testing::run_sql;
 using testing::same_bits;
 using testing::ScratchFolder;
+using testing::to_format_5;
 using testing::write_bytes;
 using testing::write_run;
 
@@ -99,6 +100,25 @@ TEST(RunFile, OfFormat3IsReadAndGoesOnAsFormat3) {
     EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\3", 4}));
     EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
     EXPECT_TRUE(summarize_run_file(path));
+}
+
+TEST(RunFile, OfFormat5KeepsTheSamplesOfItsPointsAsTheyAre) {
+    const ScratchFolder scratch;
+    RandomRun random{27};
+    const auto path = scratch.file("r.axiscal");
+    RunRecord run = random.header();
+    ASSERT_TRUE(RunFileWriter::create(path, run));
+    run_sql(path, to_format_5);
+    auto writer = RunFileWriter::reopen(path);
+    ASSERT_TRUE(writer) << describe(writer.error());
+    run.points.push_back(random.point(0));
+    ASSERT_TRUE(writer->append_point(run.points.back()));
+    run.complete = true, run.closing_reason = "done", run.closed = random.tie();
+    ASSERT_TRUE(writer->close(true, "done", run.closed));
+    EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\5", 4}));
+    EXPECT_TRUE(same_bits(run, read_run_file(path).value()));
+    run_sql(path, "PRAGMA user_version=6");
+    EXPECT_NE(refusal_of(path).find("does not hold packed samples"), std::string::npos);
 }
 
 TEST(RunFile, OfFormat4IsReadAndGoesOnAsFormat4) {
