@@ -68,9 +68,11 @@ double in_unit_of_axis(const RunRecord& run, Length coordinate) {
     return run.rotary ? coordinate.in(mm)*arcsec_per_degree : coordinate.in(um);
 }
 
-/// A change of the bare reading, for the angle that it shows with the reflectors square.
+/// A change of the bare reading in the direction of the axis; of a rotary one the angle that it
+/// shows with the reflectors square.
 double bare_in_unit_of_axis(const RunRecord& run, Length change) {
-    return run.rotary ? radian(change / run.rotary->arm).in(arcsec) : change.in(um);
+    const Length forwards = change * static_cast<double>(run.laser.sign);
+    return run.rotary ? radian(forwards / run.rotary->arm).in(arcsec) : forwards.in(um);
 }
 
 void follow_axis(const RunRecord& run,

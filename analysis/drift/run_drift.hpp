@@ -29,7 +29,7 @@ struct RunDrift {
     std::string unit = "um"; ///< of what follows, up to end_change: "um" | "arcsec"
     /// Change of the axis coordinate as a run would give it: in air, at 20 degC.
     DriftSeries axis;
-    DriftSeries bare;   ///< change of the bare readings at the same times
+    DriftSeries bare;   ///< change of the bare readings at the same times, towards plus as `axis`
     DriftRange eve;     ///< over the whole test: E_VE and u_EVE = E_VE / (2 sqrt 3)
     DriftRange window;  ///< largest within any window: ETVE
     DriftRange as_read; ///< E_VE of the bare readings, in vacuum wavelengths or by the scale

@@ -107,6 +107,8 @@ TEST(RunDrift, OfABeamFromTheOtherSideHasTheSignOfTheAxis) {
     ASSERT_TRUE(drift);
     EXPECT_NEAR(drift->end_change, 1, 1e-3);
     EXPECT_NEAR(drift->as_read.range, 1, 1e-3);
+    EXPECT_NEAR(drift->bare.readings.back(), 1, 1e-3); // drawn beside the axis, so as it goes
+    EXPECT_NEAR(drift->reading.series.readings.back(), -1, 1e-3); // the counter's own
 }
 
 TEST(RunDrift, GivesTheLargestRangeWithinAnHour) {
@@ -244,6 +246,7 @@ TEST(RunDrift, OfARotaryAxisIsInSecondsOfArcAndNeedsNoMaterial) {
         // Of the interferometer: S times the angle.
         EXPECT_NEAR(drift->reading.total.range, 4 / 206264.8 * 32.61e3, 1e-3);
         EXPECT_EQ(drift->reading.unit, "um");
+        EXPECT_NEAR(drift->bare.readings.back(), 4, 0.01);
     }
 }
 
