@@ -70,13 +70,31 @@ Json channel_of(const ChannelDrift& channel) {
     return object;
 }
 
-/// What a later budget takes of the test.
-Json budget_of(const RunRecord& run) {
+/// What a later budget takes of the test: nothing where extremes may be left out.
+Json budget_of(const DriftDocument& document) {
     Json object;
-    object["takes"] = "E_VE";
-    object["by"] = run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
+    object["takes"] = document.drift.refused.empty() ? Json("E_VE") : Json();
+    object["by"] = document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
     object["informative"] = {"ETVE", "end_change", "E_VE_as_read", "slope_per_h", "channels"};
     return object;
+}
+
+int refused_readings(const RunDrift& drift) {
+    int count = 0;
+    for (const RefusedReadings& refused : drift.refused)
+        count += refused.count;
+    return count;
+}
+
+Json refused_of(const RunDrift& drift) {
+    Json list = Json::array();
+    for (const RefusedReadings& refused : drift.refused)
+        list.push_back({{"fault", fault_name(refused.fault)},
+                        {"readings", refused.count},
+                        {"from_min", refused.first_min},
+                        {"to_min", refused.last_min},
+                        {"reason", refused.reason}});
+    return list;
 }
 
 Json run_of(const DriftDocument& document) {
@@ -183,6 +201,7 @@ Result<void> seal_drift(const std::string& run_file) {
     figures["format"] = "axiscal.drift/1";
     figures["unit"] = document.drift.unit;
     figures["parameters"] = parameters_of(document.drift);
+    figures["refused_readings"] = refused_readings(document.drift);
     return store_result(run_file, {document.result_digest, figures.dump()});
 }
 
@@ -194,13 +213,14 @@ Json drift_to_json(const DriftDocument& document) {
     object["unit"] = drift.unit;
     object["parameters"] = parameters_of(drift);
     object["slope_per_h"] = stated_json(drift.slope_per_h);
-    object["budget"] = budget_of(document.run);
+    object["budget"] = budget_of(document);
     object["test"][document.run.rotary ? "place_deg" : "place_mm"] = drift.setup.place.in(mm);
     object["test"]["duration_s"] = seconds_of(drift.setup.duration);
     object["test"]["interval_s"] = seconds_of(drift.setup.interval);
     object["test"]["readings"] = drift.axis.times.size();
     object["test"]["missing"] = drift.missing;
     object["test"]["without_air"] = drift.without_air;
+    object["test"]["refused"] = refused_of(drift);
     object["channels"] = Json::array();
     for (const ChannelDrift* channel : every_channel_of(drift))
         object["channels"].push_back(channel_of(*channel));
@@ -219,6 +239,8 @@ std::string drift_csv(const DriftDocument& document) {
     put_series(text, axis, drift.unit, drift.axis);
     for (const ChannelDrift* channel : every_channel_of(drift))
         put_series(text, channel->name, channel->unit, channel->series);
+    if (const int refused = refused_readings(drift); refused > 0)
+        put_figure(text, "refused", axis, "readings", refused);
     put_figure(text, "range", axis, drift.unit, drift.eve.range);
     put_figure(text, "slope_per_h", axis, drift.unit, drift.slope_per_h);
     put_figure(text, "E_VE", axis, drift.unit, drift.eve.range);

@@ -30,6 +30,13 @@ std::optional<Length> eve_of(const nlohmann::json& document, AxisKind kind) {
     return angle ? mm(value / arcsec_per_degree) : um(value);
 }
 
+/// How many readings of a sealed test became no coordinate: those may have been its extremes.
+/// Tests sealed before this was counted state none.
+int refused_readings_in(const nlohmann::json& document) {
+    const auto stated = document.is_object() ? document.find("refused_readings") : document.end();
+    return stated != document.end() && stated->is_number_integer() ? stated->get<int>() : 0;
+}
+
 } // namespace
 
 /// The far end of the travel: the reading rises away from the interferometer. A rotary axis rests
@@ -174,6 +181,12 @@ Task<Result<void>> Station::adopt_eve(RunRecord& header, RunAttachments& attachm
                                                     config_.eve_run, header.statements.axis);
     if (!found) co_return tl::unexpected<Error>(found.error());
     const auto document = nlohmann::json::parse(found->document, nullptr, false);
+    if (const int refused = refused_readings_in(document); refused > 0)
+        co_return fail(Fault::refused,
+                       "the drift test " + found->run_id + " could not evaluate " +
+                           std::to_string(refused) +
+                           " of its readings, so that its E_VE may be too small: make another by "
+                           "'axiscal drift', or name a good one in uncertainty.eve_run");
     const std::optional<Length> eve = eve_of(document, header.plan.axis_kind);
     if (!eve)
         co_return fail(Fault::bad_run_file, "the drift test " + found->run_id +

@@ -75,6 +75,21 @@ double bare_in_unit_of_axis(const RunRecord& run, Length change) {
     return run.rotary ? radian(forwards / run.rotary->arm).in(arcsec) : forwards.in(um);
 }
 
+/// What became no coordinate at that minute is counted with its like.
+void leave_out(const Error& why, double minute, RunDrift& drift) {
+    if (why.fault == Fault::environment_stale) {
+        ++drift.without_air;
+        return;
+    }
+    auto like = std::ranges::find(drift.refused, why.fault, &RefusedReadings::fault);
+    if (like == drift.refused.end()) {
+        const std::string field = why.field.empty() ? "" : why.field + " ";
+        like = drift.refused.insert(like, {why.fault, field + why.detail, 0, minute, minute});
+    }
+    ++like->count;
+    like->last_min = minute;
+}
+
 void follow_axis(const RunRecord& run,
                  const std::vector<EnvironmentReading>& readings,
                  RunDrift& drift) {
@@ -82,18 +97,32 @@ void follow_axis(const RunRecord& run,
     std::optional<Length> first;
     double first_m = 0;
     for (const EnvironmentReading& reading : readings) {
+        const double minute = seconds_of(reading.at - run.opened.before) / seconds_a_minute;
         const auto coordinate = axis.coordinate(reading);
         if (!coordinate) {
-            ++drift.without_air;
+            leave_out(coordinate.error(), minute, drift);
             continue;
         }
         if (!first) first = *coordinate, first_m = reading.value;
-        const double minute = seconds_of(reading.at - run.opened.before) / seconds_a_minute;
         drift.axis.times.push_back(minute);
         drift.axis.readings.push_back(in_unit_of_axis(run, *coordinate - *first));
         drift.bare.times.push_back(minute);
         drift.bare.readings.push_back(bare_in_unit_of_axis(run, metre(reading.value - first_m)));
     }
+}
+
+/// Too few readings are left, and why.
+tl::unexpected<Error> too_few(const RunRecord& run, const RunDrift& drift) {
+    std::string words = "the drift test has " + std::to_string(drift.axis.times.size()) +
+                        " usable readings of the " + (run.scale ? "scale" : "laser") +
+                        "; it needs two";
+    if (drift.without_air > 0)
+        words += "; " + std::to_string(drift.without_air) + " have no fresh " +
+                 (run.scale ? "temperature of scale and material" : "air or material") +
+                 " beside them";
+    for (const RefusedReadings& refused : drift.refused)
+        words += "; " + std::to_string(refused.count) + " cannot be evaluated: " + refused.reason;
+    return fail(Fault::incomplete_run, words);
 }
 
 /// A linear axis has no artefact; a rotary one needs a table that something reads.
@@ -134,10 +163,7 @@ Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
     const ChannelRecord& laser = *laser_channel_of(run);
     const auto readings = readings_of(run, laser.id);
     follow_axis(run, readings, drift);
-    if (auto usable = check_series(drift.axis, "laser", 2); !usable)
-        return fail(Fault::incomplete_run, "the drift test has " +
-                                               std::to_string(drift.axis.times.size()) +
-                                               " usable readings of the laser; it needs two");
+    if (!check_series(drift.axis, "laser", 2)) return too_few(run, drift);
     const auto planned = setup.duration / setup.interval;
     drift.missing = static_cast<int>(
         std::max<std::int64_t>(0, planned - static_cast<std::int64_t>(readings.size())));

@@ -22,6 +22,15 @@ struct ChannelDrift {
     std::optional<double> slope_per_h; ///< least squares over the test; from two readings on
 };
 
+/// Readings of the laser that the formulas refused for one and the same fault. The axis stood
+/// somewhere meanwhile that no figure knows.
+struct RefusedReadings {
+    Fault fault = Fault::internal;
+    std::string reason;                 ///< of the first: what was wrong with it
+    int count = 0;                      ///< 1 or more
+    double first_min = 0, last_min = 0; ///< minutes since the test began
+};
+
 /// Of a rotary axis every figure of the axis is in seconds of arc, of a linear one in um.
 struct RunDrift {
     DriftSetup setup;
@@ -36,7 +45,11 @@ struct RunDrift {
     std::optional<double> slope_per_h; ///< of the coordinate, least squares over the test
     double end_change = 0;             ///< last against first
     int missing = 0;                   ///< intervals without a good reading of the laser
-    int without_air = 0;  ///< readings of the laser that no fresh air or material belongs to
+    /// Readings of the laser that no fresh air or material, by a scale its temperature, belongs to.
+    int without_air = 0;
+    /// Left out for any other fault, in the order in which the faults came. While there is one the
+    /// ranges may be too small: what was refused may have been the extremes.
+    std::vector<RefusedReadings> refused;
     ChannelDrift reading; ///< the channel that measures the axis: every reading of it, as counted
     std::vector<ChannelDrift> channels; ///< all others; one that stayed silent has no reading
 };
@@ -53,7 +66,9 @@ struct RunDrift {
 /// drift = asin(V* / (n S)) - beta_0 (rotary_position.hpp); nothing expands, and what the table
 /// itself is wrong by stays where it is.
 /// Air and material are the channels that bear that medium; every other one is told and acts on
-/// nothing.
+/// nothing. A reading without fresh surroundings is counted in `without_air`, one that the formulas
+/// refuse for another reason (an angle beyond the range of the interferometer, air that cannot be)
+/// in `refused`; no figure knows either.
 /// @errors Fault::incomplete_run for a test that was not closed as complete, or with fewer than
 /// two usable readings; Fault::refused for a rotary axis without an indexing table;
 /// Fault::bad_run_file.

@@ -48,40 +48,59 @@ void draw_figures(Sheet& sheet, const RunDrift& drift) {
                 rows);
 }
 
+/// What a reading of the axis needs beside it.
+const char* surroundings_words(const RunRecord& run) {
+    if (run.rotary) return "air";
+    return run.scale ? "temperature of scale and material" : "air or material";
+}
+
 /// Intervals that the figures do not know.
-std::string gaps_words(const RunDrift& drift) {
+std::string gaps_words(const DriftDocument& document) {
+    const RunDrift& drift = document.drift;
     std::string words;
     if (drift.missing > 0)
         words = std::to_string(drift.missing) + " of " +
                 std::to_string(drift.setup.duration / drift.setup.interval) +
                 " intervals have no good reading of the length. ";
     if (drift.without_air > 0)
-        words += std::to_string(drift.without_air) +
-                 " readings without fresh air or material beside them are left out.";
+        words += std::to_string(drift.without_air) + " readings without fresh " +
+                 surroundings_words(document.run) + " beside them are left out. ";
+    for (const RefusedReadings& refused : drift.refused)
+        words += std::to_string(refused.count) + " readings from " + fixed(refused.first_min, 2) +
+                 " min to " + fixed(refused.last_min, 2) +
+                 " min cannot be evaluated and are left out. The first: " + refused.reason +
+                 (refused.reason.ends_with('.') ? " " : ". ");
+    if (!drift.refused.empty())
+        words += "They may have been the extremes: E_VE and ETVE may be too small, and no budget "
+                 "takes E_VE of this test.";
     return words;
 }
 
-std::string rule_words(bool rotary) {
+std::string rule_words(const DriftDocument& document) {
+    const bool rotary = document.run.rotary.has_value();
+    const bool taken = document.drift.refused.empty();
     return std::string{"E_VE: largest minus smallest coordinate of the resting axis"} +
            (rotary ? "" : " at 20 °C") +
            ", as a run would have given it. ETVE: the same within an hour. Positive changes go "
            "towards + of the coordinate. " +
            (rotary ? "What is left after the air is taken out"
                    : "What is left after the compensation") +
-           " is the environment's share: machine, set-up and sensors together. The budget of later "
-           "runs takes E_VE (ISO 230-2, annex " +
-           (rotary ? "B" : "A") + "); every other figure and channel of this test is informative.";
+           " is the environment's share: machine, set-up and sensors together. " +
+           (taken ? "The budget of later runs takes E_VE (ISO 230-2, annex " +
+                        std::string{rotary ? "B" : "A"} + "); every other figure and channel"
+                  : std::string{"Every figure and channel"}) +
+           " of this test is informative.";
 }
 
 void draw_rule(Sheet& sheet, const DriftDocument& document) {
     const RunDrift& drift = document.drift;
-    sheet.text(rule_words(document.run.rotary.has_value()), note_style);
+    sheet.text(rule_words(document), note_style);
     const auto& times = drift.axis.times;
     if (times.back() - times.front() < drift.window_min)
         sheet.text("The test is shorter than " + fixed(drift.window_min, 0) +
                        " min: ETVE is the range of the whole test.",
                    note_style);
-    if (const std::string gaps = gaps_words(drift); !gaps.empty())
+    if (const std::string gaps = gaps_words(document); !gaps.empty())
         sheet.text(gaps, {7.5, true, backward_vermilion});
 }
 

@@ -266,6 +266,59 @@ TEST(RunDrift, CountsWhatIsMissingAndWhatHasNoAir) {
     EXPECT_EQ(drift->axis.times.size(), 37U);
 }
 
+/// Up to 2.16 of its 4 seconds of arc the angle is beyond what the interferometer shows.
+TEST(RunDrift, NamesReadingsBeyondTheRangeAndNotAsWithoutAir) {
+    RunRecord run = Turntable{}.record();
+    run.rotary->range_deg = 0.5994;
+    const auto drift = evaluate_drift(run, Turntable::setup());
+    ASSERT_TRUE(drift) << describe(drift.error());
+    EXPECT_EQ(drift->without_air, 0);
+    ASSERT_EQ(drift->refused.size(), 1U);
+    EXPECT_EQ(drift->refused[0].fault, Fault::outside_window);
+    EXPECT_EQ(drift->refused[0].count, 33); // 0 s to 320 s
+    EXPECT_NEAR(drift->refused[0].first_min, 0, 1e-9);
+    EXPECT_NEAR(drift->refused[0].last_min, 320.0 / 60, 1e-9);
+    EXPECT_NE(drift->refused[0].reason.find("range of 0.5994 deg"), std::string::npos);
+    EXPECT_NEAR(drift->eve.range, 4 * 270.0 / 600, 1e-6); // 330 s to 600 s: less than the truth
+}
+
+TEST(RunDrift, NamesEachFaultOnceAndTellsOfNothingElse) {
+    Hall hall;
+    RunRecord run = hall.record(600);
+    run.air.oldest = std::chrono::seconds{15};
+    // No material from 200 s on; at 50 s and 80 s a humidity that cannot be.
+    std::erase_if(run.environment, [](const EnvironmentReading& reading) {
+        return reading.channel == 4 && seconds_of(reading.at - at_seconds(0)) > 199;
+    });
+    for (EnvironmentReading& reading : run.environment)
+        if (reading.channel == 3 && (reading.at == at_seconds(50) || reading.at == at_seconds(80)))
+            reading.value = 130;
+    const auto drift = evaluate_drift(run, hall.setup());
+    ASSERT_TRUE(drift) << describe(drift.error());
+    EXPECT_EQ(drift->without_air, 40); // 210 s to 600 s: 190 s is 20 s away
+    ASSERT_EQ(drift->refused.size(), 1U);
+    EXPECT_EQ(drift->refused[0].fault, Fault::bad_request);
+    EXPECT_EQ(drift->refused[0].reason, "relative humidity must lie in 0..100 %");
+    EXPECT_EQ(drift->refused[0].count, 2);
+    EXPECT_EQ(drift->axis.times.size(), 19U);
+}
+
+TEST(RunDrift, SaysWhyTooFewReadingsAreLeft) {
+    RunRecord turned = Turntable{}.record();
+    turned.rotary->range_deg = 0.1;
+    const auto beyond = evaluate_drift(turned, Turntable::setup());
+    ASSERT_FALSE(beyond);
+    EXPECT_EQ(beyond.error().fault, Fault::incomplete_run);
+    EXPECT_NE(beyond.error().detail.find("61 cannot be evaluated"), std::string::npos);
+    EXPECT_NE(beyond.error().detail.find("range of 0.1000 deg"), std::string::npos);
+    Hall hall;
+    RunRecord airless = hall.record(600);
+    std::erase_if(airless.environment, [](const auto& reading) { return reading.channel == 3; });
+    const auto without = evaluate_drift(airless, hall.setup());
+    ASSERT_FALSE(without);
+    EXPECT_NE(without.error().detail.find("61 have no fresh air"), std::string::npos);
+}
+
 TEST(RunDrift, RefusesWhatIsNoTest) {
     Hall hall;
     RunRecord open = hall.record(600);

@@ -82,6 +82,29 @@ TEST(DriftDocument, SaysWhatTheBudgetTakesAndThatTheRestIsInformative) {
     EXPECT_EQ(budget["informative"].back(), "channels");
 }
 
+TEST(DriftDocument, OfWhichReadingsWereRefusedFeedsNoBudgetAndSaysSo) {
+    RunRecord run = made_run();
+    for (EnvironmentReading& reading : run.environment)
+        if (reading.channel == 3 && seconds_of(reading.at.time_since_epoch()) > 479)
+            reading.value = 130; // % of humidity, from the eighth minute on
+    const auto document = made_document(std::move(run));
+    const auto json = drift_to_json(document);
+    EXPECT_EQ(json["test"]["readings"], 8);
+    EXPECT_EQ(json["test"]["without_air"], 0);
+    const auto& refused = json["test"]["refused"];
+    ASSERT_EQ(refused.size(), 1U);
+    EXPECT_EQ(refused[0]["fault"], "bad_request");
+    EXPECT_EQ(refused[0]["readings"], 3);
+    EXPECT_EQ(refused[0]["from_min"], 8);
+    EXPECT_EQ(refused[0]["to_min"], 10);
+    EXPECT_TRUE(json["budget"]["takes"].is_null());
+    EXPECT_NE(drift_csv(document).find("\n# refused,\"axis at 20 degC\",readings,3\r\n"),
+              std::string::npos);
+    const auto whole = drift_to_json(made_document());
+    EXPECT_EQ(whole["test"]["refused"].size(), 0U);
+    EXPECT_EQ(drift_csv(made_document()).find("# refused"), std::string::npos);
+}
+
 TEST(DriftDocument, HoldsEveryReadingAndTheFiguresOfEachChannelAsCsv) {
     const std::string csv = drift_csv(made_document());
     EXPECT_TRUE(csv.starts_with("channel,unit,minute,value\r\n\"axis at 20 degC\",um,0,0\r\n"));

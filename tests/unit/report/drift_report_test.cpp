@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -202,6 +203,40 @@ TEST_F(DriftReport, TellsTheIntervalsThatAreMissing) {
     });
     EXPECT_THAT(test::text_of(render(document_of(std::move(run)))),
                 HasSubstr("12 of 720 intervals have no good reading"));
+}
+
+/// Text of a page with its breaks of lines as spaces.
+std::string in_one_line(std::string text) {
+    std::string line;
+    for (const char letter : text)
+        if (!std::isspace(static_cast<unsigned char>(letter)))
+            line += letter;
+        else if (!line.ends_with(' '))
+            line += ' ';
+    return line;
+}
+
+TEST_F(DriftReport, TellsReadingsThatCouldNotBeEvaluatedAndThatNoBudgetTakesThem) {
+    RunRecord run = turning();
+    run.rotary->range_deg = 0.0005; // 1.8 of its 3.6 seconds of arc: the later half is beyond
+    const std::string text = in_one_line(test::text_of(render(document_of(std::move(run)))));
+    EXPECT_THAT(text, HasSubstr("cannot be evaluated and are left out"));
+    EXPECT_THAT(text, HasSubstr("beyond its range of 0.0005 deg"));
+    EXPECT_THAT(text, HasSubstr("no budget takes E_VE of this test"));
+    EXPECT_THAT(text, Not(HasSubstr("The budget of later runs takes")));
+    EXPECT_THAT(text, Not(HasSubstr("without fresh")));
+}
+
+TEST_F(DriftReport, ByAScaleSaysThatItsTemperatureWasMissing) {
+    RunRecord run = creeping(steady_creep_um);
+    run.scale.emplace().channels = {8}; // what the spindle was
+    const MonotonicTime begin = run.environment.front().at;
+    std::erase_if(run.environment, [&](const EnvironmentReading& reading) {
+        return reading.channel == 8 && reading.at - begin > 1h;
+    });
+    const std::string text = in_one_line(test::text_of(render(document_of(std::move(run)))));
+    EXPECT_THAT(text, HasSubstr("readings without fresh temperature of scale and material"));
+    EXPECT_THAT(text, Not(HasSubstr("fresh air")));
 }
 
 TEST_F(DriftReport, GivesTheSameBytesAgain) {

@@ -233,6 +233,20 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
     }
 }
 
+TEST_F(StationDrifts, ThatLeftReadingsOutFeedsNothingAndSaysWhy) {
+    shop.config.eve_run = "latest";
+    Life life{shop};
+    begin(life, short_test());
+    life.run(70s);
+    const std::string document =
+        R"({"unit":"um","parameters":{"E_VE":{"value":1}},"refused_readings":3})";
+    ASSERT_TRUE(store_result(shop.run_files().at(0), {sha256_hex(document), document}));
+    const auto refused = life.arm();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::refused);
+    EXPECT_NE(refused.error().detail.find("3 of its readings"), std::string::npos);
+}
+
 TEST_F(StationDrifts, OfAnAxisOfTheOtherKindFeedsNothing) {
     shop.config.eve_run = "latest";
     Life life{shop};
