@@ -160,9 +160,10 @@ void put_figure(std::string& text,
 
 void put_figures(std::string& text, const ChannelDrift& channel) {
     if (channel.series.readings.empty()) return;
-    put_figure(text, "range", channel.name, channel.unit, channel.total.range);
-    put_figure(text, "slope_per_h", channel.name, channel.unit, channel.slope_per_h);
-    if (has_eve(channel)) put_figure(text, "E_VE", channel.name, channel.unit, channel.total.range);
+    const std::string name = full_name_of(channel);
+    put_figure(text, "range", name, channel.unit, channel.total.range);
+    put_figure(text, "slope_per_h", name, channel.unit, channel.slope_per_h);
+    if (has_eve(channel)) put_figure(text, "E_VE", name, channel.unit, channel.total.range);
 }
 
 std::string axis_name(const RunDrift& drift) {
@@ -238,7 +239,7 @@ std::string drift_csv(const DriftDocument& document) {
     std::string text = "channel,unit,minute,value\r\n";
     put_series(text, axis, drift.unit, drift.axis);
     for (const ChannelDrift* channel : every_channel_of(drift))
-        put_series(text, channel->name, channel->unit, channel->series);
+        put_series(text, full_name_of(*channel), channel->unit, channel->series);
     if (const int refused = refused_readings(drift); refused > 0)
         put_figure(text, "refused", axis, "readings", refused);
     put_figure(text, "range", axis, drift.unit, drift.eve.range);

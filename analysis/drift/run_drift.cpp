@@ -155,6 +155,10 @@ Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
 
 } // namespace
 
+std::string full_name_of(const ChannelDrift& channel) {
+    return channel.instrument + "/" + channel.name;
+}
+
 Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
     AXISCAL_CHECK(check_test(run, setup));
     RunDrift drift;

@@ -22,6 +22,10 @@ struct ChannelDrift {
     std::optional<double> slope_per_h; ///< least squares over the test; from two readings on
 };
 
+/// "laser/axis 1", as in the station file: the names of channels alone come from their drivers, and
+/// two instruments of one kind share them. Pure.
+std::string full_name_of(const ChannelDrift& channel);
+
 /// Readings of the laser that the formulas refused for one and the same fault. The axis stood
 /// somewhere meanwhile that no figure knows.
 struct RefusedReadings {

@@ -61,8 +61,9 @@ def drift(b):
     axis = [row for row in rows if row["channel"] == "axis at 20 degC"]
     expect(len(axis) == found["test"]["readings"], f"{len(axis)} rows")
     for channel in found["channels"]:
-        told = [row for row in rows if row["channel"] == "# range" and row["unit"] == channel["channel"]]
-        expect(bool(told) == (channel["readings"] > 0), f"{channel['channel']}: {told}")
+        name = f"{channel['instrument']}/{channel['channel']}"
+        told = [row for row in rows if row["channel"] == "# range" and row["unit"] == name]
+        expect(len(told) == (channel["readings"] > 0), f"{name}: {told}")
     checked = json.loads(b.axiscal("verify", ended["file"], "--certificate",
                                    folder / "certificate.json", "--json"))
     expect(checked["findings"] == [] and checked["certificate_findings"] == [], f"{checked}")

@@ -18,7 +18,7 @@ TableRow channel_row(const ChannelDrift& channel) {
     const double correction = length ? metre(channel.correction).in(um) : channel.correction;
     const std::string slope =
         channel.slope_per_h ? fixed(*channel.slope_per_h * paper.factor, paper.decimals + 1) : "–";
-    return {channel.name,
+    return {full_name_of(channel),
             stated(channel.place),
             paper.quantity + ", " + paper.unit,
             value(readings.empty() ? 0 : readings.front()),

@@ -99,7 +99,8 @@ std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift) {
     traces.reserve(drift.channels.size());
     for (const ChannelDrift& channel : drift.channels)
         if (!channel.series.readings.empty())
-            traces.push_back(trace_of(channel.name, channel.kind, channel.medium, channel.series));
+            traces.push_back(
+                trace_of(full_name_of(channel), channel.kind, channel.medium, channel.series));
     return traces;
 }
 

@@ -12,7 +12,8 @@ namespace axiscal {
 /// their distance is E_VE; the hour of ETVE shaded where the test is longer than that.
 void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift);
 
-/// The other channels as traces, lengths as change in um; those without a reading are left out.
+/// The other channels as traces ("weather/pressure"), lengths as change in um; those without a
+/// reading are left out.
 std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift);
 
 /// The resting axis as a run would give it, and as read: the uppermost panel of the channels. Its

@@ -115,14 +115,29 @@ TEST(DriftDocument, HoldsEveryReadingAndTheFiguresOfEachChannelAsCsv) {
         return found;
     };
     for (const char* head :
-         {"\n\"axis at 20 degC\",um,", "\n\"axis 1\",um,", "\n\"air\",degC,", "\n\"pressure\",Pa,",
-          "\n\"humidity\",%,", "\n\"bed\",degC,", "\n\"gauge \"\"A\"\"\",um,"})
+         {"\n\"axis at 20 degC\",um,", "\n\"laser/axis 1\",um,", "\n\"weather/air\",degC,",
+          "\n\"weather/pressure\",Pa,", "\n\"weather/humidity\",%,", "\n\"contacts/bed\",degC,",
+          "\n\"gauge/gauge \"\"A\"\"\",um,"})
         EXPECT_EQ(count(head), readings) << head;
     EXPECT_EQ(count("\n# range,"), 7); // the axis at 20 degC and six that spoke
     EXPECT_EQ(count("\n# slope_per_h,"), 7);
     EXPECT_EQ(count("\n# E_VE,"), 3); // lengths alone
-    EXPECT_EQ(count("\n# range,\"pressure\",Pa,0\r\n"), 1);
-    EXPECT_EQ(count("\n# E_VE,\"axis 1\",um,"), 1);
+    EXPECT_EQ(count("\n# range,\"weather/pressure\",Pa,0\r\n"), 1);
+    EXPECT_EQ(count("\n# E_VE,\"laser/axis 1\",um,"), 1);
+}
+
+TEST(DriftDocument, TellsChannelsOfOneNameApartByTheirInstruments) {
+    RunRecord run = made_run();
+    run.channels[5] = {5, "axis 1", "second laser", "", ChannelKind::displacement, Medium::none, 0};
+    const auto document = made_document(std::move(run));
+    const auto& channels = drift_to_json(document)["channels"];
+    EXPECT_EQ(channels[0]["instrument"], "laser");
+    EXPECT_EQ(channels[5]["instrument"], "second laser");
+    EXPECT_EQ(channels[5]["channel"], "axis 1");
+    const std::string csv = drift_csv(document);
+    EXPECT_NE(csv.find("\n\"laser/axis 1\",um,0,0\r\n"), std::string::npos);
+    EXPECT_NE(csv.find("\n\"second laser/axis 1\",um,0,0\r\n"), std::string::npos);
+    EXPECT_NE(csv.find("\n# range,\"second laser/axis 1\",um,"), std::string::npos);
 }
 
 TEST(DriftDocument, OfARotaryAxisIsInSecondsOfArc) {

@@ -153,7 +153,28 @@ TEST_F(DriftReport, ShowsAChannelThatStayedSilent) {
     run.channels.push_back(
         {15, "hygrometer", "hall", "door", ChannelKind::humidity, Medium::none, 0});
     const std::string text = test::text_of(render(document_of(std::move(run))));
-    EXPECT_THAT(text, ContainsRegex("hygrometer +door +Relative humidity, % +(– +){5}0\\.0 +0\n"));
+    EXPECT_THAT(text,
+                ContainsRegex("hall/hygrometer +door +Relative humidity, % +(– +){5}0\\.0 +0\n"));
+}
+
+/// Two sensors of one kind: what their driver calls the channel is the same.
+TEST_F(DriftReport, TellsChannelsOfOneNameApartByTheirInstruments) {
+    RunRecord run = creeping(steady_creep_um);
+    for (ChannelRecord& channel : run.channels)
+        if (channel.id == 8) channel.name = "probe";
+    run.channels.push_back(
+        {15, "probe", "hall", "door", ChannelKind::temperature, Medium::none, 0});
+    const auto begin = run.environment.front().at;
+    run.environment.push_back({15, begin, 18});
+    run.environment.push_back({15, begin + 1h, 18.5});
+    const auto document = document_of(std::move(run));
+    std::vector<std::string> names;
+    for (const EnvironmentTrace& drawn : drift_traces_of(document.drift))
+        names.push_back(drawn.channel);
+    EXPECT_THAT(names, ::testing::IsSupersetOf({"mat/probe", "hall/probe"}));
+    const std::string text = test::text_of(render(document));
+    EXPECT_THAT(text, ContainsRegex("mat/probe +nose +Further temperature"));
+    EXPECT_THAT(text, ContainsRegex("hall/probe +door +Further temperature"));
 }
 
 /// At its datum, where the reflectors are square; 3.6 seconds of arc in two hours.
