@@ -119,6 +119,16 @@ AxisKind read_axis_kind(Settings axis) {
     return rotary ? AxisKind::rotary : AxisKind::linear;
 }
 
+/// Before a polygon no drift test is made, so that arming would wait for one for ever.
+void refuse_drift_test_of_polygon(Settings uncertainty, const StationConfig& config) {
+    const bool polygon =
+        config.axis.angle && config.axis.angle->setup.method == AngleMethod::polygon;
+    if (polygon && !config.eve_run.empty() && !uncertainty.refused("eve_run"))
+        uncertainty.refuse("eve_run", "names a drift test, and before a polygon there is none: "
+                                      "state eve = \"0.6 arcsec\" instead, the range of what the "
+                                      "autocollimator shows of the standing axis");
+}
+
 } // namespace
 
 StationConfig read_station(SettingsDocument& document) {
@@ -151,6 +161,7 @@ StationConfig read_station(SettingsDocument& document) {
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
     config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);
+    refuse_drift_test_of_polygon(root.table("uncertainty"), config);
     config.statements = read_statements(root.table("certificate"), units, config);
     if (config.axis.angle)
         config.axis.angle->setup.run_out = root.table("certificate").text("run_out", "");

@@ -42,6 +42,10 @@ int refused_readings_in(const nlohmann::json& document) {
 /// The far end of the travel: the reading rises away from the interferometer. A rotary axis rests
 /// at its datum, where the reflectors are square to the beam.
 Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const RunPlan& plan) const {
+    if (reads_faces())
+        return fail(Fault::refused, "a drift test before a polygon is not supported, the "
+                                    "autocollimator is read at the faces of a run alone: state "
+                                    "uncertainty.eve, the range of its reading, by hand");
     if (reads_polygon())
         return fail(Fault::refused, "an autocollimator whose readings are typed cannot be recorded "
                                     "against time: state uncertainty.eve by hand");

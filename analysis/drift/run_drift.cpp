@@ -133,8 +133,9 @@ Result<void> check_angle(const RunRecord& run) {
                                          "angles");
     }
     if (!run.rotary || run.rotary->method == AngleMethod::polygon)
-        return fail(Fault::refused, "nothing reads the standing rotary axis: a drift test needs an "
-                                    "indexing table under an angular interferometer");
+        return fail(Fault::refused, "the drift test of a rotary axis needs an indexing table under "
+                                    "an angular interferometer; before a polygon it is not "
+                                    "supported: state uncertainty.eve by hand");
     if (!(run.rotary->arm > Length{}))
         return fail(Fault::bad_run_file, "the drift test states no arm of its interferometer");
     return {};

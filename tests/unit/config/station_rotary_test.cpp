@@ -169,12 +169,25 @@ TEST(StationAngle, NamesTheAutocollimatorOfAPolygonOnly) {
     const Reading typed = read_angle_table("method = \"polygon\"\nfaces = 12\n", false);
     EXPECT_EQ(typed.config.axis.angle->autocollimator.instrument, "");
     expect_refused_once(read_angle_table("method = \"indexing-table\"\nstep = \"5 deg\"\n"
-                                         "arm = \"32.61 mm\"\n" + key),
+                                         "arm = \"32.61 mm\"\n" +
+                                         key),
                         "axis.angle.autocollimator: is not a key of this table");
     expect_refused_once(
         read_angle_table("method = \"polygon\"\nfaces = 12\nautocollimator = \"lase/angle\"\n",
                          false),
         "no [[instrument]] has the name \"lase\"");
+}
+
+TEST(StationAngle, RefusesADriftTestForTheBudgetBeforeAPolygon) {
+    const std::string polygon = "method = \"polygon\"\nfaces = 12\n";
+    const std::string budget = "\n[uncertainty]\neve_run = \"latest\"\n";
+    expect_refused_once(read_angle_table(polygon + budget, false),
+                        "uncertainty.eve_run: names a drift test, and before a polygon there is "
+                        "none: state eve = ");
+    EXPECT_EQ(read_angle_table(polygon + "\n[uncertainty]\neve = \"0.6 arcsec\"\n", false).told,
+              "");
+    expect_refused_once(read_angle_table(polygon + budget + "eve = \"0.6 arcsec\"\n", false),
+                        "uncertainty.eve_run: stands beside");
 }
 
 TEST(StationAngle, TakesTheRunOutFromWhatPeopleState) {

@@ -377,6 +377,18 @@ TEST(StationRotary, AnAutocollimatorReadsTheFacesByItself) {
     EXPECT_NEAR(*certificate->result.parameters.B_mean, 6.0 / 3600, bound_deg);
 }
 
+TEST(StationRotary, AReadAutocollimatorHasNoDriftTestAndIsNotSaidToBeTyped) {
+    CollimatorShop shop;
+    Life life{shop};
+    const auto answer = test_drift(life);
+    ASSERT_TRUE(answer && !*answer);
+    EXPECT_EQ(answer->error().fault, Fault::refused);
+    const std::string& said = answer->error().detail;
+    EXPECT_NE(said.find("before a polygon is not supported"), std::string::npos) << said;
+    EXPECT_NE(said.find("state uncertainty.eve"), std::string::npos) << said;
+    EXPECT_EQ(said.find("typed"), std::string::npos) << said;
+}
+
 TEST(StationRotary, AFaceThatDoesNotStandStillIsRefusedInSecondsOfArc) {
     CollimatorShop shop;
     Life life{shop};
