@@ -86,6 +86,10 @@ std::string_view name_of(EventKind kind) {
     return "?";
 }
 
+std::string_view reference_word_of(const RunRecord& run) {
+    return run.scale ? "scale" : "laser";
+}
+
 bool sits_on_scale(const RunRecord& run, int channel) {
     return run.scale &&
            std::ranges::find(run.scale->channels, channel) != run.scale->channels.end();

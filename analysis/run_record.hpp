@@ -278,6 +278,9 @@ struct RunRecord {
     std::vector<EventRecord> events;
 };
 
+/// "laser" | "scale": what measured the axis, for sentences.
+std::string_view reference_word_of(const RunRecord& run);
+
 /// The channel is a temperature of the scale that measures the axis, none of the machine.
 bool sits_on_scale(const RunRecord& run, int channel);
 

@@ -93,7 +93,8 @@ StillnessVerdict judge_window(std::span<const Sample> samples,
                               MonotonicTime end,
                               const CaptureConfig& config) {
     const auto found = measure_window(samples);
-    if (samples.empty()) return not_still(Fault::link_timeout, "The laser sent no samples.", found);
+    if (samples.empty())
+        return not_still(Fault::link_timeout, "The instrument sent no samples.", found);
     if (auto bad = judge_samples(samples, found, config)) return *std::move(bad);
     if (found.n < config.minimum_samples)
         return not_still(Fault::not_still,
@@ -103,7 +104,7 @@ StillnessVerdict judge_window(std::span<const Sample> samples,
     const auto silence = longest_silence(samples, begin, end);
     if (silence > largest_gap(config))
         return not_still(Fault::not_still,
-                         "The laser was silent for " + in_seconds(silence) + " in the window.",
+                         "The instrument was silent for " + in_seconds(silence) + " in the window.",
                          found);
     if (found.spread > config.spread_limit)
         return not_still(Fault::not_still,
@@ -125,7 +126,7 @@ std::optional<Error> find_lost_count(std::span<const Sample> samples, Speed fast
         if (sample.epoch != samples.front().epoch)
             return Error{Fault::datum_lost, "The counter lost its zero.", {}, {}};
         if (sample.quality() == Quality::beam_lost)
-            return Error{Fault::beam_lost, "The laser beam was interrupted.", {}, {}};
+            return Error{Fault::beam_lost, "The beam was interrupted.", {}, {}};
         if (!sample.value()) continue;
         if (previous != nullptr && fastest.si() > 0) {
             const auto jump = abs(metre(*sample.value() - *previous->value()));

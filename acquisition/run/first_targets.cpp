@@ -72,9 +72,9 @@ std::vector<std::string> named_causes(Length datum, Claims claims, Fault& fault)
         causes.push_back(std::move(cause));
     };
     if (ratio_fits(datum, claims, 0))
-        add(Fault::wrong_target, "the laser looks at another axis, or the axis does not move");
+        add(Fault::wrong_target, "another axis is measured, or the axis does not move");
     if (ratio_fits(datum, claims, -1))
-        add(Fault::wrong_direction, "the sign is turned (set sign of the laser to its opposite)");
+        add(Fault::wrong_direction, "the sign is turned (set axis.sign to its opposite)");
     for (const auto& known : known_ratios)
         for (const double sign : {1.0, -1.0})
             if (ratio_fits(datum, claims, sign * known.ratio))
@@ -115,7 +115,7 @@ Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims
     if (causes.empty()) causes.emplace_back("the axis stands at another place than the program");
     return {fault,
             "From the datum at " + in_mm(datum) + " the program claims a move of " +
-                in_mm(claimed) + ", the laser saw " + in_mm(seen) + ": " + joined(causes) + ".",
+                in_mm(claimed) + ", the readings show " + in_mm(seen) + ": " + joined(causes) + ".",
             {},
             {}};
 }

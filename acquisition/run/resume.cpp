@@ -55,13 +55,15 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
     if (run.datums.empty()) return {};
     if (now.boot_id != run.boot_id)
         return closing("The datum is lost: the computer was restarted since.");
+    const std::string reference{reference_word_of(run)};
     const auto before = last_sighting(run);
     if (!before)
-        return closing("The datum is lost: the run kept no number of the laser's samples.");
-    if (!now.laser) return closing("The datum is lost: the laser gives no reading.");
+        return closing("The datum is lost: the run kept no number of the " + reference +
+                       "'s samples.");
+    if (!now.laser) return closing("The datum is lost: the " + reference + " gives no reading.");
     auto limits = now.limits;
     if (limits.rate_hz <= 0) limits.rate_hz = counting_rate_hz(run).value_or(0);
-    const auto verdict = datum_continues(*before, *now.laser, limits);
+    const auto verdict = datum_continues(*before, *now.laser, limits, reference);
     if (!verdict.continues) return closing(verdict.reason);
     return {ResumeDecision::wait_for_request, Fault::none, verdict.reason};
 }
@@ -120,7 +122,8 @@ MonotonicTime last_sign_of_life(const RunRecord& run) {
 
 ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const Sample& first_after,
-                                  const ContinuityLimits& limits) {
+                                  const ContinuityLimits& limits,
+                                  std::string_view reference) {
     const auto reading = first_after.value();
     if (!reading) return lost("the axis has no good reading.");
     if (last_before.device_count == 0 || first_after.device_count == 0)
@@ -154,8 +157,8 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
     if (limits.fastest.si() > 0 && jump > reach)
         return lost("the reading differs by " + in_mm(jump) + " after " + in_seconds(elapsed) +
                     ", faster than the axis can move.");
-    return {true, "The laser counted on during the interruption: " + numbers + "; the reading is " +
-                      in_mm(jump) + " from the last one."};
+    return {true, "The " + std::string{reference} + " counted on during the interruption: " +
+                      numbers + "; the reading is " + in_mm(jump) + " from the last one."};
 }
 
 DurableRequest last_durable_request(const RunRecord& run) {
@@ -197,8 +200,8 @@ decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const 
     const auto serial = serial_of_laser(run);
     if (now.laser_serial != serial)
         return {ResumeDecision::close_other_instrument, Fault::unknown_instrument,
-                "The laser has the serial number '" + now.laser_serial + "', the run's has '" +
-                    serial + "'."};
+                "The " + std::string{reference_word_of(run)} + " has the serial number '" +
+                    now.laser_serial + "', the run's has '" + serial + "'."};
     auto datum = judge_datum(run, now);
     if (datum.fault != Fault::none) return datum;
     if (!now.outside_limits.empty())

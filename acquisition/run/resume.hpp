@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -71,9 +72,11 @@ MonotonicTime last_sign_of_life(const RunRecord& run);
 /// each millisecond, which the near check of the next point finds; a homodyne one loses the travel
 /// made meanwhile, found only if it exceeds the near tolerance. The interruption is therefore
 /// recorded.
+/// @param reference  "laser" | "scale", for the sentence
 ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const Sample& first_after,
-                                  const ContinuityLimits& limits);
+                                  const ContinuityLimits& limits,
+                                  std::string_view reference = "laser");
 
 /// The station as it is after the restart.
 struct StationNow {

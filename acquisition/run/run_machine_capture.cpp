@@ -138,10 +138,9 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
                        {}},
                       out);
     if (datum_broken_) {
-        refuse(event, datum_lost_error("The laser's counting was interrupted since the datum."),
-               out);
-        return close(false, "The laser's counting was interrupted since the datum.",
-                     Fault::datum_lost, out);
+        refuse(event, datum_lost_error("The counting was interrupted since the datum."), out);
+        return close(false, "The counting was interrupted since the datum.", Fault::datum_lost,
+                     out);
     }
     if (const auto objection = objection_to_claim(event, *step))
         return refuse(event, *objection, out);
@@ -234,8 +233,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     if (capture.epoch != datum_epoch_) {
         refuse_pending(datum_lost_error("The counter was restarted since the datum."), capture.end,
                        out);
-        return close(false, "The laser's counter was restarted since the datum.", Fault::datum_lost,
-                     out);
+        return close(false, "The counter was restarted since the datum.", Fault::datum_lost, out);
     }
     if (!scale_minus_1_) return refuse_pending(scale_minus_1_.error(), capture.end, out);
     const auto planned = planned_at(pending_->step);

@@ -18,6 +18,11 @@ void join(std::string& list, const std::string& item) {
     list += (list.empty() ? "" : "; ") + item;
 }
 
+std::string length_word_of(const PreflightFacts& facts) {
+    if (facts.circular) return "ballbar";
+    return facts.config.axis.scale ? "scale" : "laser";
+}
+
 double slope_of(const DriftSeries& series) {
     const auto slopes = window_slopes(series, series.times.back() - series.times.front());
     return slopes.empty() ? 0 : slopes.back().slope;

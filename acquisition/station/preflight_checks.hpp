@@ -25,6 +25,8 @@ inline PreflightRecord failed(std::string name, std::string verdict) {
 std::string in_minutes(Duration span);
 /// Another sentence part, behind a semicolon.
 void join(std::string& list, const std::string& item);
+/// "laser" | "scale" | "ballbar": what the length comes from.
+std::string length_word_of(const PreflightFacts& facts);
 /// Slope of the straight line through a whole series, in its units a second.
 double slope_of(const DriftSeries& series);
 

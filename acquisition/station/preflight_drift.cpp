@@ -77,8 +77,7 @@ PreflightRecord check_drift(const PreflightFacts& facts) {
     if (facts.circular && series.times.empty())
         return passed("drift", "Not judged: at rest the ballbar gives no reading in its range.");
     if (!spans_window(series, window_s))
-        return failed("drift", (facts.circular ? "The ballbar" : "The laser") +
-                                   std::string{" has been read for less than "} +
+        return failed("drift", "The " + length_word_of(facts) + " has been read for less than " +
                                    in_minutes(limits.drift_window) + " without a break. Wait.");
     if (total_range(series).range > moved_um)
         return failed("drift", "The axis moved within the last " + in_minutes(limits.drift_window) +
@@ -90,7 +89,7 @@ PreflightRecord check_drift(const PreflightFacts& facts) {
         " drifts by " + plain_number(change_um, 2) + " um in " + in_minutes(limits.drift_window);
     if (std::fabs(change_um) <= limits.drift_limit.in(um)) return passed("drift", seen + ".");
     return failed("drift", seen + ", " + in_um(limits.drift_limit) + " are allowed. Let " +
-                               (facts.circular ? "ballbar" : "laser") + " and machine warm up.");
+                               length_word_of(facts) + " and machine warm up.");
 }
 
 } // namespace axiscal::preflight_checks

@@ -6,15 +6,6 @@
 #include <algorithm>
 
 namespace axiscal::preflight_checks {
-namespace {
-
-std::string length_of(const PreflightFacts& facts) {
-    if (facts.circular) return "the ballbar";
-    return facts.config.axis.scale ? "the scale" : "the laser";
-}
-
-} // namespace
-
 PreflightRecord check_instruments(const PreflightFacts& facts) {
     constexpr Duration length_limit = std::chrono::seconds{2};
     std::string wrong;
@@ -29,7 +20,7 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
     // At rest a ballbar may be out of its range: that it speaks is enough.
     const auto& age = facts.circular ? facts.bar_age : facts.laser_age;
     if (!facts.polygon && (!age || *age > length_limit))
-        join(wrong, length_of(facts) + " gives no fresh reading");
+        join(wrong, "the " + length_word_of(facts) + " gives no fresh reading");
     if (facts.faces_read && (!facts.face_age || *facts.face_age > length_limit))
         join(wrong, "the autocollimator does not answer");
     if (wrong.empty())
@@ -48,11 +39,9 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
                       facts.faces_read
                           ? "The autocollimator does not tell the strength of its light."
                           : "A person reads the autocollimator.");
-    if (!lowest && facts.circular)
-        return passed("strength", "The ballbar does not tell the strength of its signal.");
-    if (!lowest && facts.config.axis.scale)
-        return passed("strength", "The scale does not tell the strength of its signal.");
-    if (!lowest) return passed("strength", "The laser does not tell the strength of its signal.");
+    if (!lowest)
+        return passed("strength", "The " + length_word_of(facts) +
+                                      " does not tell the strength of its signal.");
     const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
     if (*lowest >= limit) return passed("strength", seen + ".");
     return failed("strength", seen + "; " + plain_number(limit, 0) +

@@ -149,7 +149,7 @@ def swapped_sign(b):
 
 @sentence("WrongAxisIsToldAtTheFirstTargets")
 def wrong_axis(b):
-    first_targets_tell(b, "wrong-axis", "the laser looks at another axis")
+    first_targets_tell(b, "wrong-axis", "another axis is measured")
 
 
 @sentence("InchForMillimetreIsToldAtTheFirstTargets")

@@ -29,7 +29,7 @@ TEST(FirstTargets, ATurnedSignIsOneSentenceWithNumbers) {
     const auto error = diagnose(-1, {}, {30.0_mm});
     EXPECT_EQ(error.fault, Fault::wrong_direction);
     EXPECT_EQ(error.detail.find("From the datum at 10 mm the program claims a move of 20 mm, the "
-                                "laser saw -20 mm: the sign is turned"),
+                                "readings show -20 mm: the sign is turned"),
               0u)
         << error.detail;
 }

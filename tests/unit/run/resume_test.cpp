@@ -112,6 +112,27 @@ TEST(Resume, TellsHowTheDatumWasProven) {
         << verdict.sentence;
 }
 
+TEST(Resume, OfAnAxisMeasuredByAScaleSpeaksOfTheScale) {
+    RunRecord run = run_with_points(3);
+    run.scale.emplace();
+    EXPECT_TRUE(decide_resume(run, std::nullopt, same_station(200.5))
+                    .sentence.starts_with("The scale counted on during the interruption"));
+    auto other = same_station(200);
+    other.laser_serial = "UMD-18";
+    EXPECT_EQ(decide_resume(run, 4, other).sentence,
+              "The scale has the serial number 'UMD-18', the run's has 'UMD-17'.");
+    auto silent = same_station(200);
+    silent.laser.reset();
+    EXPECT_EQ(decide_resume(run, 4, silent).sentence,
+              "The datum is lost: the scale gives no reading.");
+    for (PointRecord& point : run.points)
+        point.samples.clear();
+    for (DatumRecord& datum : run.datums)
+        datum.device_count = 0;
+    EXPECT_EQ(decide_resume(run, 4, same_station(200)).sentence,
+              "The datum is lost: the run kept no number of the scale's samples.");
+}
+
 TEST(Resume, ARunWithoutADatumHasNoneToLose) {
     auto run = run_with_points(0);
     run.datums.clear();

@@ -180,7 +180,6 @@ TEST_F(Preflight, MaterialSensorsThatDisagreeAreNamed) {
     expect_failure(facts(), "sensors", "material/right shows 3.5 K more than material/left");
 }
 
-// The air swings by 0.2 K with a period of three minutes; a sensor that hangs in it shows 90 %.
 TEST_F(Preflight, TheScalesSensorNeedNotAgreeWithThoseOfTheMachine) {
     read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 24.5; });
     config.axis.scale.emplace();
@@ -192,6 +191,15 @@ TEST_F(Preflight, TheScalesSensorNeedNotAgreeWithThoseOfTheMachine) {
               "The scale does not tell the strength of its signal.");
 }
 
+TEST_F(Preflight, TheStandingScaleIsNotCalledALaser) {
+    config.axis.scale.emplace();
+    stand([](double seconds) { return 0.05 * seconds; });
+    expect_failure(facts(), "drift", "Let scale and machine warm up.");
+    samples.erase(samples.begin(), samples.begin() + 4000);
+    expect_failure(facts(), "drift", "The scale has been read for less than 30 s");
+}
+
+// The air swings by 0.2 K with a period of three minutes; a sensor that hangs in it shows 90 %.
 TEST_F(Preflight, AMaterialSensorThatFollowsTheAirIsNamed) {
     const auto swing = [](double minutes) { return 0.1 * std::sin(minutes * 2.1); };
     read([&](double minutes) { return 21 + swing(minutes); },
