@@ -1,6 +1,7 @@
 #include "analysis/drift/run_drift.hpp"
 
 #include "analysis/drift/resting_axis.hpp"
+#include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,15 +63,9 @@ ChannelDrift drift_of(const ChannelRecord& channel,
     return drift;
 }
 
-/// Coordinates in um, or in seconds of arc.
-double in_unit_of_axis(const RunRecord& run, Length coordinate) {
-    constexpr double arcsec_per_degree = 3600;
-    return run.rotary ? coordinate.in(mm)*arcsec_per_degree : coordinate.in(um);
-}
-
 /// A change of the bare reading in the direction of the axis; of a rotary one the angle that it
 /// shows with the reflectors square.
-double bare_in_unit_of_axis(const RunRecord& run, Length change) {
+double bare_in_budget_units(const RunRecord& run, Length change) {
     const Length forwards = change * static_cast<double>(run.laser.sign);
     return run.rotary ? radian(forwards / run.rotary->arm).in(arcsec) : forwards.in(um);
 }
@@ -105,16 +100,16 @@ void follow_axis(const RunRecord& run,
         }
         if (!first) first = *coordinate, first_m = reading.value;
         drift.axis.times.push_back(minute);
-        drift.axis.readings.push_back(in_unit_of_axis(run, *coordinate - *first));
+        drift.axis.readings.push_back(in_budget_units(run, *coordinate - *first));
         drift.bare.times.push_back(minute);
-        drift.bare.readings.push_back(bare_in_unit_of_axis(run, metre(reading.value - first_m)));
+        drift.bare.readings.push_back(bare_in_budget_units(run, metre(reading.value - first_m)));
     }
 }
 
 /// Too few readings are left, and why.
 tl::unexpected<Error> too_few(const RunRecord& run, const RunDrift& drift) {
     std::string words = "the drift test has " + std::to_string(drift.axis.times.size()) +
-                        " usable readings of the " + (run.scale ? "scale" : "laser") +
+                        " usable readings of the " + std::string{reference_word_of(run)} +
                         "; it needs two";
     if (drift.without_air > 0)
         words += "; " + std::to_string(drift.without_air) + " have no fresh " +

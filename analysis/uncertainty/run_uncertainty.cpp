@@ -13,28 +13,23 @@ namespace axiscal {
 namespace {
 
 struct NeededTerm {
-    UncertaintyTerm term;
     const char* name;
     const char* words;
 };
 constexpr std::array needed_terms{
-    NeededTerm{UncertaintyTerm::device, "device", "the expanded uncertainty of the laser system"},
-    NeededTerm{UncertaintyTerm::misalignment, "alignment", "the misalignment of the beam"},
-    NeededTerm{UncertaintyTerm::machine_temperature, "temperature",
-               "the width of the material's temperature"},
-    NeededTerm{UncertaintyTerm::machine_expansion, "expansion",
-               "the width of the expansion coefficient"},
-    NeededTerm{UncertaintyTerm::environment, "drift", "E_VE of a drift test"}};
+    NeededTerm{"device", "the expanded uncertainty of the laser system"},
+    NeededTerm{"alignment", "the misalignment of the beam"},
+    NeededTerm{"temperature", "the width of the material's temperature"},
+    NeededTerm{"expansion", "the width of the expansion coefficient"},
+    NeededTerm{"drift", "E_VE of a drift test"}};
 constexpr std::array needed_terms_of_scale{
-    NeededTerm{UncertaintyTerm::device, "device", "the expanded uncertainty of the scale"},
-    NeededTerm{UncertaintyTerm::misalignment, "alignment", "the misalignment of the scale"},
+    NeededTerm{"device", "the expanded uncertainty of the scale"},
+    NeededTerm{"alignment", "the misalignment of the scale"},
     needed_terms[2],
     needed_terms[3],
     needed_terms[4],
-    NeededTerm{UncertaintyTerm::device_temperature, "scale temperature",
-               "the width of the scale's temperature"},
-    NeededTerm{UncertaintyTerm::device_expansion, "scale expansion",
-               "the standard uncertainty of the scale's expansion coefficient"}};
+    NeededTerm{"scale temperature", "the width of the scale's temperature"},
+    NeededTerm{"scale expansion", "the standard uncertainty of the scale's expansion coefficient"}};
 
 std::optional<double> over_length(const DeviceLimit& limit, double length_m) {
     if (!limit.stated()) return std::nullopt;

@@ -51,18 +51,12 @@ void draw_environment_table(Sheet& sheet, const Certificate& certificate) {
 
 // ---- compensation ---------------------------------------------------------------------------
 
-std::string expansion_words(const CompensationSummary& done) {
-    std::string words = fixed(done.expansion_per_K * 1e6, 2) + " µm/(m·K)";
-    if (done.expansion_standard_uncertainty_per_K)
-        return words + ", standard uncertainty " +
-               fixed(*done.expansion_standard_uncertainty_per_K * 1e6, 2);
-    return words + ", uncertainty not stated";
-}
-
 void draw_compensation_summary(Sheet& sheet, const Certificate& certificate) {
     const CompensationSummary& done = certificate.compensation;
     const PaperUnits units = paper_units_of(certificate);
     const RunRecord& run = certificate.run;
+    const std::string alpha =
+        coefficient_words(done.expansion_per_K, done.expansion_standard_uncertainty_per_K);
     sheet.fields({{"Vacuum wavelength", fixed(done.vacuum_wavelength_nm, 6) + " nm"},
                   {"Refractivity n − 1, first → last", refractivity_words(done)},
                   {"Air formula", air_formula_words(done.air_formula) + ", CO\u2082 " +
@@ -70,7 +64,7 @@ void draw_compensation_summary(Sheet& sheet, const Certificate& certificate) {
                   {"Material, first → last", fixed(done.material_first_degC, 2) + " → " +
                                                  fixed(done.material_last_degC, 2) + " °C"},
                   {"Expansion to 20 °C", expansion_form_words(done.expansion_form)},
-                  {"Expansion coefficient α", expansion_words(done)},
+                  {"Expansion coefficient α", alpha},
                   {"Feedback of the axis", stated(run.material.feedback)},
                   {"Dead path L\u2080", fixed(done.dead_path_mm, 1) + " mm"},
                   {"Largest correction for air",

@@ -10,14 +10,6 @@
 namespace axiscal {
 namespace {
 
-std::string expansion_words(const MaterialSetup& material) {
-    std::string words = fixed(material.coefficient.si() * 1e6, 2) + " µm/(m·K)";
-    if (material.standard_uncertainty)
-        return words + ", standard uncertainty " +
-               fixed(material.standard_uncertainty->si() * 1e6, 2);
-    return words + ", uncertainty not stated";
-}
-
 /// What read the resting axis; three fields each.
 std::array<StatedField, 3> fields_of_laser(const RunRecord& run) {
     const bool ciddor = run.air.formula == AirFormula::ciddor;
@@ -63,7 +55,9 @@ std::array<StatedField, 2> fields_of_material(const RunRecord& run) {
         return {{{"Expansion coefficient α", "none: an angle does not expand"},
                  {"Table", std::string{run.rotary->by_hand ? "turned by hand" : "driven"} +
                                "; not turned during the test"}}};
-    return {{{"Expansion coefficient α", expansion_words(run.material)},
+    const auto& stated_u = run.material.standard_uncertainty;
+    const auto u_per_K = stated_u ? std::optional{stated_u->si()} : std::nullopt;
+    return {{{"Expansion coefficient α", coefficient_words(run.material.coefficient.si(), u_per_K)},
              {"Feedback of the axis", stated(run.material.feedback)}}};
 }
 
@@ -99,7 +93,7 @@ void draw_setup(Sheet& sheet, const DriftDocument& document) {
                    document.attachments.alignment ? "recorded: see below" : "not recorded"}},
                  2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    sheet.text("Each reading of the " + std::string{run.scale ? "scale" : "laser"} +
+    sheet.text("Each reading of the " + std::string{reference_word_of(run)} +
                    " is a mean over the capture window of the station file" + carried_words(run) +
                    "Other channels are as last read in each interval.",
                note_style);

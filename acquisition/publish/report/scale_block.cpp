@@ -4,12 +4,6 @@
 namespace axiscal {
 namespace {
 
-std::string coefficient_words(double per_K, const std::optional<double>& standard_uncertainty) {
-    const std::string words = fixed(per_K * 1e6, 2) + " µm/(m·K)";
-    if (!standard_uncertainty) return words + ", uncertainty not stated";
-    return words + ", standard uncertainty " + fixed(*standard_uncertainty * 1e6, 2);
-}
-
 std::string from_to_degC(double first, double last) {
     return fixed(first, 2) + " → " + fixed(last, 2) + " °C";
 }

@@ -211,4 +211,11 @@ std::string expansion_form_words(const std::string& name) {
     return stated(name);
 }
 
+std::string coefficient_words(double per_K,
+                              const std::optional<double>& standard_uncertainty_per_K) {
+    const std::string words = fixed(per_K * 1e6, 2) + " µm/(m·K)";
+    if (!standard_uncertainty_per_K) return words + ", uncertainty not stated";
+    return words + ", standard uncertainty " + fixed(*standard_uncertainty_per_K * 1e6, 2);
+}
+
 } // namespace axiscal

@@ -3,6 +3,7 @@
 
 #include "analysis/certificate.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,5 +72,8 @@ std::string synchronisation_words(const Certificate& certificate);
 std::string refractivity_words(const CompensationSummary& done);
 std::string air_formula_words(const std::string& name);
 std::string expansion_form_words(const std::string& name);
+/// "11.50 µm/(m·K), standard uncertainty 0.60", or ", uncertainty not stated".
+std::string coefficient_words(double per_K,
+                              const std::optional<double>& standard_uncertainty_per_K);
 
 } // namespace axiscal

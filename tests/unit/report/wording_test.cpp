@@ -32,6 +32,11 @@ TEST(Wording, TellsWhatNobodyStated) {
     EXPECT_EQ(stated("Hall 3"), "Hall 3");
 }
 
+TEST(Wording, TellsACoefficientOfExpansionWithItsUncertaintyOrThatItHasNone) {
+    EXPECT_EQ(coefficient_words(11.5e-6, 0.6e-6), "11.50 µm/(m·K), standard uncertainty 0.60");
+    EXPECT_EQ(coefficient_words(8e-6, {}), "8.00 µm/(m·K), uncertainty not stated");
+}
+
 TEST(Wording, WritesInstantsForPeople) {
     EXPECT_EQ(readable_instant("2026-01-02T08:15:03Z"), "2026-01-02 08:15:03 UTC");
     EXPECT_EQ(readable_instant("2026-01-02"), "2026-01-02");
