@@ -12,6 +12,13 @@ std::optional<Synchronisation> synchronisation_of(double slope_um_per_s,
     return Synchronisation{*uncertainty, std::abs(slope_um_per_s) * seconds_of(*uncertainty)};
 }
 
+SynchronisationUnit synchronisation_unit_of(const RunRecord& run) {
+    constexpr double arcsec_per_millidegree = 3.6;
+    if (run.rotary && run.rotary->method == AngleMethod::polygon)
+        return {"arcsec", arcsec_per_millidegree};
+    return {"um", 1};
+}
+
 SynchronisationSummary
 summarize_synchronisation(const RunRecord& run, const std::vector<SynchronisationRecord>& records) {
     SynchronisationSummary summary;

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -14,13 +15,22 @@ namespace axiscal {
 /// Of one accepted capture.
 struct Synchronisation {
     Duration time_uncertainty{}; ///< u(t), standard: the largest of the window's samples; > 0
-    double error_um = 0;         ///< |slope of the window| * u(t), >= 0
+    /// |slope of the window| * u(t), >= 0, of the reading; synchronisation_unit_of() tells it.
+    double error_um = 0;
 };
 
 /// @param uncertainty u(t); empty or 0 where the instrument's clock tells none: then nothing is
 ///        stated, for 0 would claim that the time is known exactly.
 std::optional<Synchronisation> synchronisation_of(double slope_um_per_s,
                                                   std::optional<Duration> uncertainty);
+
+/// In what an error of this run is told: {"um", 1}, or {"arcsec", 3.6} where an autocollimator
+/// reads a polygon: of its reading a millimetre stands for a degree.
+struct SynchronisationUnit {
+    std::string_view name;
+    double per_um = 1; ///< times Synchronisation::error_um
+};
+SynchronisationUnit synchronisation_unit_of(const RunRecord& run);
 
 /// As the run file keeps it, beside the point or the datum.
 struct SynchronisationRecord {

@@ -26,6 +26,7 @@ Json to_json(const ChannelView& channel) {
 Json to_json(const AxisView& axis) {
     return {{"name", axis.name},
             {"kind", name_of(axis.kind)},
+            {"reading", axis.reads_angle ? "angle" : "length"},
             {"position_mm", or_null(axis.position_mm)},
             {"deviation_um", or_null(axis.deviation_um)},
             {"displacement_mm", or_null(axis.displacement_mm)},

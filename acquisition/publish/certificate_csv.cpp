@@ -77,9 +77,12 @@ void append_synchronisation(std::string& csv, const Certificate& certificate) {
     const SynchronisationSummary over =
         summarize_synchronisation(certificate.run, certificate.attachments.synchronisation);
     if (!over.largest) return append_csv_line(csv, {"# synchronisation", "not stated"});
-    append_csv_line(csv, {"# synchronisation", csv_number(over.largest->stated->error_um), "um",
-                          "largest of " + std::to_string(over.stated) + " captures; " +
-                              std::to_string(over.captures - over.stated) + " not stated"});
+    const SynchronisationUnit unit = synchronisation_unit_of(certificate.run);
+    append_csv_line(csv,
+                    {"# synchronisation", csv_number(over.largest->stated->error_um * unit.per_um),
+                     std::string{unit.name},
+                     "largest of " + std::to_string(over.stated) + " captures; " +
+                         std::to_string(over.captures - over.stated) + " not stated"});
 }
 
 /// Air and material at one instant; absent where nothing was measured near it.
@@ -122,11 +125,13 @@ void append_set_aside(std::string& csv, const Certificate& certificate) {
                                   csv_field(check.verdict), csv_field(check.override_reason)});
 }
 
-std::optional<double> synchronisation_um(const Certificate& certificate, const PointRecord& point) {
+/// In the unit of synchronisation_unit_of(); empty where it is not stated.
+std::optional<double> synchronisation_error(const Certificate& certificate,
+                                            const PointRecord& point) {
     const auto* record =
         synchronisation_of_step(certificate.attachments.synchronisation, point.step);
     if (record == nullptr || !record->stated) return std::nullopt;
-    return record->stated->error_um;
+    return record->stated->error_um * synchronisation_unit_of(certificate.run).per_um;
 }
 
 void append_points(std::string& csv, const Certificate& certificate) {
@@ -150,7 +155,7 @@ void append_points(std::string& csv, const Certificate& certificate) {
                          csv_number(deviation * deviation_factor), csv_number(around.air_degC),
                          csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
                          csv_number(around.material_degC), iso8601_utc(run.opened.utc_ns_at(at)),
-                         csv_number(synchronisation_um(certificate, point))});
+                         csv_number(synchronisation_error(certificate, point))});
     }
 }
 
@@ -164,10 +169,11 @@ std::string certificate_csv(const Certificate& certificate) {
     append_budget(csv, certificate);
     append_synchronisation(csv, certificate);
     append_set_aside(csv, certificate);
-    append_csv_line(csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
-                          rotary ? "measured_deg" : "measured_mm",
-                          rotary ? "deviation_arcsec" : "deviation_um", "t_air_degC", "p_Pa",
-                          "rh_percent", "t_mat_degC", "time", "synchronisation_um"});
+    append_csv_line(
+        csv, {"run", "direction", rotary ? "target_deg" : "target_mm",
+              rotary ? "measured_deg" : "measured_mm", rotary ? "deviation_arcsec" : "deviation_um",
+              "t_air_degC", "p_Pa", "rh_percent", "t_mat_degC", "time",
+              "synchronisation_" + std::string{synchronisation_unit_of(certificate.run).name}});
     append_points(csv, certificate);
     return csv;
 }

@@ -23,9 +23,10 @@ namespace axiscal {
 /// `run` counts the approaches from 1, `direction` is "forward" or "backward", `measured` is
 /// target + deviation at 20 °C, `time` is UTC of the middle of the window,
 /// `synchronisation_um` what the uncertain time of its samples adds. Rows stand in the order
-/// of measuring. A rotary axis has target_deg, measured_deg, deviation_arcsec. Numbers are the
-/// shortest decimals that read back as the same double; what is not known is empty. Fields with
-/// commas or quotes are quoted.
+/// of measuring. A rotary axis has target_deg, measured_deg, deviation_arcsec; one that an
+/// autocollimator reads has synchronisation_arcsec, too, and "arcsec" in the head line. Numbers are
+/// the shortest decimals that read back as the same double; what is not known is empty. Fields
+/// with commas or quotes are quoted.
 std::string certificate_csv(const Certificate& certificate);
 
 } // namespace axiscal

@@ -186,11 +186,13 @@ Json synchronisation_json(const Certificate& certificate) {
     const auto& records = certificate.attachments.synchronisation;
     const SynchronisationSummary over = summarize_synchronisation(certificate.run, records);
     if (!over.largest) return {};
+    const SynchronisationUnit unit = synchronisation_unit_of(certificate.run);
+    const std::string error = "error_" + std::string{unit.name};
     Json object;
     object["rule"] = "|slope of the window| * u(t) of its samples";
     object["captures"] = over.captures;
     object["stated"] = over.stated;
-    object["largest_um"] = over.largest->stated->error_um;
+    object["largest_" + std::string{unit.name}] = over.largest->stated->error_um * unit.per_um;
     object["largest_step"] = over.largest->step;
     object["readings"] = Json::array();
     for (const auto& [step, datum_id, stated] : records)
@@ -198,7 +200,7 @@ Json synchronisation_json(const Certificate& certificate) {
             {{"step", step},
              {"datum", datum_id},
              {"u_t_us", stated ? Json(seconds_of(stated->time_uncertainty) * 1e6) : Json{}},
-             {"error_um", stated ? Json(stated->error_um) : Json{}}});
+             {error, stated ? Json(stated->error_um * unit.per_um) : Json{}}});
     return object;
 }
 

@@ -15,8 +15,8 @@ namespace axiscal {
 /// - "environment": every channel with place, correction and first, last, least, greatest,
 /// - "run": who, what, when; plan, laser, material, air, instruments, datums, deviations, events,
 ///   remarks, "synchronisation" (what the uncertain time of its samples adds to each capture, step
-///   -1 the datum; null: not stated), software version, SHA-256 of the run file and digest of the
-///   result,
+///   -1 the datum; null: not stated; in um, of an autocollimator in arcsec), software version,
+///   SHA-256 of the run file and digest of the result,
 /// - "expanded_uncertainty", "budget" and "target_uncertainty" of add_uncertainty_json(), for each
 ///   parameter whose every term is stated,
 /// - "preliminary"; when true, "missing" says in words what is not stated, and

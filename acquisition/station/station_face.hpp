@@ -36,6 +36,7 @@ struct ChannelView {
 struct AxisView {
     std::string name;
     AxisKind kind = AxisKind::linear; ///< rotary: mm stands for deg, um for 0.001 deg
+    bool reads_angle = false;         ///< an autocollimator's: so do displacement, spread and slope
     std::optional<double> position_mm, deviation_um; ///< needs a datum
     std::optional<double> displacement_mm;           ///< raw: vacuum wavelengths, or of a scale
     std::optional<double> strength_percent;

@@ -42,6 +42,7 @@ AxisView Station::axis_view() const {
     AxisView axis;
     axis.name = config_.axis.name;
     axis.kind = config_.cycle.axis_kind;
+    axis.reads_angle = reads_polygon();
     const MonotonicTime now = scheduler_.now();
     const auto newest = history_.newest();
     if (!newest || now - newest->at > laser_limit) return axis;

@@ -693,29 +693,75 @@ class Tapes(Scratch):
         self.assertIn("transfer 1 of the tape", child.stderr.read())
 
 
-class Incomplete(Scratch):
+def station_status(axis, run):
+    """As a station answers; of the run only what the test is about, open unless it is complete."""
+    return {"station": "bay 3", "utc": "2026-11-21T10:00:00Z", "run_open": run["state"] != "complete", "channels": [],
+            "instruments": [], "notes": [], "outbox_entries": 0, "outbox": {"waiting": 0, "oldest_s": None, "alarm": "", "publisher": {
+                "runs": True, "destination": "", "state": "idle", "reason": "", "since_utc": ""}},
+            "axis": axis, "trigger": {"port": "fake", "cnc_silent": False, "note": ""},
+            "run": {"id": "r", "pass": "whole", "file": "f", "step": 3, "steps": 10, "done": 3, "next": None,
+                    "last_deviation_um": None, "seconds_left": None, "fault": "", "sentence": "", "certificate": ""} | run}
+
+
+class OneAnswer(Scratch):
+    """A door that answers each program with the status that the test gives."""
+
+    def setUp(self):
+        super().setUp()
+        self.path = os.path.join(self.folder, "fake.sock")
+        self.door = socket.socket(socket.AF_UNIX)
+        self.door.bind(self.path)
+        self.door.listen(4)
+        self.addCleanup(self.door.close)
+
+    def shown(self, status, *words):
+        """Exit code and output of `axiscal words`."""
+        body = json.dumps(status).encode()
+        child = subprocess.Popen([os.path.join(BIN, "axiscal"), *words, "--socket", self.path],
+                                 stdout=subprocess.PIPE, text=True)
+        client, _ = self.door.accept()
+        client.recv(65536)
+        client.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
+        client.close()
+        shown, _ = child.communicate(timeout=20)
+        return child.returncode, shown
+
+
+class Incomplete(OneAnswer):
     """`watch` against a door that answers with a run that was broken off."""
 
     def test_an_incomplete_run_ends_watch_with_6(self):
-        body = json.dumps({"run_open": False, "axis": {"position_mm": None, "strength_percent": None},
-                           "channels": [], "run": {"id": "r", "state": "incomplete", "step": 3, "steps": 10,
-                           "next": None, "last_deviation_um": None, "seconds_left": None,
-                           "sentence": "broken off", "certificate": ""}}).encode()
-        path = os.path.join(self.folder, "fake.sock")
-        door = socket.socket(socket.AF_UNIX)
-        door.bind(path)
-        door.listen(4)
-        self.addCleanup(door.close)
+        status = {"run_open": False, "axis": {"position_mm": None, "strength_percent": None},
+                  "channels": [], "run": {"id": "r", "state": "incomplete", "step": 3, "steps": 10,
+                  "next": None, "last_deviation_um": None, "seconds_left": None,
+                  "sentence": "broken off", "certificate": ""}}
         for words in (["watch"], ["watch", "--json"]):
-            child = subprocess.Popen([os.path.join(BIN, "axiscal"), *words, "--socket", path],
-                                     stdout=subprocess.PIPE, text=True)
-            client, _ = door.accept()
-            client.recv(65536)
-            client.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
-            client.close()
-            shown, _ = child.communicate(timeout=20)
-            self.assertEqual(child.returncode, 6)
+            code, shown = self.shown(status, *words)
+            self.assertEqual(code, 6)
             self.assertIn("broken off", shown)
+
+
+class RotaryUnits(OneAnswer):
+    """What the instrument of a rotary axis reads: a length, or of an autocollimator an angle."""
+
+    def words(self, reading):
+        """Of `status` and of `watch`: a spread of 0.5 and a synchronisation error of 0.002 thousandths."""
+        status = station_status(
+            {"name": "A", "kind": "rotary", "reading": reading, "position_mm": 45, "deviation_um": 1,
+             "spread_um": 0.5, "strength_percent": None, "still": True},
+            {"state": "complete", "last_deviation_um": 1, "last_synchronisation_um": 0.002})
+        return self.shown(status, "status")[1] + self.shown(status, "watch")[1]
+
+    def test_what_an_autocollimator_reads_is_shown_in_seconds_of_arc(self):
+        shown = self.words("angle")  # a thousandth of a degree is 3.6 seconds of arc
+        self.assertIn("spread 1.80 ″", shown)
+        self.assertIn("by time 0.0072 ″", shown)
+        self.assertNotIn("µm", shown)
+
+    def test_what_an_interferometer_reads_is_a_length(self):
+        shown = self.words("length")
+        self.assertIn("deviation +3.60 ″   spread 0.50 µm", shown)
+        self.assertIn("by time 0.0020 µm", shown)
 
 
 class Screen(Scratch):
@@ -760,15 +806,10 @@ class Screen(Scratch):
         channel = {"instrument": "material", "channel": "contact 1", "name": "screw, left", "place": "nut",
                    "kind": "temperature", "medium": "material", "value": 21.5, "unit": "degC", "age_s": 0.1,
                    "quality": "good", "used": True}
-        return {"station": "bay 3", "utc": "2026-11-21T10:00:00Z", "run_open": not over, "channels": [channel],
-                "instruments": [], "notes": [], "outbox_entries": 0, "outbox": {"waiting": 0, "oldest_s": None, "alarm": "", "publisher": {
-                    "runs": True, "destination": "", "state": "idle", "reason": "", "since_utc": ""}},
-                "axis": {"name": "X", "position_mm": self.asked, "deviation_um": None, "spread_um": None,
-                         "strength_percent": None, "still": False},
-                "trigger": {"port": "fake", "cnc_silent": False, "note": ""},
-                "run": {"id": "r", "pass": "whole", "state": "complete" if over else "armed", "file": "f", "step": 3,
-                        "steps": 10, "done": 3, "next": None, "last_deviation_um": None, "seconds_left": None,
-                        "fault": "", "sentence": "", "certificate": "outbox/r" if over else ""}}
+        axis = {"name": "X", "position_mm": self.asked, "deviation_um": None, "spread_um": None,
+                "strength_percent": None, "still": False}
+        run = {"state": "complete" if over else "armed", "certificate": "outbox/r" if over else ""}
+        return station_status(axis, run) | {"channels": [channel]}
 
     def read_until(self, enough):
         end = time.monotonic() + 30

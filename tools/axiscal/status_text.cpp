@@ -27,20 +27,32 @@ std::string number_or_dashes(const Json& value, const char* pattern, const std::
     return std::string{text} + " " + unit;
 }
 
-/// Of a rotary axis the interface's millimetres are degrees, on paper with seconds of arc.
-struct ShownUnits {
-    std::string coordinate = "mm", deviation = "µm";
-    double deviation_factor = 1;
-    [[nodiscard]] std::string of_deviation(const Json& value, const char* pattern) const {
-        if (!value.is_number()) return number_or_dashes(value, pattern, deviation);
-        return number_or_dashes(value.get<double>() * deviation_factor, pattern, deviation);
+/// Of what the interface tells in micrometres.
+struct ShownUnit {
+    std::string sign = "µm";
+    double factor = 1;
+    [[nodiscard]] std::string of(const Json& value, const char* pattern) const {
+        if (!value.is_number()) return number_or_dashes(value, pattern, sign);
+        return number_or_dashes(value.get<double>() * factor, pattern, sign);
     }
 };
 
+/// Of a rotary axis the interface's millimetres are degrees, on paper with seconds of arc; what the
+/// instrument reads is a length all the same, but of an autocollimator.
+struct ShownUnits {
+    std::string coordinate = "mm";
+    ShownUnit deviation, reading;
+};
+
 ShownUnits units_of(const Json& status) {
-    constexpr double arcsec_per_millidegree = 3.6;
-    if (status.at("axis").value("kind", "linear") != "rotary") return {};
-    return {"°", "″", arcsec_per_millidegree};
+    const ShownUnit arcsec_of_millidegrees{"″", 3.6};
+    const Json& axis = status.at("axis");
+    ShownUnits units;
+    if (axis.value("kind", "linear") == "rotary")
+        units.coordinate = "°", units.deviation = arcsec_of_millidegrees;
+    // A daemon of before the autocollimator does not tell.
+    if (axis.value("reading", "length") == "angle") units.reading = arcsec_of_millidegrees;
+    return units;
 }
 
 std::string clock_text(double seconds) {
@@ -190,8 +202,8 @@ std::string status_text(const Json& status) {
         text += drift_text(status.at("drift"));
     text += "Axis " + axis.at("name").get<std::string>() + "       " +
             number_or_dashes(axis.at("position_mm"), "%.4f", units.coordinate) + "   deviation " +
-            units.of_deviation(axis.at("deviation_um"), "%+.2f") + "   spread " +
-            number_or_dashes(axis.at("spread_um"), "%.2f", "µm") +
+            units.deviation.of(axis.at("deviation_um"), "%+.2f") + "   spread " +
+            units.reading.of(axis.at("spread_um"), "%.2f") +
             (axis.at("still") == true ? "   still" : "   moving") + "\n";
     if (axis.at("strength_percent").is_number())
         text += "Strength     " + number_or_dashes(axis.at("strength_percent"), "%.0f", "%") + "\n";
@@ -222,10 +234,10 @@ std::string progress_line(const Json& status) {
     const ShownUnits units = units_of(status);
     text += "x " +
             number_or_dashes(status.at("axis").at("position_mm"), "%9.4f", units.coordinate) +
-            "  last e " + units.of_deviation(run.at("last_deviation_um"), "%+7.2f");
+            "  last e " + units.deviation.of(run.at("last_deviation_um"), "%+7.2f");
     if (const auto time = run.find("last_synchronisation_um");
         time != run.end() && time->is_number())
-        text += "  by time " + number_or_dashes(*time, "%.4f", "µm");
+        text += "  by time " + units.reading.of(*time, "%.4f");
     for (const Json& channel : status.at("channels"))
         if (channel.at("kind") == "temperature" && channel.at("used") == true)
             text += "  " + channel.at("medium").get<std::string>() + " " +

@@ -173,6 +173,20 @@ ChannelPaper paper_of(ChannelKind kind, Medium medium) {
     return {};
 }
 
+namespace {
+
+/// "at most 0.0124 µm": never smaller than it is, nor 0.
+std::string synchronisation_amount(const RunRecord& run, double error_um) {
+    const SynchronisationUnit unit = synchronisation_unit_of(run);
+    const double error = error_um * unit.per_um;
+    constexpr double least = 1e-4; // what four decimals can show
+    const std::string amount = error < least ? "less than 0.0001" : "at most " + fixed_up(error, 4);
+    if (unit.name == "arcsec") return amount + "″ of the autocollimator's reading";
+    return amount + (run.rotary ? " µm of the interferometer's reading" : " µm");
+}
+
+} // namespace
+
 std::string synchronisation_words(const Certificate& certificate) {
     const SynchronisationSummary over =
         summarize_synchronisation(certificate.run, certificate.attachments.synchronisation);
@@ -181,14 +195,12 @@ std::string synchronisation_words(const Certificate& certificate) {
     const Synchronisation& most = *over.largest->stated;
     const std::string where =
         over.largest->step < 0 ? "the datum" : "point " + std::to_string(over.largest->step + 1);
-    constexpr double least_um = 1e-4; // what four decimals can show
-    const std::string amount =
-        most.error_um < least_um ? "less than 0.0001" : "at most " + fixed_up(most.error_um, 4);
-    const std::string unit = certificate.run.rotary ? " µm of the interferometer's reading" : " µm";
-    std::string words = "Synchronisation error: " + amount + unit + " (at " + where +
-                        "), the speed of the axis in the window of the "
-                        "capture times the standard uncertainty u(t) of its samples' time, there " +
-                        fixed_up(seconds_of(most.time_uncertainty) * 1e6, 1) + " µs.";
+    std::string words =
+        "Synchronisation error: " + synchronisation_amount(certificate.run, most.error_um) +
+        " (at " + where +
+        "), the speed of the axis in the window of the "
+        "capture times the standard uncertainty u(t) of its samples' time, there " +
+        fixed_up(seconds_of(most.time_uncertainty) * 1e6, 1) + " µs.";
     if (over.stated < over.captures)
         words += " Not stated for " + std::to_string(over.captures - over.stated) + " of " +
                  std::to_string(over.captures) + " captures.";

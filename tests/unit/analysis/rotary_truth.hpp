@@ -82,4 +82,23 @@ inline TruthOfAngle truth_with_a_bad_table() {
     return truth;
 }
 
+/// Eight faces before an autocollimator, the deviations of TruthOfAngle read off them: of the
+/// reading a millimetre stands for a degree.
+inline RunRecord polygon_run() {
+    RunRecord run = TruthOfAngle{}.run();
+    run.rotary->method = AngleMethod::polygon;
+    run.rotary->step_deg = 45;
+    run.rotary->arm = {};
+    run.rotary->range_deg = 0.2;
+    run.laser = {};
+    run.laser.instrument = "collimator";
+    run.datums.front().reading = {};
+    for (std::size_t face = 0; face < run.plan.targets.size(); ++face)
+        run.plan.targets[face] = mm(45.0 * static_cast<double>(face));
+    for (PointRecord& point : run.points)
+        point.reading =
+            mm(TruthOfAngle::deviation_deg(point.planned, 45.0 * point.planned.target_index));
+    return run;
+}
+
 } // namespace axiscal::test

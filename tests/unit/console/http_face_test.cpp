@@ -28,6 +28,7 @@ public:
         StationStatus status;
         status.station = "bench";
         status.axis.name = "X";
+        status.axis.reads_angle = reads_angle;
         status.channels.push_back({.instrument = "air",
                                    .channel = "pressure",
                                    .name = "air pressure",
@@ -100,6 +101,7 @@ public:
     std::optional<AlignmentOrder> ordered;
     std::string reason_given;
     double typed_arcsec = 0;
+    bool reads_angle = false;
 };
 
 class HttpDoor : public ::testing::Test {
@@ -181,6 +183,17 @@ TEST_F(HttpDoor, AStaleValueIsNullNotANumber) {
     const auto status = nlohmann::json::parse(body_of(over_tcp("GET", "/v1/status")));
     EXPECT_TRUE(status.at("channels").at(0).at("value").is_null());
     EXPECT_EQ(status.at("channels").at(0).at("quality"), "stale");
+}
+
+TEST_F(HttpDoor, TellsWhetherTheInstrumentReadsALengthOrAnAngle) {
+    const auto reading = [this] {
+        return nlohmann::json::parse(body_of(over_tcp("GET", "/v1/status")))
+            .at("axis")
+            .at("reading");
+    };
+    EXPECT_EQ(reading(), "length");
+    station.reads_angle = true;
+    EXPECT_EQ(reading(), "angle");
 }
 
 TEST_F(HttpDoor, TheStreamIsReadThinned) {

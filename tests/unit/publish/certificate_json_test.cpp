@@ -3,6 +3,7 @@
 #include "acquisition/publish/result_digest.hpp"
 #include "acquisition/publish/result_json.hpp"
 #include "tests/unit/analysis/linear_scale_run.hpp"
+#include "tests/unit/analysis/rotary_truth.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 #include "tests/unit/report/synthetic_certificate.hpp"
 
@@ -99,6 +100,22 @@ TEST(CertificateJson, StatesWhatTheUncertainTimeAddsToEachCapture) {
     EXPECT_DOUBLE_EQ(shown.at("readings").at(3).at("error_um"), 0.03);
     EXPECT_TRUE(shown.at("readings").at(110).at("u_t_us").is_null());
     EXPECT_TRUE(shown.at("readings").at(110).at("error_um").is_null()) << "not stated, never 0";
+}
+
+/// One millimetre of an autocollimator's reading stands for a degree: a micrometre for 3.6".
+Certificate synchronised_polygon() {
+    Certificate certificate = test::certificate_of(test::polygon_run());
+    certificate.attachments.synchronisation = {
+        {0, "serial/0/1", Synchronisation{std::chrono::milliseconds{30}, 0.01}}};
+    return certificate;
+}
+
+TEST(CertificateJson, StatesWhatTheTimeAddsToAnAutocollimatorsReadingInSecondsOfArc) {
+    const Json shown = certificate_to_json(synchronised_polygon()).at("run").at("synchronisation");
+    EXPECT_NEAR(shown.at("largest_arcsec"), 0.036, 1e-12);
+    EXPECT_NEAR(shown.at("readings").at(0).at("error_arcsec"), 0.036, 1e-12);
+    EXPECT_FALSE(shown.contains("largest_um"));
+    EXPECT_FALSE(shown.at("readings").at(0).contains("error_um"));
 }
 
 /// A reading that was taken again counts no more.
@@ -325,6 +342,20 @@ TEST(CertificateCsv, TellsTheSynchronisationErrorOfTheRunAndOfEachPoint) {
     const std::string first = csv.substr(table + 20, csv.find('\n', table + 20) - table - 20);
     EXPECT_TRUE(first.ends_with(",0.01\r")) << first;
     EXPECT_TRUE(csv.ends_with(",\r\n")) << "the last point: not stated";
+}
+
+TEST(CertificateCsv, TellsTheSynchronisationErrorOfAnAutocollimatorInSecondsOfArc) {
+    std::istringstream csv{certificate_csv(synchronised_polygon())};
+    std::string line, head;
+    while (std::getline(csv, line) && line.starts_with("#"))
+        if (line.starts_with("# synchronisation,")) head = line;
+    const auto fields = fields_of(head);
+    ASSERT_EQ(fields.size(), 4U) << head;
+    EXPECT_NEAR(std::stod(fields[1]), 0.036, 1e-12);
+    EXPECT_EQ(fields[2], "arcsec");
+    EXPECT_TRUE(line.ends_with(",synchronisation_arcsec\r")) << line;
+    std::getline(csv, line); // of the first point
+    EXPECT_NEAR(std::stod(fields_of(line)[10]), 0.036, 1e-12) << line;
 }
 
 TEST(CertificateCsv, TellsUItsTargetTheBudgetAndWhatIsMissing) {

@@ -211,6 +211,23 @@ TEST_F(Report, StatesTheLargestSynchronisationErrorInWords) {
                 HasSubstr("less than 0.0001 µm (at the datum)"));
 }
 
+/// One millimetre of an autocollimator's reading stands for a degree: a micrometre for 3.6".
+TEST_F(Report, StatesTheLargestSynchronisationErrorOfAnAutocollimatorInSecondsOfArc) {
+    Certificate certificate = test::certificate_of(test::polygon_run());
+    auto& records = certificate.attachments.synchronisation;
+    records = {{3, "serial/0/1", Synchronisation{std::chrono::milliseconds{30}, 0.01}}};
+    const std::string text =
+        test::text_of(test::write_pdf(folder_, *render_certificate_pdf(certificate)));
+    EXPECT_THAT(text, HasSubstr("at most 0.0360″ of the autocollimator's reading"));
+    records.front().stated->error_um = 5e-5; // 0.00018": four decimals can show that
+    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("at most 0.0002″"));
+    records.front().stated->error_um = 2e-5; // 0.000072"
+    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("less than 0.0001″"));
+    certificate.run.rotary->method = AngleMethod::indexing_table;
+    EXPECT_THAT(synchronisation_words(certificate),
+                HasSubstr("less than 0.0001 µm of the interferometer's reading"));
+}
+
 TEST_F(Report, SaysHowTheBeamWasAligned) {
     Certificate certificate = test::certificate_of(test::synthetic_run());
     const auto text = [&] {

@@ -130,6 +130,7 @@ TEST(StationRotary, ShowsAPositionNearTheNextTargetOnly) {
     drive_behind_table(life, shop, shop.plan().points[0]);
     ASSERT_TRUE(life.status().axis.position_mm);
     EXPECT_NEAR(*life.status().axis.position_mm, 2.0 / 3600, 0.1 / 3600);
+    EXPECT_FALSE(life.status().axis.reads_angle);
     EXPECT_NEAR(*life.port->status.measured_mm, 2.0 / 3600, 0.1 / 3600);
 }
 
@@ -365,6 +366,7 @@ TEST(StationRotary, AnAutocollimatorReadsTheFacesByItself) {
     life.run_until([&] { return !life.status().run_open; });
     const RunRecord run = read_run_file(shop.run_files().front()).value();
     EXPECT_TRUE(run.complete);
+    EXPECT_TRUE(life.status().axis.reads_angle);
     EXPECT_EQ(run.laser.instrument, "laser"); // the bench's name of the autocollimator
     EXPECT_EQ(run.points.front().origin, TriggerOrigin::cnc);
     EXPECT_GE(run.points.front().n, shop.config.capture.minimum_samples);
