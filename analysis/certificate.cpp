@@ -15,7 +15,8 @@ namespace axiscal {
 namespace {
 
 bool is_environment(const ChannelRecord& channel) {
-    return channel.kind != ChannelKind::displacement && channel.kind != ChannelKind::strength;
+    return channel.kind != ChannelKind::displacement && channel.kind != ChannelKind::strength &&
+           channel.kind != ChannelKind::angle;
 }
 
 std::vector<EnvironmentReading> readings_of(const RunRecord& run, int channel) {

@@ -79,9 +79,12 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     std::vector<ChannelRecord> records;
     std::vector<int> ids = parts.roles.environment();
     if (parts.roles.laser) ids.push_back(*parts.roles.laser);
-    if (parts.plan.pass == circular_pass)
+    if (parts.plan.pass == circular_pass) {
         for (const auto& id : {parts.roles.ballbar, parts.roles.bar_temperature})
             if (id && std::ranges::find(ids, *id) == ids.end()) ids.push_back(*id);
+    } else if (parts.roles.autocollimator) {
+        ids.push_back(*parts.roles.autocollimator);
+    }
     std::ranges::sort(ids);
     for (const int id : ids) {
         const StationChannel& channel = parts.supervisor.channels()[static_cast<std::size_t>(id)];

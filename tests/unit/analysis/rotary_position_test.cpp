@@ -103,6 +103,17 @@ TEST(RotaryPosition, AWayGivesAtLeastSoMuchReading) {
     EXPECT_NEAR(least / (mm(1) * reading_per_coordinate(setup)), 1, 2e-3);
 }
 
+TEST(RotaryRun, TheAutocollimatorsChannelIsNoEnvironment) {
+    RunRecord run = test::polygon_run();
+    run.channels.push_back({9, "autocollimator", "collimator", "", ChannelKind::angle});
+    const auto certificate = make_certificate(run, "hash");
+    ASSERT_TRUE(certificate) << describe(certificate.error());
+    for (const EnvironmentSummary& summary : certificate->environment)
+        EXPECT_NE(summary.channel, "autocollimator");
+    EXPECT_EQ(certificate->environment.size(), 5U); // air and material of the simulated run
+    EXPECT_EQ(certificate->traces.size(), 5U);
+}
+
 TEST(RotaryRun, FindsTheTruthBehindATableWithErrors) {
     const TruthOfAngle truth = truth_with_a_bad_table();
     const RunRecord run = truth.run();

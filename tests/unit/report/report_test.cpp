@@ -338,6 +338,18 @@ TEST_F(Report, OfARotaryAxisIsInDegreesAndSecondsOfArc) {
     EXPECT_EQ(count(text, "PRELIMINARY, not stated: device, drift"), test::pages_of(render(run)));
 }
 
+TEST_F(Report, OfAPolygonPrintsTheCertificateOfTheAutocollimatorsChannel) {
+    RunRecord run = test::polygon_run();
+    run.channels.push_back({9, "autocollimator", "collimator", "", ChannelKind::angle});
+    ChannelCalibration stated;
+    stated.channel = 9, stated.certificate_number = "AC-7", stated.due_on = "2027-03-02";
+    stated.expanded_uncertainty = 0.2;
+    run.calibrations = {stated};
+    const std::string text = close_set(test::text_of(render(run)));
+    for (const char* words : {"Certificates of channels", "AC-7", "2027-03-02", "0.2 ″"})
+        EXPECT_THAT(text, HasSubstr(words));
+}
+
 TEST_F(Report, OfARotaryAxisSaysWhatIsNotStatedOfItsSetUp) {
     RunRecord run = rotary_run();
     run.rotary->deviations_arcsec.clear();

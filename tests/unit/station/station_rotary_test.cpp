@@ -391,6 +391,27 @@ TEST(StationRotary, AReadAutocollimatorHasNoDriftTestAndIsNotSaidToBeTyped) {
     EXPECT_EQ(said.find("typed"), std::string::npos) << said;
 }
 
+TEST(StationRotary, TheAutocollimatorsChannelAndItsCertificateStandInTheRunFile) {
+    CollimatorShop shop;
+    ChannelConfig stated;
+    stated.channel = "angle";
+    stated.calibration.certificate_number = "AC-7";
+    stated.calibration.due_on = "2027-03-02";
+    shop.config.instruments[0].channels.push_back(stated);
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const auto run = read_run_file(shop.run_files().front());
+    ASSERT_TRUE(run) << describe(run.error());
+    ASSERT_EQ(run->calibrations.size(), 1U);
+    EXPECT_EQ(run->calibrations[0].certificate_number, "AC-7");
+    EXPECT_EQ(run->calibrations[0].due_on, "2027-03-02");
+    const auto channel =
+        std::ranges::find(run->channels, run->calibrations[0].channel, &ChannelRecord::id);
+    ASSERT_NE(channel, run->channels.end());
+    EXPECT_EQ(channel->kind, ChannelKind::angle);
+    EXPECT_EQ(channel->instrument, run->laser.instrument);
+}
+
 TEST(StationRotary, AFaceThatDoesNotStandStillIsRefusedInSecondsOfArc) {
     CollimatorShop shop;
     Life life{shop};
