@@ -236,6 +236,7 @@ private:
 
     // station_retake.cpp: points taken again and readings left out, also after the run was closed
     [[nodiscard]] Result<void> run_may_be_revised() const;
+    [[nodiscard]] Result<void> datum_stands() const;
     [[nodiscard]] Result<void> set_up_stands() const;
     void run_is_open_again();
     Task<Result<void>> keep_revision(RunMachine before);

@@ -24,16 +24,26 @@ Result<void> Station::run_may_be_revised() const {
     return {};
 }
 
-/// For a run that was closed: the same instruments, and the datum that it was measured from.
-Result<void> Station::set_up_stands() const {
-    if (!set_up_lost_.empty()) return fail(Fault::datum_lost, set_up_lost_ + ": arm a new run");
+/// What counts still counts from the datum. An autocollimator counts nothing, and sees a face at
+/// the targets alone.
+Result<void> Station::datum_stands() const {
+    if (reads_polygon()) return autocollimator_speaks();
     const auto reading = history_.newest();
     if (!reading || scheduler_.now() - reading->at > laser_limit || !reading->value())
         return fail(Fault::link_timeout, "the " + reference_word() + " gives no good reading now");
     if (reading->epoch != datum_epoch_)
         return fail(Fault::datum_lost,
                     "the " + reference_word() + "'s counter lost its zero: arm a new run");
-    for (std::size_t i = 0; i < run_->header.instruments.size(); ++i) {
+    return {};
+}
+
+/// For a run that was closed: the same instruments, and the datum that it was measured from.
+Result<void> Station::set_up_stands() const {
+    if (!set_up_lost_.empty()) return fail(Fault::datum_lost, set_up_lost_ + ": arm a new run");
+    AXISCAL_CHECK(datum_stands());
+    // Behind those of the station file stands the artefact of a rotary axis, which nobody reads.
+    const std::size_t read = std::min(config_.instruments.size(), run_->header.instruments.size());
+    for (std::size_t i = 0; i < read; ++i) {
         const InstrumentRecord& then = run_->header.instruments[i];
         const std::string& serial = supervisor_.identity(static_cast<int>(i)).serial;
         if (!serial.empty() && serial != then.serial)

@@ -345,14 +345,24 @@ void drive_to_face(Life& life, CollimatorShop& shop, const PlannedPoint& point) 
     life.laser->quality = Quality::good;
 }
 
-bool take_face(Life& life, CollimatorShop& shop, int step) {
-    const PlannedPoint point = shop.plan().points[static_cast<std::size_t>(step)];
+bool take_face(Life& life, CollimatorShop& shop, const PlannedPoint& point, int request) {
     drive_to_face(life, shop, point);
-    const auto sequence = static_cast<std::uint16_t>(step + 1);
+    const auto sequence = static_cast<std::uint16_t>(request);
     life.ask(Life::request_for(point, sequence));
     for (int i = 0; i < 40 && life.port->done != sequence && life.port->refusals.empty(); ++i)
         life.run(100ms);
     return life.port->done == sequence;
+}
+
+bool take_face(Life& life, CollimatorShop& shop, int step) {
+    return take_face(life, shop, shop.plan().points[static_cast<std::size_t>(step)], step + 1);
+}
+
+void take_every_face(Life& life, CollimatorShop& shop) {
+    const int steps = static_cast<int>(shop.plan().points.size());
+    for (int step = 0; step < steps; ++step)
+        ASSERT_TRUE(take_face(life, shop, step)) << step << " " << life.status().run->last_sentence;
+    life.run_until([&] { return !life.status().run_open; });
 }
 
 TEST(StationRotary, AnAutocollimatorReadsTheFacesByItself) {
@@ -360,10 +370,7 @@ TEST(StationRotary, AnAutocollimatorReadsTheFacesByItself) {
     Life life{shop};
     const auto armed = life.arm();
     ASSERT_TRUE(armed) << describe(armed.error());
-    const int steps = static_cast<int>(shop.plan().points.size());
-    for (int step = 0; step < steps; ++step)
-        ASSERT_TRUE(take_face(life, shop, step)) << step << " " << life.status().run->last_sentence;
-    life.run_until([&] { return !life.status().run_open; });
+    ASSERT_NO_FATAL_FAILURE(take_every_face(life, shop));
     const RunRecord run = read_run_file(shop.run_files().front()).value();
     EXPECT_TRUE(run.complete);
     EXPECT_TRUE(life.status().axis.reads_angle);
@@ -389,6 +396,67 @@ TEST(StationRotary, AReadAutocollimatorHasNoDriftTestAndIsNotSaidToBeTyped) {
     EXPECT_NE(said.find("before a polygon is not supported"), std::string::npos) << said;
     EXPECT_NE(said.find("state uncertainty.eve"), std::string::npos) << said;
     EXPECT_EQ(said.find("typed"), std::string::npos) << said;
+}
+
+RevisionRequest again_of_target_2() {
+    RevisionRequest request;
+    request.selection.target = 2;
+    request.reason = "coolant on the face";
+    return request;
+}
+
+TEST(StationRotary, FacesAreTakenAgainAfterTheRunWasClosedThoughNoneIsInSight) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_NO_FATAL_FAILURE(take_every_face(life, shop));
+    life.laser->quality = Quality::beam_lost; // the axis stands between two faces
+    life.run(2s);
+    const auto answer = life.retake(again_of_target_2());
+    ASSERT_TRUE(answer) << describe(answer.error());
+    ASSERT_EQ(answer->points.size(), 2U);
+    int request = answer->last_request;
+    for (const RetakeAnswer::Point& point : answer->points)
+        ASSERT_TRUE(take_face(life, shop, point.planned, ++request))
+            << life.status().run->last_sentence;
+    life.run_until([&] { return !life.status().run_open; });
+    EXPECT_EQ(life.status().run->state, "complete");
+    const auto file = read_run_file_contents(shop.run_files().front()).value();
+    EXPECT_EQ(file.revisions.superseded.size(), 2U);
+}
+
+TEST(StationRotary, NoFaceIsTakenAgainWhileTheAutocollimatorIsSilent) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_NO_FATAL_FAILURE(take_every_face(life, shop));
+    life.laser->silent = true;
+    life.run(20s);
+    const auto answer = life.retake(again_of_target_2());
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().fault, Fault::link_timeout);
+    EXPECT_NE(answer.error().detail.find("autocollimator"), std::string::npos)
+        << answer.error().detail;
+}
+
+TEST(StationRotary, ATypedReadingIsTakenAgainAfterTheRunWasClosed) {
+    PolygonShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    for (const PlannedPoint& point : shop.plan().points) {
+        ASSERT_TRUE(life.station->type_reading(shop.arcsec_at(point))) << point.step;
+        life.run(200ms);
+    }
+    life.run_until([&] { return !life.status().run_open; });
+    life.run(2s);
+    const auto answer = life.retake(again_of_target_2());
+    ASSERT_TRUE(answer) << describe(answer.error());
+    for (const RetakeAnswer::Point& point : answer->points) {
+        ASSERT_TRUE(life.station->type_reading(shop.arcsec_at(point.planned)));
+        life.run(200ms);
+    }
+    life.run_until([&] { return !life.status().run_open; });
+    EXPECT_EQ(life.status().run->state, "complete");
 }
 
 TEST(StationRotary, TheAutocollimatorsChannelAndItsCertificateStandInTheRunFile) {
