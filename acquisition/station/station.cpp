@@ -224,11 +224,16 @@ void Station::log_environment(int channel, const Sample& sample) {
     journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
 }
 
-void Station::on_instrument_state(const InstrumentView& view) {
-    if (!tells_of(view)) return;
+std::string Station::state_words(const InstrumentView& view) {
     const bool plays = view.state == InstrumentState::available && !view.tape.empty();
-    const std::string how = plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
-    record_instrument(view.name + " " + how + ".", Fault::none);
+    return plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
+}
+
+void Station::on_instrument_state(const InstrumentView& view) {
+    const auto id = roles_.autocollimator;
+    const bool sees_faces = id && view.name == channel_of(*id).instrument_name;
+    const std::string how = sees_faces ? news_of_autocollimator(view) : state_words(view);
+    if (!how.empty()) record_instrument(view.name + " " + how + ".", Fault::none);
 }
 
 void Station::on_instrument_note(const InstrumentView& view) {

@@ -137,8 +137,8 @@ private:
     void take_face(const Sample& sample);
     /// Why no still window was found in time, in seconds of arc.
     [[nodiscard]] Error no_still_face(const StillnessVerdict& seen) const;
-    /// Whether a change of its state is worth a word: not that it sees no face on the way.
-    [[nodiscard]] bool tells_of(const InstrumentView& view);
+    /// What its change of state is worth: nothing where it sees no face on the way.
+    [[nodiscard]] std::string news_of_autocollimator(const InstrumentView& view);
     [[nodiscard]] Result<void> autocollimator_speaks() const;
     /// Its channel, where the checks look at it; its facts are filled in then.
     std::optional<int> autocollimator_for(PreflightFacts& facts) const;
@@ -305,6 +305,7 @@ private:
     void log_environment(int channel, const Sample& sample);
     void log_environment_anew(); ///< the first point needs a reading before it
     void record_instrument(const std::string& sentence, Fault fault);
+    [[nodiscard]] static std::string state_words(const InstrumentView& view); ///< "is faulty"
     void note(const std::string& sentence);
     /// A run takes records: neither closing nor closed.
     [[nodiscard]] bool recording() const;
@@ -376,7 +377,7 @@ private:
     std::optional<Error> environment_outside_; ///< what lies outside its limits, while it does
     MonotonicTime last_outside_{};             ///< when something last did
     bool waiting_for_disk_ = false;            ///< the run file could not be written
-    bool autocollimator_away_ = true;          ///< as told last
+    InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
     bool revising_ = false;         ///< a retake or an exclusion is being kept
     bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same

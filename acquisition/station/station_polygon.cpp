@@ -68,11 +68,17 @@ Error Station::no_still_face(const StillnessVerdict& seen) const {
             {}};
 }
 
-bool Station::tells_of(const InstrumentView& view) {
-    const auto id = roles_.autocollimator;
-    if (!id || view.name != channel_of(*id).instrument_name) return true;
-    const bool away = view.state == InstrumentState::unavailable;
-    return std::exchange(autocollimator_away_, away) != away;
+/// Once it was seen to see a face, having none before it is the way to the next: only where it
+/// comes back without one, that is told, and the first face after it.
+std::string Station::news_of_autocollimator(const InstrumentView& view) {
+    const bool between_faces =
+        autocollimator_ == InstrumentState::available && view.state == InstrumentState::faulty;
+    if (between_faces || view.state == autocollimator_) return {};
+    const InstrumentState before = std::exchange(autocollimator_, view.state);
+    if (view.state == InstrumentState::faulty) return "answers, and sees no face";
+    return before == InstrumentState::faulty && view.state == InstrumentState::available
+               ? "sees a face"
+               : state_words(view);
 }
 
 /// On the way to its first face it sees none: that it speaks is enough.

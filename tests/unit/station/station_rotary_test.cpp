@@ -554,6 +554,50 @@ TEST(StationRotary, PreflightWantsAnAutocollimatorThatAnswersButNoFaceYet) {
     EXPECT_EQ(life.arm().error().fault, Fault::link_timeout);
 }
 
+/// Of the run: what the certificate prints of its instruments.
+int events_with(const Shop& shop, const std::string& words) {
+    const RunRecord run = read_run_file(shop.run_files().front()).value();
+    return static_cast<int>(std::ranges::count_if(run.events, [&](const EventRecord& event) {
+        return event.kind == EventKind::instrument && event.text.find(words) != words.npos;
+    }));
+}
+
+TEST(StationRotary, AnAutocollimatorThatComesBackWithoutAFaceSaysSoAndThenThatItSeesOne) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.laser->silent = true;
+    life.run(20s);
+    EXPECT_EQ(life.notes_with("laser is unavailable."), 1); // the bench's name of it
+    life.laser->quality = Quality::beam_lost;
+    life.laser->silent = false;
+    life.run(20s);
+    EXPECT_EQ(life.notes_with("laser answers, and sees no face."), 1);
+    EXPECT_EQ(life.notes_with("laser sees a face."), 0);
+    life.laser->quality = Quality::good;
+    life.run(20s);
+    EXPECT_EQ(life.notes_with("laser sees a face."), 1);
+    EXPECT_EQ(life.notes_with("faulty"), 0);
+    EXPECT_EQ(events_with(shop, "laser answers, and sees no face."), 1);
+    EXPECT_EQ(events_with(shop, "laser sees a face."), 1);
+}
+
+TEST(StationRotary, NothingIsToldOfAnAutocollimatorOnTheWayFromFaceToFace) {
+    CollimatorShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const std::vector<std::string> told = life.status().notes;
+    for (int face = 0; face < 3; ++face) {
+        life.laser->quality = Quality::beam_lost; // long enough to be found faulty
+        life.run(20s);
+        EXPECT_EQ(life.status().instruments.front().state, InstrumentState::faulty);
+        life.laser->quality = Quality::good;
+        life.run(20s);
+        EXPECT_EQ(life.status().instruments.front().state, InstrumentState::available);
+    }
+    EXPECT_EQ(life.status().notes, told);
+}
+
 TEST(StationRotary, WhatAnAutocollimatorReadIsNotGoneOnWithAfterARestart) {
     CollimatorShop shop;
     {
