@@ -117,7 +117,7 @@ Json effect_of(const CircularCertificate& certificate) {
     if (!certificate.capture_effect) return {};
     const CaptureEffect& effect = *certificate.capture_effect;
     Json object;
-    object["state"] = is_changed(effect.capture) ? "averaged_or_filtered" : "nothing_was_averaged";
+    object["state"] = is_changed(effect.capture) ? "averaged_or_filtered" : "none_stated";
     if (!is_changed(effect.capture)) return object;
     object["averaged"] = effect.capture.averaged;
     object["low_pass_hz"] = stated_json(effect.capture.low_pass_hz);

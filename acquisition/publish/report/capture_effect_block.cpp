@@ -22,6 +22,14 @@ std::string change_words(const CaptureEffect& effect) {
     return words;
 }
 
+/// Of what G is: of the readings, or of the mean of several circles.
+std::string readings_of_G(const CircularCertificate& certificate) {
+    const int repeats = certificate.measured.run.plan.repeats;
+    if (repeats <= 1) return "G is that of the readings.";
+    return "G is that of the mean circle of " + std::to_string(repeats) +
+           " of each sense, their readings averaged angle by angle.";
+}
+
 void draw_gains(Sheet& sheet, const CaptureEffect& effect) {
     constexpr double percent_of_one = 100;
     TableRow frequencies{"In the readings, Hz"}, gains{"Amplitude left, %"};
@@ -40,8 +48,9 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
     if (!certificate.capture_effect) return;
     const CaptureEffect& effect = *certificate.capture_effect;
     if (!is_changed(effect.capture)) {
-        sheet.text("All readings count, spikes at reversals included. Nothing was averaged and "
-                   "nothing filtered, as the station file states: G is that of the readings.",
+        sheet.text("All readings count, spikes at reversals included. The station file states "
+                   "neither averaging nor a filter of the bar's electronics. " +
+                       readings_of_G(certificate),
                    note_style);
         return;
     }
@@ -58,7 +67,8 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
             "Averaging and filtering the readings once more changes " + changes +
             ": about what the first time took of forms that keep most of their amplitude; what "
             "was lost altogether does not show. ";
-    sheet.text(words + effect.not_known, note_style);
+    if (!effect.not_known.empty()) words += effect.not_known + " ";
+    sheet.text(words + readings_of_G(certificate), note_style);
 }
 
 } // namespace axiscal

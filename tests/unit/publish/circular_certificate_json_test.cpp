@@ -45,8 +45,7 @@ TEST(CircularCertificateJson, HoldsTheAnalysisUnchangedAndWhereItCameFrom) {
 
 TEST(CircularCertificateJson, SaysWhatTheCaptureDoesToG) {
     const json none = document_of(test::circular_certificate());
-    EXPECT_EQ(none.at("run").at("capture").at("effect_on_G"),
-              json({{"state", "nothing_was_averaged"}}));
+    EXPECT_EQ(none.at("run").at("capture").at("effect_on_G"), json({{"state", "none_stated"}}));
     CircularRun run = test::circular_run();
     run.capture.low_pass_hz = 40;
     const json filtered = document_of(test::circular_certificate(std::move(run)));
