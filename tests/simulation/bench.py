@@ -278,6 +278,11 @@ class Bench:
         expect(answer.get("ok", True), f"simulator, {command}: {answer}")
         return answer
 
+    def truth(self):
+        """What the simulator hid: the parameters that the run must find, with their bounds."""
+        self.sim("truth truth.json")
+        return json.loads((self.folder / "truth.json").read_text())
+
     def status(self):
         door = UnixHttp(self.socket)
         try:
@@ -307,10 +312,15 @@ class Bench:
         expect(answer[7:8] == b"\x10", f"the station answered {answer.hex()}")
 
     def channels_are_good(self):
+        """Whether every channel that the station file names for the axis has a value: its laser or
+        scale, and of material and air what it names."""
         shown = {f"{c['instrument']}/{c['channel']}": c["value"] for c in self.status()["channels"]}
         axis = self.station["axis"]
-        wanted = [axis["laser"], *axis["material"]["temperature"]]
-        wanted += [axis["air"][key] for key in ("temperature", "pressure", "humidity")]
+        scale = axis.get("scale")
+        wanted = [scale["channel"], *scale["temperature"]] if scale else [axis["laser"]]
+        wanted += axis.get("material", {}).get("temperature", [])
+        if air := axis.get("air"):
+            wanted += [air[key] for key in ("temperature", "pressure", "humidity")]
         return all(shown.get(name) is not None for name in wanted)
 
     # --- a whole run ---------------------------------------------------------------------------

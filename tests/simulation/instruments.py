@@ -1,7 +1,5 @@
 """One instrument that fails disturbs no other, is told, and comes back by itself."""
 
-import json
-
 import bench
 from bench import expect, sentence
 from truth import compare
@@ -80,8 +78,7 @@ def ids_run(b):
     b.begin_run()
     certificate = b.finish()
     expect(b.run()["step"] == 20, f"{b.run()}")
-    b.sim("truth truth.json")
-    missed = compare(json.loads((b.folder / "truth.json").read_text()), certificate)
+    missed = compare(b.truth(), certificate)
     expect(not missed, f"outside of the truth: {', '.join(missed)}")
 
 

@@ -5,7 +5,6 @@ its certificate states. Of the axis a millimetre stands for a degree, a micromet
 for a thousandth of it.
 """
 
-import json
 import math
 
 import bench
@@ -74,11 +73,6 @@ def polygon(b, known_faces=True):
     b.channels_are_good = lambda: b.instrument("collimator")["state"] in ("available", "faulty")
 
 
-def hidden_truth(b):
-    b.sim("truth truth.json")
-    return json.loads((b.folder / "truth.json").read_text())
-
-
 @sentence("RotaryAxisIsFoundByAPolygonAndAnAutocollimator")
 def truth_is_found(b):
     polygon(b)
@@ -87,7 +81,7 @@ def truth_is_found(b):
     certificate = b.finish()
     expect(b.run()["step"] == POINTS, f"{b.run()}")
     expect(certificate["unit"] == "deg", certificate["unit"])
-    truth = hidden_truth(b)
+    truth = b.truth()
     missed = compare(truth, certificate)
     expect(not missed, f"outside of the truth: {', '.join(missed)}")
     # Seven seconds of arc of the polygon and 18 of the axis are far above what the bound allows.
@@ -106,7 +100,7 @@ def faces_taken_as_exact(b):
     b.begin_run()
     certificate = b.finish()
     # B cancels the faces, for both directions see the same one; M does not.
-    wrong = [name for name in BOUNDED if name in compare(hidden_truth(b), certificate)]
+    wrong = [name for name in BOUNDED if name in compare(b.truth(), certificate)]
     expect("M" in wrong and "B" not in wrong and "B_mean" not in wrong, f"{wrong}")
 
 

@@ -70,30 +70,17 @@ def rotary(b, known_table=True):
     b.scenario["cnc"]["counts_per_unit"] = 100000.0  # 0.00001 degree
 
 
-def begin(b):
-    b.channels_are_good = lambda: sensors_are_good(b)  # without material sensors
-    b.begin_run()
-
-
-def sensors_are_good(b):
-    shown = {f"{c['instrument']}/{c['channel']}": c["value"] for c in b.status()["channels"]}
-    axis = b.station["axis"]
-    wanted = [axis["laser"], *(axis["air"][key] for key in ("temperature", "pressure", "humidity"))]
-    return all(shown.get(name) is not None for name in wanted)
-
-
 @sentence("RotaryAxisIsFoundBehindATableWithErrors")
 def truth_is_found(b):
     rotary(b)
     b.station["certificate"]["run_out"] = "8 um"
-    begin(b)
+    b.begin_run()
     certificate = b.finish()
     expect(b.run()["step"] == 20, f"{b.run()}")
     expect(certificate["unit"] == "deg", certificate["unit"])
     targets = [one["target"] for one in certificate["positions"]]
     expect(0 in targets and 90 in targets, f"principal positions in {targets}")
-    b.sim("truth truth.json")
-    truth = json.loads((b.folder / "truth.json").read_text())
+    truth = b.truth()
     missed = compare(truth, certificate)
     expect(not missed, f"outside of the truth: {', '.join(missed)}")
     # What is hidden is far above what the bound allows: a wrong sign of the table would show.
@@ -111,10 +98,9 @@ def truth_is_found(b):
 @sentence("RotaryAxisBehindAnUnknownTableShowsTheTablesErrors")
 def table_taken_as_exact(b):
     rotary(b, known_table=False)
-    begin(b)
+    b.begin_run()
     certificate = b.finish()
-    b.sim("truth truth.json")
-    truth = json.loads((b.folder / "truth.json").read_text())
+    truth = b.truth()
     # B cancels the table, for both directions stand at the same position; E and M do not.
     missed = [name for name in BOUNDED if name in compare(truth, certificate)]
     expect("E" in missed and "B" not in missed and "B_mean" not in missed, f"{missed}")
@@ -127,7 +113,7 @@ def table_taken_as_exact(b):
 def table_does_not_turn(b):
     rotary(b)
     b.scenario["indexing_table"]["turn_deg_per_s"] = 0.5  # far too slow for its halts
-    begin(b)
+    b.begin_run()
     # Lost while the beam is away; of a table that comes back in between the datum is gone.
     fault = bench.wait_until("a fault is named", lambda: b.run()["fault"], 60)
     expect(fault in ("beam_lost", "datum_lost"), f"named {fault}")
@@ -141,7 +127,6 @@ def drift(b):
     duration_s, interval_s = 8.0, 0.5
     b.scenario["errors"]["drift_um_per_hour"] = creep_um_per_h
     b.station["uncertainty"] = {"device": "1.2 arcsec", "eve_run": "latest"}
-    b.channels_are_good = lambda: sensors_are_good(b)
     b.start()
     ended = json.loads(b.axiscal("drift", "--duration", f"{duration_s} s", "--interval",
                                  f"{interval_s} s", "--wait", "--json"))

@@ -5,7 +5,6 @@ noise, and the resolution of its sensors. R and A within the middle 99.9 % of 10
 the injected process, drift, sensors' steps and pace of the run among what is drawn.
 """
 
-import json
 import math
 import tomllib
 
@@ -117,8 +116,7 @@ def truth_is_found(b, scenario, seed):
     one_metre(b, scenario, seed)
     b.begin_run()
     certificate = b.finish()
-    b.sim("truth truth.json")
-    truth = json.loads((b.folder / "truth.json").read_text())
+    truth = b.truth()
     expect(truth["approaches"] == 5 and len(truth["targets"]) == 11, "the truth's plan")
     bounds = bounds_mm(b.scenario, truth["targets"], truth["approaches"])
     wide = wider_than(truth, bounds)

@@ -1,5 +1,6 @@
 // Both CANopen drivers on a simulated bus under virtual time: what they hand up, and what they say
 // of a bus and of nodes that fail.
+#include "tests/support/loaded_host.hpp"
 #include "tests/support/model_can.hpp"
 #include "wire/can/can_instruments.hpp"
 
@@ -231,17 +232,13 @@ TEST_F(CanOpen, BallbarStreamsAtOneKilohertzWithoutAHole) {
     EXPECT_EQ(ballbar.sink.identities.at(0).model, "Temposonics E-series");
 }
 
-/// A frame is on the wire for 0.1 to 0.5 ms; a host that stands still, every 60 ms on the average
-/// and for up to 8 ms, stamps what waited when it goes on.
+/// A frame is on the wire for 0.1 to 0.5 ms; a host that stalls stamps what waited when it goes on.
 class LateHost {
 public:
     MonotonicTime stamps(MonotonicTime sent) {
         const double ready_s = seconds_of(sent.time_since_epoch()) + 1e-4 + 4e-4 * part();
-        while (next_stall_s_ < ready_s) {
-            stalled_until_s_ = next_stall_s_ + 8e-3 * part();
-            next_stall_s_ -= 0.06 * std::log(1 - part());
-        }
-        last_s_ = std::max({ready_s, stalled_until_s_, last_s_});
+        const double stalled_until_s = stalls_.until_s(ready_s, [this] { return part(); });
+        last_s_ = std::max({ready_s, stalled_until_s, last_s_});
         return MonotonicTime{from_seconds(last_s_)};
     }
     /// Since the end of the measuring cycle of 1 ms that a frame tells of.
@@ -250,7 +247,8 @@ public:
 private:
     double part() { return std::uniform_real_distribution<>{}(random_); }
     std::mt19937_64 random_{5};
-    double next_stall_s_ = 0, stalled_until_s_ = 0, last_s_ = 0;
+    testing::HostStalls stalls_;
+    double last_s_ = 0;
 };
 
 TEST_F(CanOpen, BallbarStatesATimeWithinTwoUncertaintiesOfTheTruth) {
