@@ -25,6 +25,8 @@ struct Appearance {
     /// Further lines of its block that the driver demands, each ending with a new line; a comment
     /// says where the value is found.
     std::string_view keys = {};
+    /// On USB: it tells its serial number only to whoever opens it, so that the kernel knows none.
+    bool serial_when_opened = false;
 };
 
 } // namespace axiscal

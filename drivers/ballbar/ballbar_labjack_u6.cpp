@@ -239,8 +239,12 @@ const std::array u6_ids{UsbId{0x0CD5, 0x0006}};
 } // namespace
 
 const Appearance labjack_u6_appearance{
-    Wire::usb, u6_ids, false, "ballbar",
-    "scale_length = \"1 mm\"          # the length at +10 V, from the transducer's calibration\n"};
+    Wire::usb,
+    u6_ids,
+    false,
+    "ballbar",
+    "scale_length = \"1 mm\"          # the length at +10 V, from the transducer's calibration\n",
+    true};
 
 std::unique_ptr<Instrument> make_labjack_u6(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults;

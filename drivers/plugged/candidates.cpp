@@ -27,6 +27,13 @@ bool same_terminal(const PluggedDevice& device, const std::string& link) {
            same_node(link.substr(serial_prefix.size()), device.node);
 }
 
+/// The entry's driver, when the device could be one of its kind; null: it could not.
+const InstrumentDriver* kin(const StationWires::Entry& entry, const PluggedDevice& device) {
+    const auto drivers = could_be(device);
+    const auto found = std::ranges::find(drivers, entry.driver, &InstrumentDriver::name);
+    return found == drivers.end() ? nullptr : *found;
+}
+
 bool means(const StationWires::Entry& entry, const PluggedDevice& device) {
     switch (device.wire) {
     case Wire::serial: return same_terminal(device, entry.link);
@@ -35,19 +42,22 @@ bool means(const StationWires::Entry& entry, const PluggedDevice& device) {
             return std::ranges::find(device.sensors, sensor) != device.sensors.end();
         });
     case Wire::usb:
-    case Wire::hid: {
-        const auto drivers = could_be(device);
-        const bool kin = std::ranges::any_of(
-            drivers, [&](const InstrumentDriver* driver) { return driver->name == entry.driver; });
-        return kin && device.usb &&
+    case Wire::hid:
+        return kin(entry, device) != nullptr && device.usb &&
                (entry.link == "usb:any" || entry.link == "usb-port:" + device.usb->port ||
                 (!device.usb->serial.empty() && entry.link == "usb:" + device.usb->serial));
-    }
     case Wire::can: return entry.link == device.link;
     case Wire::counter: return same_node(entry.link, device.node);
     case Wire::tcp: break;
     }
     return false;
+}
+
+/// The entry states a serial number that this device would tell only to whoever opens it.
+bool may_mean(const StationWires::Entry& entry, const PluggedDevice& device) {
+    if (!entry.link.starts_with("usb:") || !device.usb || !device.usb->serial.empty()) return false;
+    const InstrumentDriver* driver = kin(entry, device);
+    return driver != nullptr && driver->shows->serial_when_opened;
 }
 
 bool knows(const InstrumentDriver& driver, const PluggedDevice& device) {
@@ -70,8 +80,10 @@ std::string free_name(std::string_view wanted, const StationWires& station) {
 }
 
 /// The lines that say where it is plugged in.
-std::string wire_lines(const PluggedDevice& device) {
+std::string wire_lines(const PluggedDevice& device, const Appearance& shows) {
     if (device.wire == Wire::counter) return "device = \"" + device.node + "\"\n";
+    if (shows.serial_when_opened && device.link.starts_with("usb-port:"))
+        return "link = \"" + device.link + "\"   # its socket; or \"usb:\" and the number on it\n";
     if (device.wire != Wire::one_wire) return "link = \"" + device.link + "\"\n";
     std::string list;
     for (const std::string& sensor : device.sensors)
@@ -144,12 +156,20 @@ std::string known_as(const PluggedDevice& device, const StationWires& station) {
     return line && same_node(station.trigger_line, device.node) ? "trigger" : "";
 }
 
+std::vector<std::string> may_be(const PluggedDevice& device, const StationWires& station) {
+    std::vector<std::string> names;
+    if (!known_as(device, station).empty()) return names;
+    for (const StationWires::Entry& entry : station.instruments)
+        if (may_mean(entry, device)) names.push_back(entry.name);
+    return names;
+}
+
 std::string toml_block(const PluggedDevice& device,
                        const InstrumentDriver& driver,
                        const StationWires& station) {
     return "[[instrument]]\nname = \"" + free_name(driver.shows->name, station) +
-           "\"\ndriver = \"" + std::string{driver.name} + "\"\n" + wire_lines(device) +
-           std::string{driver.shows->keys};
+           "\"\ndriver = \"" + std::string{driver.name} + "\"\n" +
+           wire_lines(device, *driver.shows) + std::string{driver.shows->keys};
 }
 
 std::vector<Obstacle> obstacles(const PluggedDevice& device, const Account& service) {

@@ -30,6 +30,10 @@ std::vector<const InstrumentDriver*> could_be(const PluggedDevice& device);
 /// Name of the instrument that already uses it ("trigger" for the CNC's line); empty: none.
 std::string known_as(const PluggedDevice& device, const StationWires& station);
 
+/// Names of the instruments that it may be although nobody can tell before it is opened: they state
+/// a serial number, and this kind tells its own only then. Empty for a device that is known.
+std::vector<std::string> may_be(const PluggedDevice& device, const StationWires& station);
+
 /// An [[instrument]] of the station file, ready to be appended. Its name is none of `station`'s.
 /// Values that stand on a certificate or a label are examples, and say so beside them.
 std::string toml_block(const PluggedDevice& device,

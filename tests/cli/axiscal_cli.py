@@ -372,7 +372,7 @@ class Devices(Scratch):
         self.sys, self.dev = os.path.join(self.folder, "sys"), os.path.join(self.folder, "dev")
         self.plug("1-1", "16c0", "0483", "7391231", "ttyACM0", "usb-Teensyduino_7391231-if00", "cdc_acm")
         self.plug("1-2", "289b", "0505", "E24638", "ttyACM1", "usb-Dracal_E24638-if00", "cdc_acm")
-        self.plug("1-3", "0cd5", "0006", "470012345")
+        self.plug("1-3", "0cd5", "0006")  # a U6 tells its number only when it is opened
         self.plug("1-4", "0403", "6001", "A600AXIS", "ttyUSB0", "usb-FTDI_A600AXIS-if00-port0", "ftdi_sio")
         for name in ("w1_bus_master1", "28-0000075b3c2a"):
             self.link(os.path.join(self.sys, "bus/w1/devices", name), os.path.join(self.sys, "devices", name))
@@ -406,10 +406,17 @@ class Devices(Scratch):
         shown = self.devices("--config", os.path.join(self.folder, "nothing.toml"))
         self.assertIn("There is no station file", shown)
         self.assertIn("LabJack U6", shown)
-        self.assertIn('        link = "usb:470012345"', shown)
+        self.assertIn('        link = "usb-port:1-3"', shown)
         self.assertIn("axiscal devices --as DRIVER", shown)  # four could sit behind the adapter
         self.assertIn('        model = "ptu300"', self.devices("--as", "vaisala"))
         self.assertIn("did you mean \"vaisala\"", self.expect(2, "devices", "--as", "vaisalla").stderr)
+
+    def test_a_device_that_tells_its_number_only_when_opened_may_be_the_one_that_is_meant(self):
+        station = self.file("station.toml", example_text() + '\n[[instrument]]\nname = "ballbar"\ndriver = "labjack-u6"\n'
+                            'link = "usb:470012345"\nscale_length = "1 mm"\n')
+        [bar] = json.loads(self.devices("--as", "labjack-u6", "--config", station, "--json"))["plugged"]
+        self.assertEqual((bar["in_station"], bar["may_be"]), (None, ["ballbar"]))
+        self.assertIn('    may be "ballbar" of the station file: its serial number', self.devices("--config", station))
 
 
 class Doctor(Scratch):

@@ -157,6 +157,7 @@ def found(station):
     expect(len(bars) == 2, f"{told['plugged']}")
     for one in bars:
         expect(one["in_station"] is None and one["could_be"][0]["driver"] == "labjack-u6", f"{one}")
+        expect(one["may_be"] == ["ballbar"], f"{one}")
         expect('link = "usb-port:' in one["could_be"][0]["block"], f"{one}")
 
 

@@ -82,6 +82,7 @@ Json device_json(const PluggedDevice& device, const StationWires& station, const
             {"kernel_driver", device.kernel_driver},
             {"could_be", std::move(drivers)},
             {"in_station", name.empty() ? Json{} : Json(name)},
+            {"may_be", may_be(device, station)},
             {"missing", std::move(missing)}};
 }
 
@@ -90,6 +91,9 @@ std::string device_text(const Json& device, bool blocks) {
     if (!device.at("in_station").is_null())
         text +=
             "    in the station file as \"" + device.at("in_station").get<std::string>() + "\"\n";
+    for (const Json& name : device.at("may_be"))
+        text += "    may be \"" + name.get<std::string>() +
+                "\" of the station file: its serial number is told only when it is opened\n";
     for (const Json& item : device.at("missing"))
         text += "    MISSING: " + item.at("what").get<std::string>() + "\n        " +
                 item.at("mend").get<std::string>() + "\n";

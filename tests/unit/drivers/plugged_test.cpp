@@ -34,6 +34,11 @@ protected:
         auto document = SettingsDocument::parse(text, "station.toml").value();
         return read_station_wires(document);
     }
+    static std::string
+    block(const std::string& driver, const std::string& name, const std::string& link) {
+        return "[[instrument]]\nname = \"" + name + "\"\ndriver = \"" + driver + "\"\nlink = \"" +
+               link + "\"\n";
+    }
     [[nodiscard]] static Account someone() {
         Account account;
         account.name = "axiscal";
@@ -95,7 +100,7 @@ TEST_F(Plugged, TwoAdaptersWithoutSerialNumberAreToldApartByTheSocket) {
 }
 
 TEST_F(Plugged, SticksWithoutATerminalAreFoundByTransferAndByReport) {
-    tree.usb("1-1", {"0cd5", "0006", "LabJack U6", "470012345"});
+    tree.usb("1-1", {"0cd5", "0006", "LabJack U6"}); // tells its number only when opened
     tree.usb("1-2", {"1781", "0a98", "USBTenki", "A10234"});
     tree.usb("1-3", {"289b", "0504", "USB-PT100", "B2", "ff"});
     tree.hidraw(tree.usb("1-4", {"413d", "2107"}), "hidraw1");
@@ -104,7 +109,7 @@ TEST_F(Plugged, SticksWithoutATerminalAreFoundByTransferAndByReport) {
     std::string told;
     for (const PluggedDevice& device : listed())
         told += drivers_of(device) + " " + device.link + "\n";
-    EXPECT_EQ(told, "labjack-u6 usb:470012345\ndracal-usbtenki usb:A10234\ndracal-usbtenki usb:B2\n"
+    EXPECT_EQ(told, "labjack-u6 usb-port:1-1\ndracal-usbtenki usb:A10234\ndracal-usbtenki usb:B2\n"
                     "temper usb-port:1-4\n");
 }
 
@@ -227,21 +232,51 @@ TEST_F(Plugged, DeviceNodeIsKnownUnderALinkToIt) {
 }
 
 TEST_F(Plugged, SticksOfTheStationAreKnownByNumberBySocketAndAsTheOnlyOne) {
-    tree.usb("1-1", {"0cd5", "0006", "LabJack U6", "470012345"});
-    const PluggedDevice u6 = only();
+    tree.usb("1-1", {"1781", "0a98", "USBTenki", "A10234"});
+    const PluggedDevice stick = only();
     const auto known = [&](const std::string& driver, const std::string& link) {
-        return known_as(u6, station_of("[[instrument]]\nname = \"x\"\ndriver = \"" + driver +
-                                       "\"\nlink = \"" + link + "\"\n"));
+        return known_as(stick, station_of(block(driver, "x", link)));
     };
-    EXPECT_EQ(known("labjack-u6", "usb:470012345"), "x");
-    EXPECT_EQ(known("labjack-u6", "usb-port:1-1"), "x");
-    EXPECT_EQ(known("labjack-u6", "usb:any"), "x");
-    EXPECT_EQ(known("labjack-u6", "usb:470099999"), "");
-    EXPECT_EQ(known("dracal-usbtenki", "usb:any"), "");
+    EXPECT_EQ(known("dracal-usbtenki", "usb:A10234"), "x");
+    EXPECT_EQ(known("dracal-usbtenki", "usb-port:1-1"), "x");
+    EXPECT_EQ(known("dracal-usbtenki", "usb:any"), "x");
+    EXPECT_EQ(known("dracal-usbtenki", "usb:A99999"), "");
+    EXPECT_EQ(known("labjack-u6", "usb:any"), "");
+    EXPECT_TRUE(may_be(stick, station_of(block("dracal-usbtenki", "x", "usb:A99999"))).empty());
+}
+
+/// docs/instruments/labjack-u6.md: the number of a U6 is told by ConfigU6, not to the kernel.
+TEST_F(Plugged, DeviceThatTellsItsNumberOnlyWhenOpenedMayBeTheOneThatIsMeant) {
+    tree.usb("1-1", {"0cd5", "0006", "LabJack U6"});
+    const PluggedDevice u6 = only();
+    const std::string by_number = block("labjack-u6", "bar", "usb:470012345");
+    EXPECT_EQ(known_as(u6, station_of(by_number)), "");
+    EXPECT_EQ(may_be(u6, station_of(by_number)), std::vector<std::string>{"bar"});
+    EXPECT_EQ(may_be(u6, station_of(by_number + block("labjack-u6", "probe", "usb:470099999"))),
+              (std::vector<std::string>{"bar", "probe"}));
+    const std::string by_socket = block("labjack-u6", "probe", "usb-port:1-1");
+    EXPECT_TRUE(may_be(u6, station_of(by_number + by_socket)).empty()) << "it is the probe";
+    EXPECT_TRUE(may_be(u6, station_of(block("labjack-u6", "bar", "usb-port:1-2"))).empty());
+    EXPECT_TRUE(may_be(u6, station_of(block("dracal-usbtenki", "air", "usb:A10234"))).empty());
+}
+
+/// A TEMPer has no serial number at all: a link with one means no such stick.
+TEST_F(Plugged, DeviceWithoutAnyNumberIsNotTakenForANumberedOne) {
+    tree.hidraw(tree.usb("1-4", {"413d", "2107"}), "hidraw1");
+    EXPECT_TRUE(may_be(only(), station_of(block("temper", "screw", "usb:A1"))).empty());
+}
+
+TEST_F(Plugged, LineToAddOfADeviceWithoutANumberNamesItsSocketAndTheOtherWay) {
+    tree.usb("1-1", {"0cd5", "0006", "LabJack U6"});
+    const PluggedDevice u6 = only();
+    const std::string added = toml_block(u6, *could_be(u6).front(), {});
+    EXPECT_NE(added.find("link = \"usb-port:1-1\"   # its socket; or \"usb:\""), std::string::npos)
+        << added;
+    EXPECT_EQ(known_as(u6, station_of(added)), "ballbar");
 }
 
 TEST_F(Plugged, NameOfABlockIsNoneOfTheStations) {
-    tree.usb("1-1", {"0cd5", "0006", "LabJack U6", "470012345"});
+    tree.usb("1-1", {"0cd5", "0006", "LabJack U6"});
     const auto station = station_of("[[instrument]]\nname = \"ballbar\"\n[[instrument]]\nname = "
                                     "\"ballbar-2\"\n");
     const PluggedDevice u6 = only();
