@@ -93,7 +93,8 @@ public:
     void note(CircularSetup setup, std::vector<StreamSetup> streams);
     /// False, and not queued, while `most_chunks` wait for the disk: the caller counts it.
     bool note(StreamChunk chunk);
-    static constexpr std::size_t most_chunks = 64; ///< 64 s of 1 kHz; 16 MB at most
+    /// 64 s of 1 kHz, 21 s of 50 kHz; 16 MB at most, and those that are being written beside them.
+    static constexpr std::size_t most_chunks = 64;
     void note(std::vector<PreflightRecord> checks);
     void note(RetakeRecord retake);
     void note(std::vector<ExclusionRecord> exclusions);

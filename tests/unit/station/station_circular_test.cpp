@@ -1,10 +1,12 @@
 // A whole circular test: a machine with known errors, a ballbar of 1 kHz, a CNC that asks before
 // each circle, a run file, and what its diagnosis finds.
 
+#include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/stream_packing.hpp"
 #include "analysis/circular/circle_cut.hpp"
 #include "analysis/circular/circle_diagnosis.hpp"
 #include "station_bench.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/unit/analysis/driven_bar.hpp"
 
 namespace axiscal::testing::station_circular_test {
@@ -266,6 +268,53 @@ TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
     ASSERT_TRUE(stream);
     ASSERT_EQ(stream->gaps.size(), 1U);
     EXPECT_EQ(stream->gaps[0].missing, 40U);
+}
+
+/// docs/circular.md: 64 blocks wait, of one second or 16384 readings.
+TEST(StationCircular, WhatWaitsForTheDiskIsBounded) {
+    constexpr std::size_t reading_bytes = sizeof(MonotonicTime) + sizeof(double);
+    constexpr std::size_t most = Journal::most_chunks * StreamChunker::most_samples;
+    EXPECT_EQ(most * reading_bytes, 16U << 20U);
+    EXPECT_EQ(Journal::most_chunks * StreamChunker::longest, 64s); // at 1 kHz
+    EXPECT_NEAR(static_cast<double>(most) / 50e3, 21, 0.03);       // s, at 50 kHz
+}
+
+/// 1 kHz makes a block a second. Of 80 the first 64 wait; the 81st and a second until the station
+/// tries the disk again are one either way.
+TEST(StationCircular, BlocksThatADiskTakesNoMoreAreCountedNamedAndMissingInTheFile) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    life.run(2s);
+    {
+        const FullDisk full;
+        life.run(60s);
+        EXPECT_EQ(life.notes_with("The disk does not keep up"), 0);
+        life.run(20s);
+    }
+    life.run(3s);
+    EXPECT_EQ(life.notes_with("The disk does not keep up: readings of the ballbar are dropped"), 1);
+    const std::string told = life.status().run->last_sentence;
+    ASSERT_TRUE(life.station->abort("enough"));
+    life.run(1s);
+
+    const RunFileContents read = contents_of(bay.shop);
+    const auto stream = samples_of(read.blocks, 0);
+    ASSERT_TRUE(stream) << stream.error().detail;
+    EXPECT_NEAR(static_cast<double>(stream->dropped_blocks), 80 - 64, 2);
+    EXPECT_NE(told.find(std::to_string(stream->dropped_blocks) + " blocks were dropped"),
+              std::string::npos)
+        << told;
+    ASSERT_EQ(stream->gaps.size(), 1U);
+    EXPECT_EQ(stream->gaps[0].why, "dropped");
+    const std::size_t at = stream->gaps[0].at;
+    EXPECT_NEAR(seconds_of(stream->at[at] - stream->at[at - 1]),
+                static_cast<double>(stream->dropped_blocks), 0.01); // a block is 1 s
+    const auto event = std::ranges::find_if(read.run.events, [](const EventRecord& one) {
+        return one.text.find("The disk does not keep up") != std::string::npos;
+    });
+    ASSERT_NE(event, read.run.events.end());
+    EXPECT_EQ(event->fault, Fault::not_durable);
 }
 
 TEST(StationCircular, ARequestOutOfOrderIsRefusedAndTheRightOneStillTaken) {
