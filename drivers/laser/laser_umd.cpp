@@ -169,8 +169,11 @@ UmdSetup read_setup(Settings& options) {
     return setup;
 }
 
-// Teensy (uMD2), and what the Arduino Nano of a uMD0 carries: FTDI or CH340.
-const std::array umd_ids{UsbId{0x16C0, 0x0483}, UsbId{0x0403, 0x6001}, UsbId{0x1A86, 0x7523}};
+// The firmware does not state them. Teensy (uMD2): usb.ids. chipKIT DP32 (uMD1) [N]: the default of
+// the published chipKIT-core (HardwareSerial_cdcacm.c), without serial number; a board with another
+// core may show another. Arduino Nano (uMD0) [N]: its FTDI or CH340.
+const std::array umd_ids{UsbId{0x16C0, 0x0483}, UsbId{0x0403, 0xA662}, UsbId{0x0403, 0x6001},
+                         UsbId{0x1A86, 0x7523}};
 
 } // namespace
 

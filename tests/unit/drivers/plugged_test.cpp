@@ -7,7 +7,11 @@
 #include "tests/support/sysfs_tree.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -70,6 +74,15 @@ TEST_F(Plugged, StickIsOneDriverByItsNumberAndKeepsItsNameById) {
 TEST_F(Plugged, AdapterCouldBeEverySerialInstrumentAndTheOneSoldWithIt) {
     tree.terminal(tree.usb("1-1", {"0403", "6001", "FT232R", "A600AXIS"}), "ttyUSB0", "ftdi_sio");
     EXPECT_EQ(drivers_of(only()), "umd vaisala ascii-gauge modbus");
+}
+
+/// A chipKIT with the published chipKIT-core: its default numbers, no serial number.
+TEST_F(Plugged, BoardOfAnOlderCounterIsOneDriverAndToldByItsSocket) {
+    tree.terminal(tree.usb("1-1", {"0403", "a662", "Stk500v2", "", "02"}), "ttyACM0", "cdc_acm");
+    testing::SysfsTree::link(tree.dev() + "/axiscal/umd-pci-0000_00_14_0-usb-0_1_1_0",
+                             tree.dev() + "/ttyACM0");
+    EXPECT_EQ(drivers_of(only()), "umd");
+    EXPECT_EQ(only().link, "serial:" + tree.dev() + "/axiscal/umd-pci-0000_00_14_0-usb-0_1_1_0");
 }
 
 TEST_F(Plugged, NumberThatNobodyKnowsIsASerialInstrumentAtLeast) {
@@ -298,6 +311,32 @@ PluggedDevice device_for(const Appearance& shows) {
                   : shows.wire == Wire::can  ? "can:can0"
                                              : "usb:any";
     return device;
+}
+
+/// The line of the udev rules that gives terminals of these numbers to the service.
+bool has_rule(const std::string& rules, const UsbId& id) {
+    char vendor[40], product[40];
+    std::snprintf(vendor, sizeof vendor, "ATTRS{idVendor}==\"%04x\"", unsigned{id.vendor});
+    std::snprintf(product, sizeof product, "ATTRS{idProduct}==\"%04x\"", unsigned{id.product});
+    std::istringstream lines{rules};
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("AXISCAL_NAME") != std::string::npos &&
+            line.find(vendor) != std::string::npos &&
+            (line.find(product) != std::string::npos ||
+             line.find("idProduct") == std::string::npos))
+            return true;
+    return false;
+}
+
+TEST(Appearances, OfTerminalsHaveARuleEach) {
+    std::ifstream file{test::source_dir() + "/systemd/70-axiscal.rules"};
+    const std::string rules{std::istreambuf_iterator<char>{file}, {}};
+    for (const InstrumentDriver& driver : instrument_drivers()) {
+        if (driver.shows == nullptr || driver.shows->wire != Wire::serial) continue;
+        for (const UsbId& id : driver.shows->ids)
+            EXPECT_TRUE(has_rule(rules, id))
+                << driver.name << std::hex << " " << id.vendor << ":" << id.product;
+    }
 }
 
 TEST(Appearances, GiveBlocksThatTheirDriversAccept) {
