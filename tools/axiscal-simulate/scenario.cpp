@@ -259,6 +259,8 @@ void read_ballbar(Fields& f, BallbarScenario& bar) {
     f.read("resolution_um", bar.resolution_um);
     if (bar.resolution_um && !(*bar.resolution_um > 0))
         f.refuse("resolution_um", "must be above 0");
+    f.read("stroke_um", bar.stroke_um);
+    if (bar.stroke_um && !(*bar.stroke_um > 0)) f.refuse("stroke_um", "must be above 0");
     if (bar.path.empty()) f.refuse("path", "is missing");
 }
 

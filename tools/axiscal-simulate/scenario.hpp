@@ -108,6 +108,7 @@ struct BallbarScenario {
     double noise_um = 0;                                  ///< sigma per sample
     std::optional<double> rate_hz;       ///< of its counter; absent: the counter's usual rate
     std::optional<double> resolution_um; ///< a glass scale: one count; absent: a laser
+    std::optional<double> stroke_um;     ///< to either side; beyond it the reading stays at its end
 };
 
 struct SensorScenario {

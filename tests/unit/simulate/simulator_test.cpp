@@ -111,6 +111,17 @@ TEST_F(SimulatorTest, TheTableThatAStreamTurnsTakesTheReflectorsBack) {
     EXPECT_NEAR(displacement_um(record_of("0 0 0 -4 0", {.laser = 4})), chord_um(1), 2e-3);
 }
 
+/// What a bar's counter sent last, by a laser with a corner cube; -1: nothing.
+double bar_um(int wire) {
+    char text[256] = {};
+    if (::read(wire, text, sizeof text - 1) <= 0) return -1.0;
+    std::istringstream fields{text};
+    std::vector<double> record;
+    for (double field = 0; fields >> field;)
+        record.push_back(field);
+    return (record.at(2) - record.at(4) / 65536.0) * 0.632991354 / 2;
+}
+
 TEST_F(SimulatorTest, ABallbarFollowsTheAxesOfItsPlane) {
     BallbarScenario bar;
     bar.path = (folder_ / "bar").string();
@@ -123,18 +134,31 @@ TEST_F(SimulatorTest, ABallbarFollowsTheAxesOfItsPlane) {
     ASSERT_GE(wire, 0);
     const auto read_um = [&](const std::string& line) {
         world_->feed_lines(line, {});
-        char text[256] = {};
-        if (::read(wire, text, sizeof text - 1) <= 0) return -1.0;
-        std::istringstream fields{text};
-        std::vector<double> record;
-        for (double field = 0; fields >> field;)
-            record.push_back(field);
-        return (record.at(2) - record.at(4) / 65536.0) * 0.632991354 / 2;
+        return bar_um(wire);
     };
     // the bar was zeroed at its radius of 100 mm; 1e-4 of that is 10 um; the count's fraction
     EXPECT_NEAR(read_um("1 0 77 100 0 0\n"), 10.0, 1e-4);
     EXPECT_NEAR(read_um("2 100 77 0 0 0\n"), 0.0, 1e-4);
     EXPECT_EQ(read_um("3 100\n"), -1.0); // one axis is no place in a plane
+    ::close(wire);
+}
+
+TEST_F(SimulatorTest, ABallbarBeyondItsStrokeStaysAtItsEnd) {
+    BallbarScenario bar;
+    bar.path = (folder_ / "bar").string();
+    bar.rate_hz = 1000;
+    bar.stroke_um = 50;
+    scenario_.ballbar = bar; // XY, a radius of 100 mm
+    open();
+    const int wire = ::open(bar.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    ASSERT_GE(wire, 0);
+    const auto read_um = [&](const std::string& line) {
+        world_->feed_lines(line, {});
+        return bar_um(wire);
+    };
+    EXPECT_NEAR(read_um("1 100.02 0 0\n"), 20, 1e-4);
+    EXPECT_NEAR(read_um("2 101.5 0 0\n"), 50, 1e-4);
+    EXPECT_NEAR(read_um("3 98.5 0 0\n"), -50, 1e-4);
     ::close(wire);
 }
 

@@ -51,8 +51,10 @@ double TrueCircle::reading_mm(PlanePoint drive, std::uint64_t sample) {
     const double x = a * (1 + bar_.scale_first_um_per_m * 1e-6) -
                      b * bar_.squareness_um_per_m * 1e-6 + first_lag + cyclic;
     const double y = b * (1 + bar_.scale_second_um_per_m * 1e-6) + second_lag;
-    return std::hypot(x, y) - bar_.radius_mm +
-           bar_.noise_um * 1e-3 * noise_.normal(NoiseStream::axis, sample);
+    const double reading_mm = std::hypot(x, y) - bar_.radius_mm +
+                              bar_.noise_um * 1e-3 * noise_.normal(NoiseStream::axis, sample);
+    if (!bar_.stroke_um) return reading_mm;
+    return std::clamp(reading_mm, -*bar_.stroke_um * 1e-3, *bar_.stroke_um * 1e-3);
 }
 
 BarFace::BarFace(const Scenario& scenario, Pty pty, SimClock clock, const CommandedPlane& plane)
