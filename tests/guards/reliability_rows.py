@@ -4,7 +4,8 @@
 reliability_rows.py SOURCE_FOLDER | reliability_rows.py --self-test
 
 The names are taken from the sources as CMake and GoogleTest take them. A name may hold `*`. The first command of
-a row is `ctest ... -R 'EXPRESSION'`, in which a bar is written `\\|`: the table's own sign.
+a row is `ctest ... -R 'EXPRESSION'`, in which a bar is written `\\|`: the table's own sign. Checks of a boot of the
+kernel that a row counts, "serial 28", are as many as the boot has.
 """
 import fnmatch
 import glob
@@ -16,6 +17,7 @@ import tempfile
 PAGE = os.path.join("docs", "reliability.md")
 TEST_NAME = re.compile(r"`((?:[A-Za-z]\w*/)?[A-Za-z*]\w*(?:\.[\w*]+)+)`")
 COMMAND = re.compile(r"`ctest --test-dir build/check -R '([^']+)'(?: -V)?`")
+BOOTS = re.compile(r"(\d+) checks in \w+ boots \(([^)]*)\)")
 OWN_LANES = {"tools/test threads": "^Threads\\."}  # a preset of its own, which holds nothing else
 
 
@@ -57,6 +59,24 @@ def names_of_scripts(root):
     names |= {f"Simulation.{name}" for name in marked(root, ("simulation", "*.py"), "sentence")}
     names |= {f"Peers.Samba.{name}" for name in marked(root, ("peers", "samba", "*.py"), "sentence")}
     return names | {f"Kernel.{name}" for name in marked(root, ("kernel", "boot_*.py"), "check")}
+
+
+def checks_of_boots(root):
+    """{"serial": 28, ...}"""
+    files = glob.glob(os.path.join(root, "tests", "kernel", "boot_*.py"))
+    boots = {os.path.basename(path)[len("boot_"):-len(".py")] for path in files}
+    return {boot: len(marked(root, ("kernel", f"boot_{boot}.py"), "check")) for boot in boots}
+
+
+def judge_counts(page, boots):
+    problems = []
+    for whole, parts in BOOTS.findall(page):
+        told = {boot: int(count) for boot, count in re.findall(r"(\w+) (\d+)", parts)}
+        problems += [f"{PAGE}: the boot {boot} has {boots.get(boot, 0)} checks, not {count}"
+                     for boot, count in told.items() if boots.get(boot) != count]
+        if sum(told.values()) != int(whole):
+            problems.append(f"{PAGE}: {parts} are {sum(told.values())} checks, not {whole}")
+    return problems
 
 
 def rows_of(page):
@@ -115,6 +135,11 @@ def self_test():
         right = len(found) == 1 and due in found[0] if due else not found
         if not right:
             problems.append(f"{row}: {found}, due: {due or 'nothing'}")
+    boots = {"usb": 2, "can": 1}
+    for text, due in {"3 checks in two boots (usb 2, can 1)": 0, "4 checks in two boots (usb 3, can 1)": 1,
+                      "4 checks in two boots (usb 2, can 1)": 1, "2 checks in one boots (pci 2)": 1}.items():
+        if len(judge_counts(text, boots)) != due:
+            problems.append(f"{text}: {judge_counts(text, boots)}, due: {due}")
     with tempfile.TemporaryDirectory() as root:
         os.makedirs(os.path.join(root, "tests"))
         with open(os.path.join(root, "tests", "a.cpp"), "w", encoding="utf-8") as out:
@@ -131,7 +156,8 @@ def main():
     if sys.argv[1] == "--self-test":
         return self_test()
     root = sys.argv[1]
-    return judge(text_of(os.path.join(root, PAGE)), names_of_units(root) | names_of_scripts(root))
+    page = text_of(os.path.join(root, PAGE))
+    return judge(page, names_of_units(root) | names_of_scripts(root)) + judge_counts(page, checks_of_boots(root))
 
 
 if __name__ == "__main__":
