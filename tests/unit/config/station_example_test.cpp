@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <gtest/gtest.h>
+#include <regex>
 #include <set>
 #include <string>
 
@@ -60,6 +61,49 @@ TEST(StationExample, MeansWhatItsWordsSay) {
     EXPECT_EQ(config.instruments[2].channels[0].medium, Medium::material);
 }
 
+void erase_between(std::string& text, const std::string& from, const std::string& to) {
+    const auto begin = text.find(from);
+    ASSERT_NE(begin, std::string::npos) << from;
+    text.erase(begin, text.find(to, begin) - begin);
+}
+
+/// The example with its table [axis.scale] stated as it is offered, but for the channel's
+/// instrument, and without what belongs to a laser.
+std::string text_with_scale() {
+    static const std::regex offered{"(^|\n)# (\\[|\\w+ = )"};
+    std::string text = example_text();
+    const auto begin = text.find("# [axis.scale]"), end = text.find("\n\n", begin);
+    const std::string table = std::regex_replace(text.substr(begin, end - begin), offered, "$1$2");
+    text.replace(begin, end - begin, table);
+    const std::string channel = "\"scale/axis 1\"";
+    text.replace(text.find(channel), channel.size(), "\"laser/axis 1\"");
+    erase_between(text, "\nlaser = ", "\n#");
+    erase_between(text, "\ndead_path = ", "\n#");
+    erase_between(text, "\n[axis.air]\n", "\n[cycle]\n");
+    return text;
+}
+
+TEST(StationExample, OffersALinearScaleThatIsReadAsItStandsThere) {
+    const Reading reading = read_text(text_with_scale());
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.axis.scale);
+    const ScaleConfig& scale = *reading.config.axis.scale;
+    EXPECT_DOUBLE_EQ(scale.setup.coefficient.in(um_per_m_kelvin), 8.5);
+    ASSERT_TRUE(scale.setup.temperature_width);
+    EXPECT_DOUBLE_EQ(scale.setup.temperature_width->in(kelvin), 0.4);
+    ASSERT_EQ(scale.temperature.size(), 1U);
+    EXPECT_EQ(scale.temperature[0].channel, "contact 3");
+}
+
+/// What a scale or a rotary axis reads beyond the laser of the example; a polygon: StationAngle.
+TEST(StationExample, AndTheRotaryOneExplainEveryKeyOfTheirVariants) {
+    std::set<std::string> explained = explained_keys(example_text());
+    explained.merge(explained_keys(example_text("rotary")));
+    for (const std::string& text : {text_with_scale(), example_text("rotary")})
+        for (const std::string& key : read_text(text).asked)
+            EXPECT_TRUE(explained.contains(key)) << key << " is in no example";
+}
+
 TEST(StationExample, ExplainsEveryKeyThatIsRead) {
     const auto explained = explained_keys(example_text());
     const auto asked = read_text(example_text()).asked;
@@ -68,11 +112,17 @@ TEST(StationExample, ExplainsEveryKeyThatIsRead) {
         EXPECT_TRUE(explained.contains(key)) << key << " is not in the example";
 }
 
+std::set<std::string> asked_of_scale() {
+    const auto asked = read_text(text_with_scale()).asked;
+    return {asked.begin(), asked.end()};
+}
+
 // Every commented-out key is a real one of its table: uncommented, it is at most out of place.
 TEST(StationExample, OffersNoKeyThatDoesNotExist) {
     const std::string text = example_text();
     const auto asked = read_text(text).asked;
-    const std::set<std::string> known{asked.begin(), asked.end()};
+    std::set<std::string> known{asked.begin(), asked.end()};
+    known.merge(asked_of_scale());
     for (const std::string& key : explained_keys(text)) {
         if (key.starts_with("instrument.") && !key.starts_with("instrument.channel")) continue;
         EXPECT_TRUE(known.contains(key)) << key << " is in the example, but nobody reads it";
