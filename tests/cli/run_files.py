@@ -102,21 +102,22 @@ def write(path, source, rows):
             base.execute(f"INSERT INTO {table} VALUES({marks})", (link, *values, before))
 
 
+def with_packed_windows(rows):
+    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 6 has them."""
+    return [(table, [*values[:-1], run_file_window.packed(list(struct.iter_unpack("<qdQ", values[-1])))])
+            if table == "point" else (table, values) for table, values in rows]
+
+
 def read(path):
+    """The rows of the reference run, which is of format 1, as format 6 has them."""
     with contextlib.closing(sqlite3.connect(path)) as base:
-        return [row for _, row in sorted(rows_of(base).items())]
+        return with_packed_windows([row for _, row in sorted(rows_of(base).items())])
 
 
 def put_behind(rows, table, more):
     """Behind the last row of that table."""
     last = max(i for i, row in enumerate(rows) if row[0] == table)
     rows[last + 1:last + 1] = more
-
-
-def with_packed_windows(rows):
-    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 6 has them."""
-    return [(table, [*values[:-1], run_file_window.packed(list(struct.iter_unpack("<qdQ", values[-1])))])
-            if table == "point" else (table, values) for table, values in rows]
 
 
 def with_synchronisation(rows):
@@ -133,7 +134,7 @@ def with_synchronisation(rows):
 
 def linear(reference):
     """The reference run in format 6, with all that a header can hold of a positioning run."""
-    rows = with_synchronisation(with_packed_windows(read(reference)))
+    rows = with_synchronisation(read(reference))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),
                              ("uncertainty_target", ["B_mean", 0.000005])])

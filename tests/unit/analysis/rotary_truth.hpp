@@ -85,7 +85,8 @@ inline TruthOfAngle truth_with_a_bad_table() {
 /// Eight faces before an autocollimator, the deviations of TruthOfAngle read off them: of the
 /// reading a millimetre stands for a degree.
 inline RunRecord polygon_run() {
-    RunRecord run = TruthOfAngle{}.run();
+    RunRecord run = truth_with_a_bad_table().run();
+    run.rotary->deviations_arcsec.assign(run.plan.targets.size(), 0.0);
     run.rotary->method = AngleMethod::polygon;
     run.rotary->step_deg = 45;
     run.rotary->arm = {};

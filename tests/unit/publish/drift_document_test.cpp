@@ -130,7 +130,8 @@ TEST(DriftDocument, TellsChannelsOfOneNameApartByTheirInstruments) {
     RunRecord run = made_run();
     run.channels[5] = {5, "axis 1", "second laser", "", ChannelKind::displacement, Medium::none, 0};
     const auto document = made_document(std::move(run));
-    const auto& channels = drift_to_json(document)["channels"];
+    const auto json = drift_to_json(document);
+    const auto& channels = json["channels"];
     EXPECT_EQ(channels[0]["instrument"], "laser");
     EXPECT_EQ(channels[5]["instrument"], "second laser");
     EXPECT_EQ(channels[5]["channel"], "axis 1");

@@ -45,6 +45,7 @@ RunRecord creeping(const std::function<double(double)>& creep_um, double duratio
     run.plan.points.clear();
     run.points.clear();
     run.environment.clear();
+    run.laser.instrument = "laser";
     run.laser.beam_walk = run.laser.beam_walk_travel = Length{};
     run.channels.insert(run.channels.begin(),
                         ChannelRecord{7, "axis 1", run.laser.instrument, "",

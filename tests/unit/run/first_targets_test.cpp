@@ -37,7 +37,7 @@ TEST(FirstTargets, ATurnedSignIsOneSentenceWithNumbers) {
 TEST(FirstTargets, AnAxisThatDoesNotMoveIsAnotherAxis) {
     const auto error = diagnose(0, 3.0_um, {30.0_mm});
     EXPECT_EQ(error.fault, Fault::wrong_target);
-    EXPECT_TRUE(names(error, "another axis, or the axis does not move")) << error.detail;
+    EXPECT_TRUE(names(error, "another axis is measured, or the axis does not move")) << error.detail;
     EXPECT_FALSE(names(error, "shifted"));
 }
 
