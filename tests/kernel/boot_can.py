@@ -15,7 +15,7 @@ from pathlib import Path
 
 from guest import SOURCE, check, expect, load_modules, run, run_checks, start_udev, wait_until
 from tcp_cable import TcpCable
-from usb_station import Commands, Undisturbed, UsbStation, channels_of
+from usb_station import Commands, StreamsUndisturbed, Undisturbed, UsbStation, channels_of
 
 BUS = "vcan0"
 GONE = ("unavailable", "faulty")
@@ -28,6 +28,7 @@ NETWORK = {  # behind a TcpCable each
     "ids": {"driver": "ids3010", "air": "corrected here", "wavelength": "1530 nm", "fastest": "40 m/min", "poll_period": "50 ms"},
     "indigo": {"driver": "modbus", "profile": str(SOURCE / "config/profiles/vaisala-indigo.toml")},
 }
+TOLD_WITHIN = 32  # frames: after so many the driver tells what a device skipped
 FLOOD_HZ = 4000  # with the stream about what 1 Mbit/s can carry
 
 
@@ -102,53 +103,15 @@ class CanStation(UsbStation):
         return channels and all(c["value"] is not None for c in channels)
 
 
-class StreamsUndisturbed:
-    """Watches that streams go on and miss nothing that their devices sent. A transducer that this emulation
-    did not let send in time says how much it skipped, and just that must be missed."""
-
-    def __init__(self, station, *names):
-        self.station, self.names = station, names
-
-    def books(self):
-        devices = self.station.can_status()["devices"]
-        seen = {name: self.station.instrument(name) for name in self.names}
-        return {name: {"missed": one["lost_records"] - devices[name]["skipped"], "samples": one["samples"],
-                       "others": [one[key] for key in ("restarts", "bad_frames", "checksum_errors")]} for name, one in seen.items()}
-
-    def agree(self):
-        """What was skipped last is told 32 frames later."""
-        now = self.books()
-        return all(now[name]["missed"] == then["missed"] for name, then in self.before.items()) and now
-
-    def __enter__(self):
-        wait_until("the books are settled", self.settled, 30)
-        return self
-
-    def settled(self):
-        """What was skipped before is told within 32 frames: nothing was missed while twice as many came."""
-        first = self.books()
-        more = lambda: all(one["samples"] >= first[name]["samples"] + 64 for name, one in self.books().items())
-        wait_until("sixty-four samples more", more, 30)
-        self.before = self.books()
-        return all(first[name]["missed"] == self.before[name]["missed"] for name in self.names)
-
-    def __exit__(self, kind, *_):
-        if kind is not None or not self.names:
-            return
-        try:
-            now = wait_until("lost and skipped agree", self.agree, 30)
-        except AssertionError as error:
-            raise AssertionError(f"{error}: {self.before} became {self.books()}") from None
-        for name, then in self.before.items():
-            expect(now[name]["samples"] > then["samples"], f"{name} does not go on")
-            expect(now[name]["others"] == then["others"], f"{name} was disturbed: {then} became {now[name]}")
-
-
 @contextlib.contextmanager
 def undisturbed(station, others):
     streams = [name for name in others if name in BARS]
-    with Undisturbed(station, *(name for name in others if name not in BARS)), StreamsUndisturbed(station, *streams):
+    with Undisturbed(station, *(name for name in others if name not in BARS)), watched(station, streams):
         yield
+
+
+def watched(station, streams):
+    return StreamsUndisturbed(station, lambda: station.can_status()["devices"], *streams, told_within=TOLD_WITHIN)
 
 
 def set_up_adapter():
@@ -214,7 +177,7 @@ def reads(station):
 @check("TwoTransducersStreamAtOneKilohertzWithoutAGap")
 def streams(station):
     began = time.monotonic()
-    with StreamsUndisturbed(station, *BARS):
+    with watched(station, BARS):
         two_thousand_more(station, BARS)
     devices = station.can_status()["devices"]
     print(f"two thousand samples of each within {time.monotonic() - began:.1f} s; skipped by the devices:",

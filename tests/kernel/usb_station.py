@@ -171,19 +171,16 @@ class UsbStation(bench.Bench):
 
 class Undisturbed:
     """Watches that instruments go on without a loss while something happens to others. A polled one has no
-    gaps: an answer that it missed is a time-out. `untimely` ones stream faster than emulation may be: what
-    their device could not send in time is no loss of the station's."""
+    gaps: an answer that it missed is a time-out."""
 
     LOSSES = ("restarts", "bad_frames", "checksum_errors", "timeouts", "gaps", "lost_records")
-    OF_TIME = ("gaps", "lost_records")
 
-    def __init__(self, station, *names, untimely=()):
-        self.station, self.names, self.untimely = station, names, untimely
+    def __init__(self, station, *names):
+        self.station, self.names = station, names
 
     def counts(self, name):
         one = self.station.instrument(name)
-        watched = [key for key in self.LOSSES if name not in self.untimely or key not in self.OF_TIME]
-        return {key: one[key] for key in watched}, one["frames"]
+        return {key: one[key] for key in self.LOSSES}, one["frames"]
 
     def __enter__(self):
         self.before = {name: self.counts(name) for name in self.names}
@@ -197,3 +194,52 @@ class Undisturbed:
             now, _ = self.counts(name)
             expect(now == losses, f"{name} was disturbed: {losses} became {now}")
             expect(self.station.state(name) == "available", f"{name} is {self.station.state(name)}")
+
+
+class StreamsUndisturbed:
+    """As Undisturbed, of streams at 1 kHz. A device that this emulation did not let send in time says how many
+    samples it skipped (`devices` asks it), and just those must be missed: each gap has at least one of them.
+    `told_within`: after so many samples more the driver has told what the device skipped."""
+
+    OTHERS = ("restarts", "bad_frames", "checksum_errors", "timeouts")
+
+    def __init__(self, station, devices, *names, told_within):
+        self.station, self.devices, self.names, self.told_within = station, devices, names, told_within
+
+    def books(self):
+        if not self.names:
+            return {}
+        devices = self.devices()
+        seen = {one["name"]: one for one in self.station.status()["instruments"] if one["name"] in self.names}
+        return {name: {"missed": one["lost_records"] - devices[name]["skipped"], "samples": one["samples"],
+                       "others": [one[key] for key in self.OTHERS], "state": one["state"]} for name, one in seen.items()}
+
+    def agree(self):
+        """What was skipped last is told a little later."""
+        now = self.books()
+        return all(now[name]["missed"] == then["missed"] for name, then in self.before.items()) and now
+
+    def __enter__(self):
+        wait_until("the books are settled", self.settled, 30)
+        return self
+
+    def settled(self):
+        """What was skipped before has been told: nothing was missed while twice as many samples came."""
+        first = self.books()
+        enough = {name: one["samples"] + 2 * self.told_within for name, one in first.items()}
+        wait_until(f"samples more of {', '.join(self.names)}",
+                   lambda: all(one["samples"] >= enough[name] for name, one in self.books().items()), 30)
+        self.before = self.books()
+        return all(first[name]["missed"] == self.before[name]["missed"] for name in self.names)
+
+    def __exit__(self, kind, *_):
+        if kind is not None or not self.names:
+            return
+        try:
+            now = wait_until("lost and skipped agree", self.agree, 30)
+        except AssertionError as error:
+            raise AssertionError(f"{error}: {self.before} became {self.books()}") from None
+        for name, then in self.before.items():
+            expect(now[name]["samples"] > then["samples"], f"{name} does not go on")
+            expect(now[name]["others"] == then["others"], f"{name} was disturbed: {then} became {now[name]}")
+            expect(now[name]["state"] == "available", f"{name} is {now[name]['state']}")

@@ -90,6 +90,27 @@ TEST_F(U6, ReportsHowMuchItsBufferLost) {
     EXPECT_EQ(packet[10], 39);
 }
 
+TEST_F(U6, CountsAsSkippedOnlyWhatItLostWhileATransferWaited) {
+    ask(stream_config);
+    ask({0xA8, 0xA8});
+    const auto lost_after_three_seconds = [&] {
+        now_s += 3;
+        Bytes packet = device.in(3, 64).bytes;
+        while (packet[11] == 59)
+            packet = device.in(3, 64).bytes;
+        EXPECT_EQ(packet[11], 60);
+        return packet[6] + 256U * packet[7];
+    };
+    EXPECT_EQ(device.in(3, 64).how, UsbAnswer::How::hold); // the host waits, the clock leaps
+    const std::uint64_t its_own = lost_after_three_seconds();
+    EXPECT_EQ(its_own, 2000U); // 3000, less 39 packets and the one of the report
+    EXPECT_EQ(device.skipped(), its_own);
+    now_s += 0.026;
+    EXPECT_EQ(device.in(3, 64).how, UsbAnswer::How::done); // and nobody asks any more
+    EXPECT_GT(lost_after_three_seconds(), 0U);
+    EXPECT_EQ(device.skipped(), its_own);
+}
+
 TEST(TemperDevice, AnswersItsFirmwareAndItsValuesInReports) {
     TemperDevice device{"TEMPerX_V3.3", [] { return TemperShown{24.37, -5.12, 50, true}; }};
     const Bytes firmware{0x01, 0x86, 0xFF, 0x01, 0, 0, 0, 0},

@@ -135,7 +135,7 @@ void U6Device::start_or_stop(bool start) {
     reply[0] = folded(total(ByteView{reply}.subspan(1)));
     replies_.push_back(std::move(reply));
     streaming_ = start;
-    overflowed_ = false;
+    overflowed_ = host_waits_ = false;
     started_s_ = world_.now_s();
     next_scan_ = packets_ = 0;
 }
@@ -183,6 +183,15 @@ Bytes U6Device::packet(std::uint8_t error, std::uint64_t lost) {
     return closed(std::move(frame));
 }
 
+UsbAnswer U6Device::report_loss(std::uint64_t taken) {
+    const auto count = static_cast<std::uint64_t>(per_packet_);
+    overflowed_ = false;
+    const std::uint64_t lost = std::min<std::uint64_t>(taken - count - next_scan_, 65535);
+    next_scan_ += lost;
+    if (stood_still_) skipped_ += lost;
+    return UsbAnswer::done(packet(60, lost));
+}
+
 /// A full buffer takes nothing new until it has been sent; then the report of what is missing.
 UsbAnswer U6Device::stream() {
     if (!streaming_) return UsbAnswer::hold();
@@ -190,18 +199,12 @@ UsbAnswer U6Device::stream() {
     const auto taken = static_cast<std::uint64_t>((world_.now_s() - started_s_) / period_s_ + 1e-6);
     if (!overflowed_ && taken > next_scan_ + buffer) {
         overflowed_ = true;
+        stood_still_ = host_waits_;
         buffered_until_ = next_scan_ + buffer;
     }
     if (overflowed_ && next_scan_ + count <= buffered_until_) return UsbAnswer::done(packet(59, 0));
-    if (overflowed_) {
-        if (taken < next_scan_ + count) return UsbAnswer::hold();
-        overflowed_ = false;
-        const std::uint64_t lost = std::min<std::uint64_t>(taken - count - next_scan_, 65535);
-        next_scan_ += lost;
-        return UsbAnswer::done(packet(60, lost));
-    }
     if (taken < next_scan_ + count) return UsbAnswer::hold();
-    return UsbAnswer::done(packet(0, 0));
+    return overflowed_ ? report_loss(taken) : UsbAnswer::done(packet(0, 0));
 }
 
 UsbAnswer U6Device::in(std::uint8_t endpoint, std::size_t) {
@@ -210,6 +213,7 @@ UsbAnswer U6Device::in(std::uint8_t endpoint, std::size_t) {
         while (answer.how == UsbAnswer::How::done && packets_ > swallow_from_ &&
                packets_ <= swallow_from_ + swallow_count_)
             answer = stream();
+        host_waits_ = answer.how == UsbAnswer::How::hold;
         return answer;
     }
     if (endpoint != 2) return UsbAnswer::stall();

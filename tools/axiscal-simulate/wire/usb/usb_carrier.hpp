@@ -25,6 +25,7 @@ public:
     [[nodiscard]] bool plugged() const { return pump_.joinable(); }
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] std::string state() const { return device_->state(); }
+    [[nodiscard]] std::uint64_t skipped() const { return device_->skipped(); }
     Result<void> obey(const std::string& word) { return device_->obey(word); }
     UsbFaults& faults() { return faults_; }
 

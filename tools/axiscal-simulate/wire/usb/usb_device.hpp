@@ -86,6 +86,9 @@ public:
     }
     /// What the host has set (line speed, latency), for people. Thread-safe, as is obey().
     [[nodiscard]] virtual std::string state() const { return {}; }
+    /// Samples that a streaming device lost because this computer stood still, since its making:
+    /// a loss of the simulation's, of which a real host knows nothing. Thread-safe.
+    [[nodiscard]] virtual std::uint64_t skipped() const { return 0; }
     /// What can happen to a device of this kind only. @errors bad_request for an unknown word.
     virtual Result<void> obey(const std::string& word);
 };

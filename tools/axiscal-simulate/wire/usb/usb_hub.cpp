@@ -43,7 +43,9 @@ UsbHub::open(const std::vector<std::string>& wishes, const UsbWorld& world, int 
 nlohmann::json UsbHub::status() const {
     nlohmann::json devices = nlohmann::json::object();
     for (const auto& carrier : carriers_)
-        devices[carrier->name()] = {{"plugged", carrier->plugged()}, {"state", carrier->state()}};
+        devices[carrier->name()] = {{"plugged", carrier->plugged()},
+                                    {"state", carrier->state()},
+                                    {"skipped", carrier->skipped()}};
     return {{"ready", true}, {"devices", devices}};
 }
 
