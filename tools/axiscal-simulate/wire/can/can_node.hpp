@@ -5,6 +5,7 @@
 //
 // Written from CiA 301 V4.2.
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -52,6 +53,7 @@ public:
     /// An emergency message, sent with the next advance().
     void tell_emergency(std::uint16_t code, std::uint8_t error_register, const Bytes& maker);
     [[nodiscard]] std::uint64_t pdos_sent() const { return pdos_sent_; }
+    /// Thread-safe.
     [[nodiscard]] std::uint64_t pdos_skipped() const { return pdos_skipped_; }
     [[nodiscard]] int number() const { return static_cast<int>(node_); }
 
@@ -93,7 +95,8 @@ private:
     std::vector<CanMessage> waiting_; ///< boot-up, emergencies
     std::map<int, double> next_pdo_s_;
     double next_beat_s_ = 0;
-    std::uint64_t pdos_sent_ = 0, pdos_skipped_ = 0;
+    std::uint64_t pdos_sent_ = 0;
+    std::atomic<std::uint64_t> pdos_skipped_{0};
 };
 
 /// The lowest `bytes` (0 to 8) of a number as the bus carries them; negative: two's complement.

@@ -127,6 +127,14 @@ UsbAnswer GsUsbDevice::in(std::uint8_t, std::size_t) {
     return UsbAnswer::done(std::move(frame));
 }
 
+std::string GsUsbDevice::state() const {
+    std::string told;
+    for (const auto& node : nodes_)
+        told += (told.empty() ? "node " : ", node ") + std::to_string(node->number()) +
+                " skipped " + std::to_string(node->pdos_skipped());
+    return told;
+}
+
 Result<void> GsUsbDevice::obey(const std::string& word) {
     if (word != "bus-off") return fail(Fault::bad_request, "an adapter knows \"bus-off\" only");
     goes_off_ = true;

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] std::chrono::milliseconds pace() const override {
         return std::chrono::milliseconds{1};
     }
+    /// What each node did not send because this computer stood still: "node 127 skipped 3, ...".
+    [[nodiscard]] std::string state() const override;
     /// "bus-off": the controller leaves its bus until the host starts it anew.
     Result<void> obey(const std::string& word) override;
 
