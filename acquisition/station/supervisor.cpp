@@ -163,10 +163,22 @@ struct Supervisor::Seat final : SampleSink {
     }
     void identify(const Identity& identity) override { view.identity = identity; }
     /// What ended a connection that had given values is told however soon it comes after another
-    /// note.
+    /// note. What only one try of the outage met, an adapter that has not let go yet, is none of
+    /// its reasons; and that nothing answers is one, in whatever words the next try says it.
     void end_with(const Error& error) {
-        if (!std::exchange(outage_told, true)) told_at.reset();
-        note(error.fault, describe(error));
+        std::string sentence = describe(error);
+        const bool stays = std::exchange(ended_with, sentence) == sentence;
+        const bool still_silent =
+            error.fault == Fault::link_timeout && told_fault == Fault::link_timeout;
+        const bool begins = !std::exchange(outage_told, true);
+        if (begins) told_at.reset();
+        if (begins || (stays && !still_silent)) return note(error.fault, std::move(sentence));
+        keep(error.fault, std::move(sentence));
+        ++view.repeats;
+    }
+    void keep(Fault fault, std::string sentence) {
+        view.last_fault = fault;
+        view.last_note = std::move(sentence);
     }
     [[nodiscard]] bool is_played_out() const { return tape && tape->player.at_end(); }
     /// Told however soon it comes: nothing follows it.
@@ -178,8 +190,7 @@ struct Supervisor::Seat final : SampleSink {
         const MonotonicTime now = supervisor.scheduler_.now();
         const bool again = fault == told_fault && sentence == told_note;
         const bool too_soon = told_at && now - *told_at < between_notes;
-        view.last_fault = fault;
-        view.last_note = std::move(sentence);
+        keep(fault, std::move(sentence));
         if (again || too_soon) return void(++view.repeats);
         view.repeats = 0;
         told_at = now;
@@ -196,6 +207,7 @@ struct Supervisor::Seat final : SampleSink {
     InstrumentView view;
     std::optional<MonotonicTime> last_sample, last_good; ///< on this connection
     bool outage_told = false; ///< what ended the last connection that gave values
+    std::string ended_with;   ///< the last try
     std::optional<MonotonicTime> told_at;
     Fault told_fault = Fault::none; ///< what the listener heard last
     std::string told_note;

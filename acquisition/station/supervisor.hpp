@@ -61,7 +61,8 @@ public:
     /// The state changed; at most a few times a second, for a restart waits.
     virtual void on_instrument_state(const InstrumentView& view) = 0;
     /// Something new to tell. What was told last, and what comes within two seconds of it, is only
-    /// counted: an instrument that floods must not drown the others. What goes on is told then.
+    /// counted: an instrument that floods must not drown the others. What goes on is told then. Of
+    /// one outage its reason is told at once, another one when two tries in a row ended with it.
     virtual void on_instrument_note(const InstrumentView& view) = 0;
 };
 

@@ -123,8 +123,11 @@ Result<int> open_tty(const LinkSettings& settings) {
     ::ioctl(tty.get(), TIOCEXCL); // best effort: root passes it anyway
     if (!make_raw(tty.get(), settings, speed->code))
         return fail(Fault::link_closed, name + " refuses these line settings", last_error());
-    if (!set_modem_line(tty.get(), TIOCM_DTR, settings.dtr) ||
-        !set_modem_line(tty.get(), TIOCM_RTS, settings.rts))
+    const bool powered = set_modem_line(tty.get(), TIOCM_DTR, settings.dtr) &&
+                         set_modem_line(tty.get(), TIOCM_RTS, settings.rts);
+    if (!powered && errno == EIO) // the transfer failed: of its lines that says nothing
+        return fail(Fault::link_timeout, name + ": the adapter does not take its settings");
+    if (!powered)
         return fail(Fault::link_closed, name + " has no modem lines to power it", last_error());
     // What waited in the kernel before has no honest arrival time.
     ::tcflush(tty.get(), TCIFLUSH);

@@ -206,8 +206,11 @@ TEST(UrbServer, SpoilsWhatTheDeviceSays) {
     host.faults.set(UsbFault::corrupt, 0x80);
     host.submit(2, true, 0, {}, 8, ask);
     EXPECT_EQ(host.reply(true).bytes, (Bytes{'f', 'w' ^ 0x80, '1'}));
-    host.faults.set(UsbFault::stall, 0);
+    host.faults.set(UsbFault::garble, 0x80);
     host.submit(3, true, 0, {}, 8, ask);
+    EXPECT_EQ(host.reply(true).bytes, (Bytes{'f' ^ 0x80, 'w' ^ 0x80, '1' ^ 0x80}));
+    host.faults.set(UsbFault::stall, 0);
+    host.submit(4, true, 0, {}, 8, ask);
     EXPECT_EQ(host.reply(true).status, -EPIPE);
 }
 
@@ -227,6 +230,7 @@ TEST(UsbFaults, RefusesWordsAndNumbersThatMeanNothing) {
     UsbFaults faults;
     EXPECT_FALSE(faults.set("deaf", 0));
     EXPECT_FALSE(faults.set("corrupt", 0));
+    EXPECT_FALSE(faults.set("garble", 256));
     EXPECT_FALSE(faults.set("cut", -1));
     EXPECT_TRUE(faults.set("none", 0));
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -73,6 +74,11 @@ public:
     Task<Result<void>> run(InstrumentContext context) override {
         ++opened;
         opened_at.push_back(context.scheduler->now());
+        if (!refuses_with.empty()) {
+            Error error = refuses_with.front();
+            refuses_with.pop_front();
+            co_return tl::unexpected<Error>(std::move(error));
+        }
         if (unplugged && !link) co_return fail(Fault::link_closed, "no such device");
         if (link) {
             const auto link_open = co_await context.links->open(*link, context.scheduler->now());
@@ -99,6 +105,7 @@ public:
     std::optional<LinkSettings> link; ///< opened first, where there is one
     /// Mute: the next device is asked whether it is the wanted one.
     std::optional<LinkSettings> asks_the_next_too;
+    std::deque<Error> refuses_with; ///< each opening ends with the next of them
     bool unplugged = false, silent = false;
     Quality quality = Quality::good;
     std::uint32_t epoch = 0;

@@ -77,6 +77,33 @@ TEST_F(Supervision, ANoteJustBeforeAnOutageDoesNotHideItsReason) {
     EXPECT_EQ(life.notes_with("unplugged"), 1);
 }
 
+TEST_F(Supervision, WhatOnlyOneTryOfAnOutageMeetsIsNotTold) {
+    life.run(5s);
+    life.air->unplugged = true;
+    life.air->refuses_with = {Error{Fault::link_closed, "not let go of yet", {}, {}}};
+    life.run(20s);
+    EXPECT_EQ(life.notes_with("unplugged"), 1);
+    EXPECT_EQ(life.notes_with("not let go of yet"), 0);
+    EXPECT_EQ(life.notes_with("no such device"), 1) << "what stays is told";
+}
+
+TEST_F(Supervision, ThatNothingAnswersIsOneReasonInWhateverWords) {
+    Shop other;
+    Life young{other};
+    const Error hangs{Fault::link_timeout, "the adapter hangs", {}, {}};
+    young.air->refuses_with = {Error{Fault::link_timeout, "no reading", {}, {}}, hangs, hangs,
+                               hangs, hangs};
+    young.air->unplugged = true;
+    young.run(5s); // tries after 0, 0.25, 0.75, 1.75 and 3.75 s
+    EXPECT_EQ(young.notes_with("no reading"), 1);
+    EXPECT_EQ(young.notes_with("the adapter hangs"), 0);
+    const auto views = young.status().instruments;
+    const auto air = std::ranges::find(views, std::string{"air"}, &InstrumentView::name);
+    EXPECT_NE(air->last_note.find("the adapter hangs"), std::string::npos) << "it is shown";
+    young.run(20s);
+    EXPECT_EQ(young.notes_with("no such device"), 1) << "another reason that stays";
+}
+
 TEST_F(Supervision, SilenceIsUnavailableAndBadValuesAreFaulty) {
     life.air->silent = true;
     life.laser->quality = Quality::beam_lost;

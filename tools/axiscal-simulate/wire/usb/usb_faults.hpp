@@ -9,9 +9,9 @@ namespace axiscal::simulate {
 
 /// mute: NAK for ever on all but standard requests (the application hangs, its USB core lives).
 /// stall: every such transfer ends with STALL. cut: IN transfers lose all beyond `number` bytes.
-/// corrupt: one byte in the middle of each IN transfer is XORed with `number`. descriptors: the
-/// configuration is cut short, told at the next plugging-in.
-enum class UsbFault : std::uint8_t { none, mute, stall, cut, corrupt, descriptors };
+/// corrupt: one byte in the middle of each IN transfer is XORed with `number`; garble: each byte.
+/// descriptors: the configuration is cut short, told at the next plugging-in.
+enum class UsbFault : std::uint8_t { none, mute, stall, cut, corrupt, garble, descriptors };
 
 class UsbFaults {
 public:

@@ -19,8 +19,8 @@ public:
     open(const std::vector<std::string>& wishes, const UsbWorld& world, int first_port);
 
     /// One line of the control channel; the answer is one JSON object: status, plug NAME,
-    /// unplug NAME, tell NAME WORD, fault NAME none|mute|stall|cut N|corrupt MASK|descriptors,
-    /// quit.
+    /// unplug NAME, tell NAME WORD, fault NAME none|mute|stall|cut N|corrupt MASK|
+    /// garble MASK|descriptors, quit.
     nlohmann::json command(const std::string& line);
     [[nodiscard]] nlohmann::json status() const;
     [[nodiscard]] bool ended() const { return ended_; }
