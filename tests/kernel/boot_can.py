@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 from guest import SOURCE, check, expect, load_modules, run, run_checks, start_udev, wait_until
+from recorded import on_tape
 from tcp_cable import TcpCable
 from usb_station import Commands, StreamsUndisturbed, Undisturbed, UsbStation, channels_of
 
@@ -359,6 +360,17 @@ def broken_descriptors(station):
 def mute(station):
     suffers(station, FAR, lambda: station.usb("fault adapter mute"), lambda: station.usb("fault adapter none"),
             ["does not answer", "does not get rid of its frames"])
+
+
+@check("RecordingsByCanAndTcpGiveTheirDriversTheSameReadings")
+def recorded(station):
+    """A transducer and a thermometer behind the adapter, the IDS by its JSON on TCP, the Indigo by Modbus, led over a port made between.
+    The daemon is not needed any more."""
+    last = on_tape(station, {"far-bar": "can", "far-probe": "can", "ids": "tcp"}, modbus=["indigo"])
+    near("far-bar", last["far-bar", "ballbar"], 2.5e-3, 1e-9)
+    near("far-probe", last["far-probe", "contact 1"], station.scenario["thermal"]["material"]["start"], 0.5)
+    near("indigo", last["indigo", "air temperature"], station.scenario["air"]["temperature"]["start"], 0.5)
+    expect(("ids", "axis 1") in last, f"the IDS gave {last}")
 
 
 def main():

@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 from guest import PROGRAMS, check, expect, load_modules, run, run_checks, start_udev, wait_until
+from recorded import on_tape
 from usb_station import LASER, LINKS, StreamsUndisturbed, Undisturbed, UsbStation, kernel_drivers
 
 NAMES = ("air", "material", "ballbar")
@@ -389,6 +390,18 @@ def gadget(station):
 @check("TemperWithoutUsbIsReadByUhid")
 def uhid(station):
     comes_by(station, "uhid")
+
+
+@check("RecordingsByUsbfsHidrawAndOneWireGiveTheirDriversTheSameReadings")
+def recorded(station):
+    """Control requests, bulk stream, HID reports and the kernel's texts. Nobody starts the daemon again: the next station is another."""
+    last = on_tape(station, {"air": "usb", "ballbar": "usb", "material": "hid", CONTACTS: "files"})
+    material = station.scenario["thermal"]["material"]["start"]
+    near("air temperature", last["air", "air temperature"], station.scenario["air"]["temperature"]["start"], 0.5)
+    near("ballbar", last["ballbar", "ballbar"], VOLTS * 1e-4, 2e-8)
+    near("probe", last["material", "probe temperature"], material, 0.5)
+    for n in (1, 2):
+        near(f"contact {n}", last[CONTACTS, f"contact {n}"], material, 0.5)
 
 
 @check("TemperIsReadByHidapiOverLibusbToo")
