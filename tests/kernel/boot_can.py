@@ -132,6 +132,11 @@ def set_up_adapter():
     run("ip", "link", "set", ADAPTER_BUS, "up")
 
 
+def restart_adapter():
+    run("ip", "link", "set", ADAPTER_BUS, "down")
+    run("ip", "link", "set", ADAPTER_BUS, "up")
+
+
 def suffers(station, names, begin, end, reasons):
     """`begin` spoils the named instruments, all are given up, `end` mends them, all come back within 5 s;
     all others lose nothing meanwhile. Each change of state is one line; the reason, one of those expected, is
@@ -204,15 +209,11 @@ def down(station):
 @check("BusOffOfAnAdapterIsNamedAndComesBack")
 def bus_off(station):
     """gs_usb refuses restart-ms: the link is set down and up, as the page says."""
-    def restart():
-        run("ip", "link", "set", ADAPTER_BUS, "down")
-        run("ip", "link", "set", ADAPTER_BUS, "up")
-
     def leave_the_bus():
         station.usb("tell adapter bus-off")
         wait_until("the kernel knows of it", lambda: "BUS-OFF" in run("ip", "-details", "link", "show", ADAPTER_BUS))
 
-    suffers(station, FAR, leave_the_bus, restart, [f"{ADAPTER_BUS} is bus-off", f"{ADAPTER_BUS} is down"])
+    suffers(station, FAR, leave_the_bus, restart_adapter, [f"{ADAPTER_BUS} is bus-off", f"{ADAPTER_BUS} is down"])
 
 
 @check("FloodOfForeignFramesIsHeardByNobody")
@@ -360,6 +361,19 @@ def broken_descriptors(station):
 def mute(station):
     suffers(station, FAR, lambda: station.usb("fault adapter mute"), lambda: station.usb("fault adapter none"),
             ["does not answer", "does not get rid of its frames"])
+
+
+@check("AdapterThatStallsOrCutsItsFramesIsGivenUpAndComesBackWithItsLink")
+def adapter_spoilt(station):
+    """gs_usb never reads again after a STALL, and a frame whose echo came short keeps its place among the ten that may be on
+    their way: as after bus-off the link is set down and up."""
+    def mend():
+        station.usb("fault adapter none")
+        restart_adapter()
+
+    for fault in ("stall", "cut 3"):  # of the 20 bytes of a frame
+        suffers(station, FAR, lambda fault=fault: station.usb(f"fault adapter {fault}"), mend,
+                ["does not answer", "does not get rid of its frames"])
 
 
 @check("RecordingsByCanAndTcpGiveTheirDriversTheSameReadings")

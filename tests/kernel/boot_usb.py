@@ -24,6 +24,7 @@ GONE = ("unavailable", "faulty")
 VOLTS = -2.5  # at the U6's input; 1 mm stands for 10 V
 CONTACTS = "contacts"
 SENSORS = ("28-000000000001", "28-000000000002")
+MOST_OF_CONTACTS = 3  # lines of one outage: two sensors go and come one after the other: one, both, one
 ADAPTER = ("04fa", "2490")
 LACKS = {  # whose configuration was cut within its last descriptor, as the log names it; the socket is the kernel's choice
     "air": r"USB 1781:0a98 serial number A10234 port \S+ shows no interface 0:",  # it has no endpoints
@@ -113,7 +114,8 @@ def suffers(station, names, begin, end):
         print(f"back after {time.monotonic() - mended:.1f} s")
     for name in names:
         lines = station.lines_of(name, since)
-        expect(len(lines) == 1, f"{name} is told {len(lines)} times: {lines}")
+        told_well = len(lines) == 1 if name != CONTACTS else len(lines) <= MOST_OF_CONTACTS
+        expect(told_well, f"{name} is told {len(lines)} times: {lines}")
         changes = station.changes_of(name, since)
         expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{name} changed: {changes}")
 
@@ -202,7 +204,8 @@ def mute(station):
 
 @check("UsbInstrumentsThatStallAreGivenUpAndComeBack")
 def stall(station):
-    spoilt(station, NAMES, "stall")
+    """The 1-Wire adapter, too: w1_therm reads nothing or zeros, at once."""
+    spoilt(station, (*NAMES, CONTACTS), "stall")
 
 
 @check("ShortTransfersAreNoReadings")
@@ -315,8 +318,7 @@ def adapter_spoilt(station):
             station.wait_until_good(CONTACTS)
             print(f"{fault}: back after {time.monotonic() - mended:.1f} s")
         told, changes = station.lines_of(CONTACTS, since), station.changes_of(CONTACTS, since)
-        # Two contacts go and come one after the other: one, both, one.
-        expect(len(told) <= 3, f"why it is gone is told {len(told)} times: {told}")
+        expect(len(told) <= MOST_OF_CONTACTS, f"why it is gone is told {len(told)} times: {told}")
         expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{changes}")
 
 
