@@ -3,6 +3,7 @@
 #include "analysis/certificate_expiry.hpp"
 #include "analysis/channel_correction.hpp"
 #include "analysis/preflight_remarks.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -260,6 +261,8 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
                     "the run was not closed as complete" +
                         (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
     AXISCAL_TRY(Compensated compensated, compensate_to_20C(run, revisions));
+    const Duration clock_off =
+        tell_times_by_one_clock(run.opened, run.events, revisions.retakes, run.closed);
     PositioningResult result = evaluate_positioning(compensated.deviations);
     Certificate certificate{std::move(run),
                             std::move(result),
@@ -282,6 +285,8 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     fill_environment(certificate);
     fill_dates(certificate);
     certificate.remarks = remarks_on(certificate.run, certificate.compensation);
+    if (std::string remark = remark_on_clock(clock_off); !remark.empty())
+        certificate.remarks.push_back(std::move(remark));
     remark_on_revisions(certificate, certificate.remarks);
     remark_on_number_of_readings(certificate, certificate.remarks);
     remark_on_preflight(certificate.revisions.preflight, certificate.remarks);

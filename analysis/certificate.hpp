@@ -33,7 +33,8 @@ struct EnvironmentTrace { ///< for the plot: seconds since the first point, valu
 };
 
 struct Certificate {
-    RunRecord run; ///< as read from the file (samples may be dropped)
+    /// As read from the file (samples may be dropped), its times told by one clock (run_clock.hpp).
+    RunRecord run;
     PositioningResult result;
     RunAt20C deviations;
     CompensationSummary compensation;

@@ -157,6 +157,7 @@ Result<bool> is_run_closed(const Database& database);
 struct RunSummary {
     bool circular = false; ///< a circular test
     std::string path, run_id, machine, axis, closing_reason;
+    std::string boot_id; ///< of the computer when the run was opened
     std::int64_t opened_utc_ns = 0;
     int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;

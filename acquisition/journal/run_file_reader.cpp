@@ -312,6 +312,7 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     RunSummary summary;
     summary.path = path;
     AXISCAL_TRY(summary.run_id, text_of("SELECT run_id FROM run"));
+    AXISCAL_TRY(summary.boot_id, text_of("SELECT boot_id FROM run"));
     AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
     const std::string last_closing = " FROM closing ORDER BY link DESC LIMIT 1";

@@ -4,6 +4,7 @@
 #include "acquisition/publish/csv_text.hpp"
 #include "acquisition/publish/uncertainty_json.hpp"
 #include "analysis/environment_history.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <algorithm>
 
@@ -139,6 +140,7 @@ void append_points(std::string& csv, const Certificate& certificate) {
     const bool rotary = run.plan.axis_kind == AxisKind::rotary;
     const double deviation_factor = rotary ? 3600 : 1000;
     const EnvironmentHistory history{run};
+    const ClockTie tie = tie_of_points(run.opened, run.events);
     for (std::size_t k = 0; k < run.points.size(); ++k) {
         const PointRecord& point = run.points[k];
         const bool forward = point.planned.direction == Direction::positive;
@@ -154,7 +156,7 @@ void append_points(std::string& csv, const Certificate& certificate) {
                          csv_number(target), csv_number(target + deviation),
                          csv_number(deviation * deviation_factor), csv_number(around.air_degC),
                          csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
-                         csv_number(around.material_degC), iso8601_utc(run.opened.utc_ns_at(at)),
+                         csv_number(around.material_degC), iso8601_utc(tie.utc_ns_at(at)),
                          csv_number(synchronisation_error(certificate, point))});
     }
 }

@@ -6,6 +6,7 @@
 #include "acquisition/publish/csv_text.hpp"
 #include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <array>
 
@@ -188,6 +189,8 @@ Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
         return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
     if (!contents.attachments.drift) return fail(Fault::refused, run_file + " is no drift test");
     AXISCAL_TRY(document.drift, evaluate_drift(contents.run, *contents.attachments.drift));
+    tell_times_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.retakes,
+                            contents.run.closed);
     document.run = std::move(contents.run);
     document.attachments = std::move(contents.attachments);
     document.result_digest = digest_of(document.drift);

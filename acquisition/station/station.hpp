@@ -253,6 +253,7 @@ private:
     Task<void> publish_done_of_closed(std::string newest_path);
     Task<Result<void>>
     close_left_over(std::string path, std::string reason, Fault fault, bool whole);
+    void mark_another_boot(const std::string& boot_id_of_run);
     [[nodiscard]] std::string laser_serial() const;
     [[nodiscard]] const StationChannel& channel_of(int id) const;
 

@@ -9,6 +9,7 @@
 #include "acquisition/station/environment_limits.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "analysis/run_clock.hpp"
 #include "drivers/spawn.hpp"
 
 #include <algorithm>
@@ -306,7 +307,7 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     run_->limits_waived = waived;
     const std::string away = run.boot_id == boot_id_
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
-                                 : "while the computer was restarted";
+                                 : "while " + std::string{computer_restarted};
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
     feed(EnvironmentNow{scale_within_limits()});
@@ -346,7 +347,9 @@ Task<void> Station::publish_done_of_closed(std::string newest_path) {
 
 Task<Result<void>>
 Station::close_left_over(std::string path, std::string reason, Fault fault, bool whole) {
+    const auto stored = co_await journal_.summarize(path);
     if (auto reopened = co_await journal_.reopen(path); !reopened) co_return reopened;
+    if (stored) mark_another_boot(stored->boot_id);
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
     if (whole) reason = "Every planned point is durable; not every retake was done: " + reason;
     if (auto closed = co_await journal_.close(whole, reason); !closed) {

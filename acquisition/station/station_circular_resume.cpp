@@ -86,8 +86,10 @@ Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileCon
 
 /// The CNC heard of its last request, or will: publish_done_of_closed() tells it again.
 Task<Result<void>> Station::close_driven_circles(std::string path) {
+    const auto stored = co_await journal_.summarize(path);
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
+    if (stored) mark_another_boot(stored->boot_id);
     const std::string reason = "Every circle was driven.";
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, Fault::none, 0}});
     if (auto closed = co_await journal_.close(true, reason); !closed) {

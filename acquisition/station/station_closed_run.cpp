@@ -6,6 +6,7 @@
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/environment_limits.hpp"
 #include "acquisition/station/patience.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <utility>
 
@@ -41,6 +42,14 @@ void Station::watch_set_up(const Sample& sample) {
                            since + ", faster than the axis can move";
     }
     if (sample.value()) last_reading_ = sample;
+}
+
+/// What is written now counts by another monotonic clock: who tells its times has to know.
+void Station::mark_another_boot(const std::string& boot_id_of_run) {
+    if (boot_id_of_run == boot_id_) return;
+    perform(RecordEvent{{EventKind::note, scheduler_.now(), 0,
+                         "What follows was written after " + std::string{computer_restarted} + ".",
+                         Fault::none, 0}});
 }
 
 Task<Result<RunSummary>> Station::newest_closed_run() {

@@ -128,7 +128,10 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
     const int count = static_cast<int>(new_exclusion_->exclusions.size());
     revising_ = true;
     auto kept = co_await keep_revision(std::move(before));
-    if (kept && run_->closed) kept = co_await close_again();
+    if (kept && run_->closed) {
+        mark_another_boot(run_->header.boot_id);
+        kept = co_await close_again();
+    }
     revising_ = false;
     if (!kept) co_return tl::unexpected<Error>(kept.error());
     note(counted(count, "reading") + " of run " + run_->header.run_id +

@@ -148,6 +148,7 @@ void remark_on_figures(CircularCertificate& certificate) {
     if (measured.taken_elsewhere)
         remarks.emplace_back("The readings were not taken by this station: they and all that is "
                              "stated here come from the case file.");
+    if (!measured.clock_remark.empty()) remarks.push_back(measured.clock_remark);
     if (!certificate.parameters.correction_mm)
         remarks.emplace_back("F and D stand as measured, not at 20 °C: the temperatures and "
                              "expansion coefficients of machine and bar and the bar's calibrated "

@@ -42,6 +42,7 @@ struct CircularMeasurement {
     std::optional<CircularUncertaintyStatement> stated;
     int trials = 1000; ///< of the Monte Carlo evaluation
     std::string started_utc, finished_utc, next_due;
+    std::string clock_remark; ///< of a clock that was set in mid-run; empty: it was not
 };
 
 struct CircularCertificate {

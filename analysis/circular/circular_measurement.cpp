@@ -2,6 +2,7 @@
 
 #include "analysis/certificate_expiry.hpp"
 #include "analysis/circular/circular_certificate.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <algorithm>
 #include <array>
@@ -89,6 +90,9 @@ Result<CircularMeasurement> measurement_of(CircularRun run) {
     measured.conditions = conditions_of(run);
     measured.expansion = expansion_of(run);
     measured.stated = statement_of(run);
+    std::vector<RetakeRecord> no_retakes; // circles are driven anew instead
+    measured.clock_remark =
+        remark_on_clock(tell_times_by_one_clock(run.opened, run.events, no_retakes, run.closed));
     measured.started_utc = iso8601_utc(run.opened.utc_ns);
     measured.finished_utc = iso8601_utc(run.closed.utc_ns);
     measured.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)

@@ -42,6 +42,7 @@ TEST(Certificate, DatesComeFromTheRunAlone) {
     EXPECT_EQ(certificate->finished_utc, "2020-02-29T01:00:00Z");
     EXPECT_EQ(certificate->issued_on, "2020-02-29");
     EXPECT_EQ(certificate->next_due, "2021-02-28") << "there is no 29 February 2021";
+    run.opened.utc_ns = 1'582'848'000 * second_ns; // 2020-02-28T00:00:00Z
     run.closed.utc_ns = 1'582'851'600 * second_ns; // 2020-02-28T01:00:00Z
     EXPECT_EQ(make_certificate(run, "")->next_due, "2021-02-28");
     run.statements.next_due = "2022-06-30";

@@ -72,6 +72,7 @@ inline CircularRun circular_run(unsigned seed = 1) {
     run.station = "station 7";
     run.config_hash = std::string(64, 'c');
     run.opened.utc_ns = 1767225600'000'000'000;
+    run.closed.before = run.closed.after = monotonic_from_ns(3600'000'000'000);
     run.closed.utc_ns = 1767229200'000'000'000; // 2026-01-01 01:00 UTC
     run.complete = true;
     run.plan.nominal_radius_mm = 150;

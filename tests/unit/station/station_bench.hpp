@@ -244,6 +244,7 @@ struct Shop {
     bool laser_number_wraps = false;
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
+    std::string boot_id = "boot-1";
     bool port_broken = false;
     Duration port_looks_every = 100ms;
     bool linked = false; ///< each instrument opens a link of Life::links
@@ -443,7 +444,7 @@ private:
         StationParts made;
         made.config = shop.config;
         made.config_hash = sha256_hex(shop.config.text);
-        made.boot_id = "boot-1";
+        made.boot_id = shop.boot_id;
         made.report_program = report;
         made.journal_thread = JournalThread::caller;
         std::vector<Channel> of_light{shop.first_channel};

@@ -1,0 +1,104 @@
+// The clock of the station's computer is set in mid-run and left so, through events, retakes and
+// the closing: what is printed goes on by the clock of the opening.
+#include "tests/unit/station/station_bench.hpp"
+
+#include "analysis/certificate.hpp"
+#include "analysis/run_clock.hpp"
+
+namespace axiscal::testing::station_clock_test {
+namespace {
+
+class StationClock : public ::testing::TestWithParam<Duration> {
+protected:
+    void SetUp() override { shop.shorten(); }
+    static RevisionRequest of_target(int target) {
+        RevisionRequest request;
+        request.selection.target = target;
+        request.reason = "coolant";
+        return request;
+    }
+    [[nodiscard]] RunFileContents contents() const {
+        return read_run_file_contents(shop.run_files().at(0)).value();
+    }
+    static Certificate printed(const RunFileContents& file) {
+        return make_certificate(file.run, file.revisions, "").value();
+    }
+    void run_with_a_retake(Life& life, Duration set_by) {
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 10; ++step) {
+            if (step == 4) life.scheduler.utc_at_zero_ns += set_by.count();
+            ASSERT_TRUE(life.take(step)) << step;
+        }
+        life.run(2s);
+        ASSERT_TRUE(life.retake(of_target(2)));
+        ASSERT_TRUE(life.take(2, 11));
+        ASSERT_TRUE(life.take(7, 12));
+        life.run(2s);
+    }
+    Shop shop;
+};
+
+TEST_P(StationClock, SetInMidRunMovesNothingOnPaperAndTheFileKeepsWhatItSaid) {
+    Life life{shop};
+    const std::int64_t right = life.scheduler.utc_at_zero_ns;
+    run_with_a_retake(life, GetParam());
+    const RunFileContents file = contents();
+    const auto by_right_clock = [&](MonotonicTime at) {
+        return iso8601_utc(right + nanoseconds_of(at));
+    };
+    EXPECT_EQ(file.run.closed.utc_ns,
+              right + GetParam().count() + nanoseconds_of(file.run.closed.before));
+    const Certificate paper = printed(file);
+    EXPECT_EQ(paper.started_utc, by_right_clock(file.run.opened.before));
+    EXPECT_EQ(paper.finished_utc, by_right_clock(file.run.closed.before));
+    EXPECT_LE(paper.started_utc, paper.finished_utc);
+    EXPECT_EQ(paper.issued_on, paper.finished_utc.substr(0, 10));
+    ASSERT_EQ(paper.revisions.retakes.size(), 1U);
+    EXPECT_EQ(iso8601_utc(paper.revisions.retakes[0].utc_ns),
+              by_right_clock(file.revisions.retakes[0].at));
+    EXPECT_GT(paper.run.events.size(), 1U);
+    for (const EventRecord& event : paper.run.events)
+        EXPECT_EQ(iso8601_utc(event.utc_ns), by_right_clock(event.at)) << event.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(ByHours, StationClock, ::testing::Values(-1h, 1h, -9000h));
+
+using StationClockOfAnotherBoot = StationClock;
+
+/// The uptime is longer than the first boot's ever was: no number shows that it is another.
+TEST_P(StationClockOfAnotherBoot, TellsTheClosingOfThatBootByItsOwnClock) {
+    shop.config.cycle.approaches = 3;
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 30; ++step)
+            ASSERT_TRUE(life.take(step)) << step;
+        life.run(2s);
+    }
+    const Certificate first = printed(contents());
+    shop.boot_id = "boot-2";
+    shop.now += GetParam();
+    Life life{shop};
+    life.scheduler.utc_at_zero_ns += std::chrono::nanoseconds{30 * 24h}.count();
+    const std::int64_t of_this_boot = life.scheduler.utc_at_zero_ns;
+    RevisionRequest request = of_target(1);
+    request.selection.direction = Direction::positive;
+    request.selection.approach = 0;
+    ASSERT_TRUE(life.exclude(request));
+    const RunFileContents file = contents();
+    ASSERT_TRUE(file.closed);
+    const Certificate paper = printed(file);
+    EXPECT_EQ(paper.started_utc, first.started_utc);
+    EXPECT_EQ(paper.finished_utc,
+              iso8601_utc(of_this_boot + nanoseconds_of(file.run.closed.before)));
+    EXPECT_EQ(nanoseconds_of(tie_of_points(file.run.opened, file.run.events).before),
+              nanoseconds_of(file.run.opened.before))
+        << "the points were measured in the first boot";
+}
+
+INSTANTIATE_TEST_SUITE_P(LaterAndMuchLater,
+                         StationClockOfAnotherBoot,
+                         ::testing::Values(60s, 5000s));
+
+} // namespace
+} // namespace axiscal::testing::station_clock_test
