@@ -128,8 +128,11 @@ Task<Result<JournalReceipt>> Journal::receipt_of_closed(std::string path) {
     co_return JournalReceipt{last->sequence, last->step};
 }
 
-Task<Result<StoredRuns>> Journal::stored_runs(std::string folder) {
-    std::function<Result<StoredRuns>()> work = [folder] { return look_through_runs(folder); };
+Task<Result<StoredRuns>> Journal::stored_runs(std::string folder, std::string boot_id) {
+    const PresentBoot present{std::move(boot_id), scheduler_.clock_tie()};
+    std::function<Result<StoredRuns>()> work = [folder, present] {
+        return look_through_runs(folder, present);
+    };
     co_return co_await perform<Worker, StoredRuns>(worker_.get(), std::move(work));
 }
 

@@ -78,8 +78,8 @@ public:
     /// @errors Fault::not_found when no request did; Fault::refused while it is open.
     Task<Result<JournalReceipt>> receipt_of_closed(std::string path);
 
-    /// look_through_runs() off the loop.
-    Task<Result<StoredRuns>> stored_runs(std::string folder);
+    /// look_through_runs() off the loop. `boot_id`: of the computer now.
+    Task<Result<StoredRuns>> stored_runs(std::string folder, std::string boot_id);
     /// summarize_run_file() off the loop.
     Task<Result<RunSummary>> summarize(std::string path);
 

@@ -158,7 +158,8 @@ struct RunSummary {
     bool circular = false; ///< a circular test
     std::string path, run_id, machine, axis, closing_reason;
     std::string boot_id; ///< of the computer when the run was opened
-    std::int64_t opened_utc_ns = 0;
+    MonotonicTime opened_at;
+    std::int64_t opened_utc_ns = 0; ///< what the clock said
     int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;
     bool evaluated = false; ///< a result is stored since the last closing

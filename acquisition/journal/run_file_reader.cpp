@@ -1,5 +1,6 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/journal/run_file_open.hpp"
+#include "acquisition/journal/run_order.hpp"
 #include "acquisition/journal/schema.hpp"
 
 #include <algorithm>
@@ -302,6 +303,23 @@ Result<StoredResult> read_stored_result(const std::string& path) {
     return StoredResult{*digest, *document};
 }
 
+namespace {
+
+Result<void> take_opening(const Database& database, RunSummary& summary) {
+    AXISCAL_TRY(const auto rows, rows_of(database, "SELECT run_id, boot_id, opened_before_ns, "
+                                                   "opened_utc_ns FROM run LIMIT 1"));
+    if (rows.empty()) return {};
+    if (const auto* id = std::get_if<std::string>(&rows[0][0])) summary.run_id = *id;
+    if (const auto* boot = std::get_if<std::string>(&rows[0][1])) summary.boot_id = *boot;
+    if (const auto* at = std::get_if<std::int64_t>(&rows[0][2]))
+        summary.opened_at = monotonic_from_ns(*at);
+    if (const auto* utc_ns = std::get_if<std::int64_t>(&rows[0][3]))
+        summary.opened_utc_ns = *utc_ns;
+    return {};
+}
+
+} // namespace
+
 Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(const auto database, open_checked(path));
     const auto text_of = [&](const std::string& sql) -> Result<std::string> {
@@ -311,15 +329,13 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     };
     RunSummary summary;
     summary.path = path;
-    AXISCAL_TRY(summary.run_id, text_of("SELECT run_id FROM run"));
-    AXISCAL_TRY(summary.boot_id, text_of("SELECT boot_id FROM run"));
+    AXISCAL_CHECK(take_opening(*database, summary));
     AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
     const std::string last_closing = " FROM closing ORDER BY link DESC LIMIT 1";
     AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason" + last_closing));
     AXISCAL_TRY(const std::string pass, text_of("SELECT pass FROM plan"));
     summary.circular = pass == circular_pass;
-    AXISCAL_TRY(summary.opened_utc_ns, database->integer_of("SELECT opened_utc_ns FROM run"));
     AXISCAL_TRY(const auto points,
                 database->integer_of("SELECT count(DISTINCT planned_step) FROM point"));
     AXISCAL_TRY(const auto planned, database->integer_of("SELECT count(*) FROM plan_point"));
@@ -382,13 +398,12 @@ std::vector<RunSummary> list_run_files(const std::string& folder) {
 
 Result<StoredDrift>
 find_drift(const std::string& folder, const std::string& which, const std::string& axis) {
-    std::optional<RunSummary> found;
-    for (RunSummary& run : list_run_files(folder)) {
+    std::vector<RunSummary> tests = list_run_files(folder);
+    std::erase_if(tests, [&](const RunSummary& run) {
         const bool counts = run.drift && run.complete && run.evaluated && run.axis == axis;
-        const bool wanted = which == "latest" ? !found || run.opened_utc_ns > found->opened_utc_ns
-                                              : run.run_id == which;
-        if (counts && wanted) found = std::move(run);
-    }
+        return !counts || (which != "latest" && run.run_id != which);
+    });
+    const RunSummary* found = newest_run(tests, {});
     if (!found)
         return fail(Fault::not_found, "uncertainty.eve_run = \"" + which + "\" names no complete " +
                                           "drift test of axis " + axis + " in " + folder +

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <fcntl.h>
 #include <filesystem>
 #include <functional>
@@ -62,15 +63,29 @@ std::string instant_of(std::string_view name) {
     return {};
 }
 
-void take_if_newer(std::optional<RunSummary>& newest, const RunSummary& run) {
-    if (!newest || run.opened_utc_ns > newest->opened_utc_ns) newest = run;
+enum class Look : std::uint8_t { into, past, no_further };
+
+/// Whether a file whose name bears `instant` can be newer than those seen, the later names being
+/// among them. Where all of those lie in the future the clock was set back since: the latest name
+/// that does not is looked into as well.
+Look worth(const std::string& instant,
+           const std::vector<RunSummary>& seen,
+           const PresentBoot& present) {
+    const RunSummary* newest = newest_run(seen, present.id);
+    if (newest == nullptr || instant.empty() ||
+        instant >= instant_in_name(earliest_utc_ns_after(*newest, present)))
+        return Look::into;
+    const bool all_in_the_future =
+        !present.id.empty() && std::ranges::all_of(seen, [&](const RunSummary& run) {
+            return run.opened_utc_ns > present.now.utc_ns;
+        });
+    if (!all_in_the_future) return Look::no_further;
+    return instant > instant_in_name(present.now.utc_ns) ? Look::past : Look::into;
 }
 
 /// Those whose name says nothing first, then from the latest name on until no other can be newer.
-std::optional<RunSummary> newest_of(const StoredRuns& runs) {
-    std::optional<RunSummary> newest;
-    for (const RunSummary& run : runs.looked_into)
-        take_if_newer(newest, run);
+std::optional<RunSummary> newest_of(const StoredRuns& runs, const PresentBoot& present) {
+    std::vector<RunSummary> seen = runs.looked_into;
     std::vector<std::pair<std::string, std::string>> claims; // instant, path
     claims.reserve(runs.folded.size());
     for (const std::string& path : runs.folded)
@@ -79,10 +94,13 @@ std::optional<RunSummary> newest_of(const StoredRuns& runs) {
                                       [](const auto& claim) { return claim.first.empty(); });
     std::sort(dated, claims.end(), std::greater{});
     for (const auto& [instant, path] : claims) {
-        if (newest && !instant.empty() && instant < instant_in_name(newest->opened_utc_ns)) break;
-        if (const auto run = summarize_run_file(path)) take_if_newer(newest, *run);
+        const Look look = worth(instant, seen, present);
+        if (look == Look::no_further) break;
+        if (look == Look::past) continue;
+        if (auto run = summarize_run_file(path)) seen.push_back(*std::move(run));
     }
-    return newest;
+    const RunSummary* newest = newest_run(seen, present.id);
+    return newest != nullptr ? std::optional{*newest} : std::nullopt;
 }
 
 } // namespace
@@ -93,7 +111,7 @@ std::string instant_in_name(std::int64_t utc_ns) {
     return instant;
 }
 
-Result<StoredRuns> look_through_runs(const std::string& folder) {
+Result<StoredRuns> look_through_runs(const std::string& folder, const PresentBoot& present) {
     AXISCAL_CHECK(tidy_run_files(folder));
     StoredRuns runs;
     const FileHandle place{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
@@ -112,7 +130,7 @@ Result<StoredRuns> look_through_runs(const std::string& folder) {
         else
             ++runs.unreadable;
     }
-    runs.newest = newest_of(runs);
+    runs.newest = newest_of(runs, present);
     return runs;
 }
 

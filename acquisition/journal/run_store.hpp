@@ -4,6 +4,7 @@
 // calls.
 
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/run_order.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -18,8 +19,12 @@ std::string instant_in_name(std::int64_t utc_ns);
 struct StoredRuns {
     std::vector<RunSummary> looked_into; ///< those that may be open; by name
     std::vector<std::string> folded;     ///< paths of the closed ones, not opened; by name
-    /// The one that was opened last. A name that bears an instant is believed not to be earlier
-    /// than its run; every name without one is looked into.
+    /// The one that was opened last (run_order.hpp). A name that bears an instant is believed not to
+    /// be earlier than its run; every name without one is looked into. A clock that was set back
+    /// since the newest run is seen by that run's triple, in the present boot: then the names within
+    /// what it was set back by are looked into as well. Of an earlier boot a run in the future tells
+    /// it, and the latest name that is not in the future is looked into. Not seen is a clock that
+    /// was set forth again since, or in an earlier boot long enough ago.
     std::optional<RunSummary> newest;
     std::size_t unreadable = 0; ///< that may be open and could not be looked into
 };
@@ -37,6 +42,6 @@ struct StoredRuns {
 /// file is read that this process may have open as a run: that one has its -wal beside it. What
 /// else reads stored runs in the same process does so on the same thread.
 /// @errors as tidy_run_files().
-Result<StoredRuns> look_through_runs(const std::string& folder);
+Result<StoredRuns> look_through_runs(const std::string& folder, const PresentBoot& present = {});
 
 } // namespace axiscal

@@ -201,7 +201,7 @@ bool Station::instruments_returned() const {
 }
 
 Task<Result<void>> Station::take_over_stored_runs() {
-    Result<StoredRuns> stored = co_await journal_.stored_runs(runs_folder());
+    Result<StoredRuns> stored = co_await journal_.stored_runs(runs_folder(), boot_id_);
     // On a full disk a run that was left open cannot be read: its index would have to grow.
     if (!stored || stored->unreadable != 0) {
         const std::optional<Error> trouble = co_await disk_trouble();

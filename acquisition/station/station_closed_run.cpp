@@ -53,7 +53,7 @@ void Station::mark_another_boot(const std::string& boot_id_of_run) {
 }
 
 Task<Result<RunSummary>> Station::newest_closed_run() {
-    AXISCAL_CO_TRY(const StoredRuns stored, co_await journal_.stored_runs(runs_folder()));
+    AXISCAL_CO_TRY(const StoredRuns stored, co_await journal_.stored_runs(runs_folder(), boot_id_));
     if (!stored.newest) co_return fail(Fault::no_run_armed, "no run was measured yet: arm one");
     const RunSummary& newest = *stored.newest;
     if (!newest.complete)

@@ -40,6 +40,26 @@ protected:
         EXPECT_TRUE(writer.append_point(random.point(0)));
         EXPECT_TRUE(writer.close(true, "done", random.tie()));
     }
+    /// Opened in this boot so many seconds after its start, when the clock said that many after
+    /// noon. @returns its path
+    std::string store_run_of(const std::string& boot, double uptime_s, std::int64_t after_noon_s) {
+        RunRecord run = random.header();
+        run.boot_id = boot;
+        run.opened = tie_at(uptime_s, after_noon_s);
+        const std::string path =
+            scratch.file("bench-" + instant_in_name(run.opened.utc_ns) + "-X.axiscal");
+        RunFileWriter writer = RunFileWriter::create(path, run).value();
+        EXPECT_TRUE(writer.close(true, "done", random.tie()));
+        return path;
+    }
+    static ClockTie tie_at(double uptime_s, std::int64_t after_noon_s) {
+        const MonotonicTime at{from_seconds(uptime_s)};
+        return {at, noon_utc_ns + after_noon_s * second_ns, at};
+    }
+    /// At a start of the station.
+    [[nodiscard]] std::string newest_of(const PresentBoot& present) const {
+        return look_through_runs(scratch.path(), present)->newest->path;
+    }
     [[nodiscard]] StoredRuns look() const { return look_through_runs(scratch.path()).value(); }
     /// Not taken for a closed one that need not be opened.
     void expect_found_open(const std::string& name) const {
@@ -212,6 +232,61 @@ TEST_F(RunStore, TheNewestIsTheOneThatWasOpenedLastWhateverNamesSay) {
     store("other-20261121T130000Z-Y.axiscal", noon_utc_ns + 3600 * second_ns + 500'000'000);
     EXPECT_EQ(look().newest->path, scratch.file("other-20261121T130000Z-Y.axiscal"))
         << "in the same second";
+}
+
+TEST_F(RunStore, AfterASetBackOfTheClockTheLaterRunOfTheBootIsTheNewest) {
+    store_run_of("b", 100, -7200);
+    const auto before = store_run_of("b", 7300, 0);
+    const auto after = store_run_of("b", 9100, 1800 - 3600); // by an hour, half an hour later
+    OpeningCount openings{scratch.path()};
+    EXPECT_EQ(newest_of({"b", tie_at(9700, 2400 - 3600)}), after);
+    const auto counts = openings.take();
+    EXPECT_EQ(std::ranges::count_if(counts, [](const auto& file) { return file.second > 1; }), 2)
+        << "what lies before the hour is not looked into";
+    const auto long_after = store_run_of("b", 20'000, 9100);
+    EXPECT_EQ(newest_of({"b", tie_at(20'100, 9200)}), long_after) << "later by both";
+    EXPECT_NE(newest_of({"b", tie_at(20'100, 9200)}), before);
+}
+
+TEST_F(RunStore, ARunOfThePresentBootIsNewerThanOnesInTheFuture) {
+    constexpr std::int64_t year_s = 365 * 86'400;
+    store_run_of("an evil clock", 100, year_s);
+    store_run_of("an evil clock", 4000, year_s + 3900);
+    store_run_of("an earlier one", 100, -86'400);
+    const auto present = store_run_of("b", 300, 0);
+    EXPECT_EQ(newest_of({"b", tie_at(900, 600)}), present);
+}
+
+TEST_F(RunStore, OfRunsThatAllLieInTheFutureTheLatestAloneIsLookedInto) {
+    for (int i = 0; i < 20; ++i)
+        store_run_of("b", 100 + 60 * i, 60 * i);
+    OpeningCount openings{scratch.path()};
+    look_through_runs(scratch.path(), {"c", tie_at(50, -86'400)});
+    const auto counts = openings.take();
+    EXPECT_EQ(std::ranges::count_if(counts, [](const auto& file) { return file.second > 1; }), 1);
+}
+
+RunSummary summary_of(const std::string& path, const std::string& boot, double uptime_s, int utc) {
+    RunSummary run;
+    run.path = path, run.boot_id = boot;
+    run.opened_at = MonotonicTime{from_seconds(uptime_s)};
+    run.opened_utc_ns = utc;
+    return run;
+}
+
+TEST(RunOrder, WithinABootGoesByItsMonotonicClockAndBootsByTheirLatestUtc) {
+    const std::vector runs{summary_of("a", "one", 10, 5), summary_of("b", "one", 20, 3),
+                           summary_of("c", "two", 90, 4), summary_of("d", "two", 5, 1)};
+    EXPECT_EQ(newest_run(runs, "")->path, "b");
+    EXPECT_EQ(newest_run(runs, "two")->path, "c") << "this boot is later than any other";
+    EXPECT_EQ(newest_run(runs, "three")->path, "b");
+    EXPECT_EQ(newest_run({}, "one"), nullptr);
+}
+
+TEST(RunOrder, OfRunsThatStateNoBootTheUtcAloneDecides) {
+    const std::vector runs{summary_of("a", "", 90, 5), summary_of("b", "", 10, 7),
+                           summary_of("c", "one", 10, 6)};
+    EXPECT_EQ(newest_run(runs, "")->path, "b");
 }
 
 TEST_F(RunStore, NoFolderHoldsNoRuns) {

@@ -245,6 +245,7 @@ struct Shop {
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1";
     std::string boot_id = "boot-1";
+    std::int64_t utc_at_zero_ns = 1'795'255'200'000'000'000; ///< 2026-11-21T10:00:00Z
     bool port_broken = false;
     Duration port_looks_every = 100ms;
     bool linked = false; ///< each instrument opens a link of Life::links
@@ -329,6 +330,7 @@ public:
                   const std::string& report = "/nonexistent/axiscal-report",
                   Duration at_first = 2s)
         : shop{of} {
+        scheduler.utc_at_zero_ns = shop.utc_at_zero_ns;
         scheduler.run_until(shop.now);
         station.emplace(scheduler, links, parts(report));
         boost::asio::co_spawn(scheduler.loop(), station->start(),

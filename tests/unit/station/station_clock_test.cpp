@@ -8,7 +8,7 @@
 namespace axiscal::testing::station_clock_test {
 namespace {
 
-class StationClock : public ::testing::TestWithParam<Duration> {
+class ClockOfAStation : public ::testing::Test {
 protected:
     void SetUp() override { shop.shorten(); }
     static RevisionRequest of_target(int target) {
@@ -38,6 +38,9 @@ protected:
     Shop shop;
 };
 
+class StationClock : public ClockOfAStation, public ::testing::WithParamInterface<Duration> {};
+using StationClockBetweenRuns = ClockOfAStation;
+
 TEST_P(StationClock, SetInMidRunMovesNothingOnPaperAndTheFileKeepsWhatItSaid) {
     Life life{shop};
     const std::int64_t right = life.scheduler.utc_at_zero_ns;
@@ -63,6 +66,32 @@ TEST_P(StationClock, SetInMidRunMovesNothingOnPaperAndTheFileKeepsWhatItSaid) {
 
 INSTANTIATE_TEST_SUITE_P(ByHours, StationClock, ::testing::Values(-1h, 1h, -9000h));
 
+/// The run of before the step bears the later date in its name and in its file.
+TEST_F(StationClockBetweenRuns, SetBackTheLaterRunIsTheNewestAfterARestart) {
+    const auto hour_ns = std::chrono::nanoseconds{1h}.count();
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 10; ++step)
+            ASSERT_TRUE(life.take(step)) << step;
+        life.run(2s);
+        life.scheduler.utc_at_zero_ns -= hour_ns;
+        run_with_a_retake(life, 0s); // its last request is 12
+    }
+    shop.utc_at_zero_ns -= hour_ns;
+    shop.now += 60s;
+    Life life{shop};
+    EXPECT_EQ(life.port->done_before_open, 12);
+    life.run(2s);
+    ASSERT_TRUE(life.retake(of_target(1)));
+    ASSERT_EQ(shop.run_files().size(), 2U);
+    const auto earlier = read_run_file_contents(shop.run_files().at(1)).value();
+    const auto later = read_run_file_contents(shop.run_files().at(0)).value();
+    ASSERT_GT(earlier.run.opened.utc_ns, later.run.opened.utc_ns);
+    EXPECT_TRUE(earlier.closed && earlier.revisions.retakes.empty());
+    EXPECT_TRUE(!later.closed && later.revisions.retakes.size() == 2);
+}
+
 using StationClockOfAnotherBoot = StationClock;
 
 /// The uptime is longer than the first boot's ever was: no number shows that it is another.
@@ -78,9 +107,9 @@ TEST_P(StationClockOfAnotherBoot, TellsTheClosingOfThatBootByItsOwnClock) {
     const Certificate first = printed(contents());
     shop.boot_id = "boot-2";
     shop.now += GetParam();
+    shop.utc_at_zero_ns += std::chrono::nanoseconds{30 * 24h}.count();
+    const std::int64_t of_this_boot = shop.utc_at_zero_ns;
     Life life{shop};
-    life.scheduler.utc_at_zero_ns += std::chrono::nanoseconds{30 * 24h}.count();
-    const std::int64_t of_this_boot = life.scheduler.utc_at_zero_ns;
     RevisionRequest request = of_target(1);
     request.selection.direction = Direction::positive;
     request.selection.approach = 0;
