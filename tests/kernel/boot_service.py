@@ -276,9 +276,15 @@ def sensor_unplugged(station):
 
 @check("RunGoesOnAfterTheWatchdogKilledTheDaemon")
 def watchdog(station):
-    """The run of the checks before."""
+    """The run of the checks before. The clock is an hour slow from before the restart to behind the end of the run."""
     if not station.run():
         station.begin_run()
+    with station.clock.right_at_the_end():
+        station.clock.an_hour_back()
+        goes_on_after_the_watchdog(station)
+
+
+def goes_on_after_the_watchdog(station):
     station.sim("go")
     station.wait_for_points(station.run()["step"] + 1)
     run_id, pid = station.run()["id"], station.pid()
@@ -308,16 +314,19 @@ def watchdog(station):
 @check("RunAndCertificateKeepTheirTimesWhateverTheClockWasSetTo")
 def times_kept(station):
     """Of the run above: no sample is missing, each point stands where it was taken, and on paper it does so in UTC by
-    the clock tie of the opening, whatever the clock said at that moment."""
+    the clock tie of the opening, whatever the clock said at that moment. The end is the test of it: the clock was wrong
+    then, and the file says so."""
     opened, closed, points = guest_clock.read_run(station.run()["file"])
     counts = (len(points), len(station.taken))
     expect(counts == (20, 8), f"of {counts[0]} points {counts[1]} were taken while the clock was set, not 8 of 20")
     guest_clock.judge_samples(points)
     guest_clock.judge_points(points, station.taken)
-    guest_clock.judge_ties(station.clock, opened, closed)
+    guest_clock.judge_ties(station.clock, opened, closed, closed_ahead_s=-guest_clock.HOUR_S)
     folder = next(PUBLISHED.rglob("certificate.json")).parent
     table = wait_until("its table is on the share", lambda: next(folder.glob("certificate.csv"), None)).read_text()
     certificate = json.loads((folder / "certificate.json").read_text())
+    said = " ".join(certificate["run"]["remarks"])
+    expect("was set in mid-run" in said, f"the certificate does not say that the clock was set: {said}")
     guest_clock.judge_papers(station.clock, opened, closed, points, certificate, table)
 
 

@@ -59,6 +59,9 @@ class GuestClock:
     def an_hour_forward(self):
         self.put_ahead(HOUR_S)
 
+    def an_hour_back(self):
+        self.put_ahead(-HOUR_S)
+
     def through_a_leap_second(self):
         """To 3 s before a midnight of UTC whose last minute the kernel is told to make 61 s long."""
         now_ns = self.utc_ns(time.monotonic_ns())
@@ -126,10 +129,11 @@ def judge_points(points, taken):
         expect(within, f"step {step} was taken between {began_ns} and {ended_ns} ns; its file says {times_ns}")
 
 
-def judge_ties(clock, opened, closed):
-    for name, (monotonic_ns, utc_ns) in (("opened", opened), ("closed", closed)):
+def judge_ties(clock, opened, closed, closed_ahead_s):
+    """The file keeps what the clock said: right at the opening, so much ahead of UTC at the closing."""
+    for name, (monotonic_ns, utc_ns), ahead_s in (("opened", opened, 0), ("closed", closed, closed_ahead_s)):
         off_s = (utc_ns - clock.utc_ns(monotonic_ns)) / SECOND_NS
-        expect(abs(off_s) < TIED_S, f"the run was {name} {off_s:.3f} s beside UTC by its clock tie")
+        expect(abs(off_s - ahead_s) < TIED_S, f"the run was {name} {off_s:.3f} s beside UTC by its clock tie, not {ahead_s} s")
 
 
 def utc_ns_of(written):

@@ -45,7 +45,8 @@ std::string in_words(const Tally& tally) {
         words += fault + " " + std::to_string(count) + " ";
     words += "), " + std::to_string(tally.unplugged) + " cables out, " +
              std::to_string(tally.steps) + " clock steps (" +
-             std::to_string(tally.steps_while_waiting) + " while results waited), " +
+             std::to_string(tally.steps_while_waiting) + " while results waited, " +
+             std::to_string(tally.left_standing) + " left until a run was closed), " +
              std::to_string(tally.losses) + " shares lost, " + std::to_string(tally.published) +
              " published; bytes at midnight";
     for (const auto bytes : tally.bytes_at_midnight)
@@ -67,12 +68,14 @@ void expect_a_good_week(const Tally& tally) {
     EXPECT_EQ(tally.disturbed, 0);
     EXPECT_EQ(tally.wrong_points, 0);
     EXPECT_EQ(tally.wrong_dates, 0);
+    EXPECT_EQ(tally.wrong_times, 0);
     EXPECT_EQ(tally.untold_waits, 0);
     EXPECT_EQ(tally.false_alarms, 0);
     EXPECT_EQ(tally.too_many_notes, 0);
     // That something happened at all.
     EXPECT_GT(tally.unplugged, 20);
     EXPECT_GT(tally.steps, 10);
+    EXPECT_GT(tally.left_standing, 0);
     EXPECT_GT(tally.losses, 5);
     EXPECT_GT(tally.alarms, 0);
     EXPECT_GT(tally.steps_while_waiting, 0);

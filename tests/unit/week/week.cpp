@@ -1,5 +1,7 @@
 #include "tests/unit/week/week.hpp"
 
+#include "analysis/run_clock.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -230,6 +232,9 @@ void Week::measure(Trouble trouble) {
         if (step == trouble_at && one != nullptr) {
             unplug(*one);
             run(some(0s, 90s));
+        } else if (step == trouble_at && trouble == Trouble::clock_steps) {
+            step_clock(some(-1h, 1h)); // until the run is closed
+            run(some(1s, 10min));
         } else if (step == trouble_at) {
             idle_trouble(trouble);
         }
@@ -239,6 +244,10 @@ void Week::measure(Trouble trouble) {
         all_taken = taken;
     }
     close_and_check(path, all_taken, armed_utc_ns);
+    if (stepped_ != Duration{}) {
+        ++tally_.left_standing;
+        step_clock(-stepped_);
+    }
     life_.port->acknowledged.clear();
     life_.laser->send_every = idle_period_;
 }
@@ -255,6 +264,7 @@ void Week::close_and_check(const std::string& path, bool all_taken, std::int64_t
     if (record->complete && record->points.size() == 10) ++tally_.complete;
     const double off_s = static_cast<double>(record->opened.utc_ns - armed_utc_ns) * 1e-9;
     if (std::abs(off_s) > 10) ++tally_.wrong_dates; // arming drives, ties and waits
+    check_times(*record);
     for (const PointRecord& point : record->points) {
         const MonotonicTime middle =
             point.window_begin + (point.window_end - point.window_begin) / 2;
@@ -263,6 +273,20 @@ void Week::close_and_check(const std::string& path, bool all_taken, std::int64_t
         const double off_um = point.reading.in(um)-shown_um;
         if (std::abs(off_um) > reading_tolerance_um) ++tally_.wrong_points;
     }
+}
+
+/// As a certificate tells them.
+void Week::check_times(RunRecord record) {
+    const std::int64_t right_at_zero_ns = life_.scheduler.utc_at_zero_ns - stepped_.count();
+    std::vector<RetakeRecord> no_retakes;
+    tell_times_by_one_clock(record.opened, record.events, no_retakes, record.closed);
+    const auto is_right = [&](MonotonicTime at, std::int64_t utc_ns) {
+        return utc_ns == right_at_zero_ns + nanoseconds_of(at);
+    };
+    bool right = is_right(record.closed.before, record.closed.utc_ns);
+    for (const EventRecord& event : record.events)
+        right = right && is_right(event.at, event.utc_ns);
+    if (!right) ++tally_.wrong_times;
 }
 
 void Week::settle() {

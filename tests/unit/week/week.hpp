@@ -39,6 +39,8 @@ struct Tally {
     int disturbed = 0;           ///< 0: another instrument was opened anew
     int wrong_points = 0;        ///< 0: not what the laser showed in the point's window
     int wrong_dates = 0;         ///< 0: a run file whose UTC is not that of its arming
+    int wrong_times = 0;         ///< 0: of an event or closing on paper, by a clock nobody sets
+    int left_standing = 0;       ///< clock steps that stay from mid-run to behind the closing
     int untold_waits = 0;        ///< 0: results waited too long without an alarm
     int false_alarms = 0;        ///< 0: an alarm of few results that have not waited so long
     int too_many_notes = 0;      ///< 0: a list that grows
@@ -70,6 +72,7 @@ private:
     void measure(Trouble trouble);
     bool take(int step, bool may_be_refused);
     void close_and_check(const std::string& path, bool all_taken, std::int64_t armed_utc_ns);
+    void check_times(RunRecord record);
     void unplug(BenchInstrument& one);
     void plug_in(BenchInstrument& one);
     void step_clock(Duration by);
