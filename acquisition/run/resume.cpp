@@ -192,6 +192,17 @@ ResumeVerdict judge_first_request(std::uint16_t last_durable,
             describe_disorder(*request, last_durable)};
 }
 
+std::string exchanged_instrument(const RunRecord& run, const std::vector<InstrumentSerial>& now) {
+    for (const auto& [name, serial] : now) {
+        const auto then = std::ranges::find(run.instruments, name, &InstrumentRecord::name);
+        if (then == run.instruments.end() || then->serial.empty() || serial.empty()) continue;
+        if (serial != then->serial)
+            return "The instrument '" + name + "' has the serial number '" + serial +
+                   "', the run's has '" + then->serial + "'.";
+    }
+    return {};
+}
+
 ResumeVerdict
 decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now) {
     if (now.config_hash != run.config_hash)
@@ -204,6 +215,9 @@ decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const 
                     now.laser_serial + "', the run's has '" + serial + "'."};
     auto datum = judge_datum(run, now);
     if (datum.fault != Fault::none) return datum;
+    if (std::string exchanged = exchanged_instrument(run, now.instruments); !exchanged.empty())
+        return {ResumeDecision::close_other_instrument, Fault::unknown_instrument,
+                std::move(exchanged)};
     if (!now.outside_limits.empty())
         return {ResumeDecision::close_environment, Fault::environment_outside,
                 "The environment is out of limits: " + now.outside_limits + "."};

@@ -78,12 +78,22 @@ ContinuityVerdict datum_continues(const CounterSighting& last_before,
                                   const ContinuityLimits& limits,
                                   std::string_view reference = "laser");
 
+/// What an instrument says of itself after the restart.
+struct InstrumentSerial {
+    std::string name, serial;
+};
+
+/// One sentence with the first instrument that is not the run's any more, its serial number and the
+/// run's; empty when there is none. A serial number that nobody told, then or now, proves nothing.
+std::string exchanged_instrument(const RunRecord& run, const std::vector<InstrumentSerial>& now);
+
 /// The station as it is after the restart.
 struct StationNow {
     std::string config_hash, boot_id, laser_serial;
     std::optional<Sample> laser;  ///< first good sample; none: the laser is silent
     ContinuityLimits limits;      ///< rate_hz 0: taken from the run
     std::string outside_limits{}; ///< of the environment, in words; empty: nothing is
+    std::vector<InstrumentSerial> instruments{}; ///< of the run, that have answered
 };
 
 /// The newest record that a request of the CNC made durable: point, datum by prepare (step -1),
@@ -101,7 +111,7 @@ std::optional<int> skipped_step(const EventRecord& event);
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);
 
-/// Everything: configuration, instrument, datum, environment, then the request. A run whose datum
+/// Everything: configuration, instruments, datum, environment, then the request. A run whose datum
 /// the CNC is to tie has none to lose; one whose datum a person was tying has to be armed again.
 ResumeVerdict
 decide_resume(const RunRecord& run, std::optional<std::uint16_t> request, const StationNow& now);

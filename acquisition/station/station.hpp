@@ -84,6 +84,7 @@ private:
         bool closing = false, closed = false;
         bool shut = false;          ///< its closing row is durable
         bool limits_waived = false; ///< armed in spite of the environment
+        bool resumed = false;       ///< of an earlier daemon: who answers late may be another
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
         std::string certificate;      ///< folder
@@ -255,6 +256,11 @@ private:
     close_left_over(std::string path, std::string reason, Fault fault, bool whole);
     void mark_another_boot(const std::string& boot_id_of_run);
     [[nodiscard]] std::string laser_serial() const;
+
+    // station_serials.cpp: whether the instruments after a restart are those of the run
+    [[nodiscard]] std::string laser_serial_for(const RunRecord& run) const;
+    [[nodiscard]] std::vector<InstrumentSerial> answered_serials(const RunRecord& run) const;
+    void judge_instruments();
     [[nodiscard]] const StationChannel& channel_of(int id) const;
 
     // station_drift.cpp

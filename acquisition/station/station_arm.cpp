@@ -261,7 +261,8 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     StationNow now;
     now.config_hash = config_hash_;
     now.boot_id = boot_id_;
-    now.laser_serial = laser_serial();
+    now.laser_serial = laser_serial_for(run);
+    now.instruments = answered_serials(run);
     now.limits.fastest = config_.capture.fastest;
     now.limits.count_modulus =
         supervisor_.instrument(channel_of(*roles_.laser).instrument).count_modulus();
@@ -305,6 +306,7 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     RunMachine machine{std::move(setup), run, epoch, scheduler_.now()};
     begin_run(std::move(header), path, std::move(machine));
     run_->limits_waived = waived;
+    run_->resumed = true;
     const std::string away = run.boot_id == boot_id_
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
                                  : "while " + std::string{computer_restarted};

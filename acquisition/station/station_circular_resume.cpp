@@ -77,8 +77,13 @@ Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileCon
                    Fault::incomplete_run,
                    "The station ended before the plan of the circles was kept.",
                    {}};
-    if (verdict.decision == CircleResume::Decision::go_on)
+    if (verdict.decision == CircleResume::Decision::go_on) {
+        const std::string exchanged =
+            exchanged_instrument(contents.run, answered_serials(contents.run));
+        if (!exchanged.empty())
+            co_return co_await close_left_over(path, exchanged, Fault::unknown_instrument, false);
         co_return co_await resume_circles(std::move(path), std::move(contents), std::move(verdict));
+    }
     if (verdict.decision == CircleResume::Decision::close_complete)
         co_return co_await close_driven_circles(std::move(path));
     co_return co_await close_left_over(path, verdict.sentence, verdict.fault, false);
@@ -120,6 +125,7 @@ Station::resume_circles(std::string path, RunFileContents contents, CircleResume
         behind = StreamChunker{contents.blocks.back(), last_sighting_of(contents).has_value()};
     begin_circular(std::move(contents.run), std::move(path), setup);
     circular_.emplace(setup, verdict.before, std::move(behind));
+    run_->resumed = true;
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0, told, Fault::none, 0}});
     if (verdict.before.last == 0) port_->publish_armed();
     perform(SetState{PortState::armed});

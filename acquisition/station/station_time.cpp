@@ -50,6 +50,7 @@ void Station::look_at_the_time() {
     if (now - judged_ >= judge_every) {
         supervisor_.judge();
         judge_environment();
+        judge_instruments();
         judged_ = now;
     }
     if (now - judged_outbox_ >= judge_outbox_every) {

@@ -91,6 +91,26 @@ TEST(Resume, NeedsTheSameStationFileInstrumentAndBoot) {
     EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_datum_lost);
 }
 
+TEST(Resume, EveryInstrumentThatHasAnsweredMustBeTheRuns) {
+    auto run = run_with_points(3);
+    InstrumentRecord air, unnumbered;
+    air.name = "air", air.serial = "V-1";
+    unnumbered.name = "contacts";
+    run.instruments.push_back(air);
+    run.instruments.push_back(unnumbered);
+    auto now = same_station(200);
+    now.instruments = {{"laser", "UMD-17"}, {"air", "V-1"}, {"contacts", "T-5"}, {"lamp", "L"}};
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::capture_standing);
+    now.instruments = {{"air", ""}};
+    EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::capture_standing);
+    now.instruments = {{"laser", "UMD-17"}, {"air", "V-2"}};
+    const auto verdict = decide_resume(run, 4, now);
+    EXPECT_EQ(verdict.decision, ResumeDecision::close_other_instrument);
+    EXPECT_EQ(verdict.fault, Fault::unknown_instrument);
+    EXPECT_EQ(verdict.sentence,
+              "The instrument 'air' has the serial number 'V-2', the run's has 'V-1'.");
+}
+
 TEST(Resume, OutsideTheLimitsOfTheEnvironmentTheRunIsClosedWithThatReason) {
     auto now = same_station(200);
     now.outside_limits = "air/air temperature shows 27.3 degC, 25 degC at most are allowed";

@@ -243,7 +243,8 @@ struct Shop {
     std::uint64_t laser_modulus = 0;
     bool laser_number_wraps = false;
     MonotonicTime laser_switched_on{};
-    std::string laser_serial = "S-1";
+    std::string laser_serial = "S-1", air_serial = "S-1", bar_serial = "S-1";
+    bool air_is_out = false; ///< its cable, when the daemon starts
     std::string boot_id = "boot-1";
     std::int64_t utc_at_zero_ns = 1'795'255'200'000'000'000; ///< 2026-11-21T10:00:00Z
     bool port_broken = false;
@@ -472,6 +473,8 @@ private:
         laser->number_wraps = shop.laser_number_wraps;
         laser->switched_on = shop.laser_switched_on;
         laser->serial = shop.laser_serial;
+        air->serial = shop.air_serial;
+        air->unplugged = shop.air_is_out;
         made.instruments.push_back(std::move(light));
         made.instruments.push_back(std::move(weather));
         made.instruments.push_back(std::move(contacts));
@@ -481,6 +484,7 @@ private:
                 [this](int, MonotonicTime at) { return shop.ballbar(at); });
             bar = length.get();
             bar->switched_on = shop.ballbar_switched_on;
+            bar->serial = shop.bar_serial;
             made.instruments.push_back(std::move(length));
         }
         if (shop.linked)

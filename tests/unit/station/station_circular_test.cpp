@@ -460,6 +460,20 @@ TEST(StationCircular, ARestartWithAnotherStationFileClosesTheTest) {
     EXPECT_NE(read.run.closing_reason.find("station file was changed"), std::string::npos);
 }
 
+TEST(StationCircular, ARestartWithAnotherBallbarClosesTheTest) {
+    Bay bay;
+    first_life(bay, false);
+    bay.shop.bar_serial = "S-2";
+    Life again{bay.shop};
+    again.run(2s);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.closed);
+    EXPECT_FALSE(read.run.complete);
+    EXPECT_NE(read.run.closing_reason.find("has the serial number 'S-2', the run's has 'S-1'"),
+              std::string::npos)
+        << read.run.closing_reason;
+}
+
 TEST(StationCircular, ABarWhoseCounterWasSwitchedOffEndsTheTest) {
     Bay bay;
     first_life(bay, false);

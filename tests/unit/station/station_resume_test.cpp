@@ -230,6 +230,57 @@ TEST_F(StationResumes, AnotherLaserClosesTheRun) {
     EXPECT_NE(only_run().closing_reason.find("S-2"), std::string::npos);
 }
 
+TEST_F(StationResumes, AnotherSensorOfTheEnvironmentClosesTheRun) {
+    die_after(6);
+    shop.air_serial = "S-2";
+    Life life{shop};
+    EXPECT_FALSE(life.status().run_open);
+    const RunRecord run = only_run();
+    EXPECT_FALSE(run.complete);
+    EXPECT_EQ(run.closing_reason,
+              "The instrument 'air' has the serial number 'S-2', the run's has 'S-1'.");
+    life.ask(standing(6));
+    EXPECT_EQ(life.port->refusals.at(0),
+              (std::pair<std::uint16_t, Fault>{7, Fault::unknown_instrument}));
+}
+
+/// A sensor that has not answered within the wait closes nothing; what it says later counts.
+class StationResumesWithASensorThatAnswersLate : public StationResumes {
+protected:
+    std::unique_ptr<Life> life_without_air() {
+        die_after(6);
+        shop.air_is_out = true;
+        auto life = std::make_unique<Life>(shop);
+        life->run(20s);
+        EXPECT_TRUE(life->status().run_open);
+        return life;
+    }
+    static void plug_in_air(Life& life) {
+        life.air->unplugged = false;
+        life.run(10s);
+    }
+};
+
+TEST_F(StationResumesWithASensorThatAnswersLate, TheRunGoesOnWhereItIsTheRuns) {
+    const auto life = life_without_air();
+    plug_in_air(*life);
+    ASSERT_TRUE(life->status().run_open);
+    for (int step = 6; step < 10; ++step)
+        ASSERT_TRUE(life->take(step)) << step;
+    EXPECT_TRUE(only_run().complete);
+}
+
+TEST_F(StationResumesWithASensorThatAnswersLate, TheRunIsClosedWhereItIsAnother) {
+    const auto life = life_without_air();
+    life->air->serial = "S-2";
+    plug_in_air(*life);
+    EXPECT_FALSE(life->status().run_open);
+    EXPECT_FALSE(only_run().complete);
+    EXPECT_EQ(only_run().closing_reason,
+              "The instrument 'air' has the serial number 'S-2', the run's has 'S-1'.");
+    EXPECT_EQ(only_run().points.size(), 6U);
+}
+
 TEST_F(StationResumes, ALaserThatWasSwitchedOffMeanwhileHasLostTheDatum) {
     die_after(6);
     shop.laser_switched_on = shop.now + 20s; // its number begins again
