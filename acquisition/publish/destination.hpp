@@ -43,7 +43,7 @@ public:
     virtual Result<std::string> write_and_read_back(const std::string& source,
                                                     const std::string& path,
                                                     const Progress& progress) = 0;
-    /// @errors Fault::refused when `to` is taken, where the other side can tell at once.
+    /// Leaves what bears the name `to` as it is. @errors Fault::refused when it is taken.
     virtual Result<void> move_to_free_name(const std::string& from, const std::string& to) = 0;
     /// A file that is not there is no error.
     virtual Result<void> remove_file(const std::string& path) = 0;

@@ -119,6 +119,25 @@ copy_file(const Journey& journey, const PublishedFile& file, const std::string& 
     return journey.destination.move_to_free_name(part, folder + "/" + file.name);
 }
 
+Result<void> copy_missing(const Journey& journey, const Place& place) {
+    for (const auto& file : place.missing)
+        AXISCAL_CHECK(copy_file(journey, file, place.folder));
+    return {};
+}
+
+/// Fills a folder and returns it. Where somebody took one of the names while we wrote, the next
+/// folder gets the whole result; what this one has got of it stays.
+Result<std::string> fill_folder(const Journey& journey) {
+    constexpr int most_tries = 3; // a name that is taken each time is no chance: told, tried later
+    for (int tries = 1;; ++tries) {
+        AXISCAL_TRY(auto place, choose_folder(journey));
+        auto copied = copy_missing(journey, place);
+        if (copied) return std::move(place.folder);
+        if (copied.error().fault != Fault::refused || tries == most_tries)
+            return tl::unexpected<Error>(copied.error());
+    }
+}
+
 } // namespace
 
 Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
@@ -128,13 +147,11 @@ Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
     AXISCAL_TRY(auto files, describe_files(entry, progress));
     Journey journey{entry, destination, progress, std::move(files),
                     mark_of(folder_of(entry.folder))};
-    AXISCAL_TRY(const auto place, choose_folder(journey));
-    for (const auto& file : place.missing)
-        AXISCAL_CHECK(copy_file(journey, file, place.folder));
-    AXISCAL_CHECK(destination.sync_folder(place.folder));
+    AXISCAL_TRY(const auto folder, fill_folder(journey));
+    AXISCAL_CHECK(destination.sync_folder(folder));
     AXISCAL_CHECK(destination.sync_folder(""));
-    return PublishReceipt{entry.run_id, destination.place() + "/" + place.folder,
-                          iso8601_utc(utc_ns), std::move(journey.files)};
+    return PublishReceipt{entry.run_id, destination.place() + "/" + folder, iso8601_utc(utc_ns),
+                          std::move(journey.files)};
 }
 
 Result<std::optional<PublishReceipt>> deliver_entry(OutboxEntry& entry,

@@ -28,8 +28,8 @@ struct PublishReceipt {
 /// back and equal by SHA-256. A file appears only whole (before: .<name>.<mark>.part, the mark
 /// being this station's own: nobody else's is touched, and a stale one is swept). What lies there
 /// already with the same content counts as published; other content, also under a name that
-/// differs in case only, is never overwritten: a new folder <run-id>-2, -3 ... is taken. Calling
-/// again after any interruption goes on.
+/// differs in case only, is never overwritten: a new folder <run-id>-2, -3 ... is taken, also where
+/// the other content came while we wrote. Calling again after any interruption goes on.
 /// @errors share_lost() when nothing can be published now; Fault::io with the path and what to
 /// do; Fault::checksum when the share gives back other bytes.
 Result<PublishReceipt> copy_entry(const OutboxEntry& entry,

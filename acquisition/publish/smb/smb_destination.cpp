@@ -219,11 +219,21 @@ Result<std::string> SmbDestination::write_and_read_back(const std::string& sourc
     return *std::move(hash);
 }
 
+// libsmbclient renames onto a taken name by deleting what bears it, so it is looked for first. SMB
+// has no rename that refuses and look in one: a program that makes the very name between the two
+// calls still loses its file. Nobody but this station makes names in the folder of one of its runs.
 Result<void> SmbDestination::move_to_free_name(const std::string& from, const std::string& to) {
     AXISCAL_CHECK(open_session());
     SMBCCTX* const context = session_->context();
-    if (smbc_getFunctionRename(context)(context, url(from).c_str(), context, url(to).c_str()) == 0)
+    struct stat status {};
+    const bool taken = smbc_getFunctionStat(context)(context, url(to).c_str(), &status) == 0;
+    if (!taken && errno != ENOENT) return refused("cannot look for", to, errno);
+    if (!taken &&
+        smbc_getFunctionRename(context)(context, url(from).c_str(), context, url(to).c_str()) == 0)
         return {};
+    if (taken || errno == EEXIST)
+        return fail(Fault::refused,
+                    place() + "/" + to + " exists already and is never overwritten");
     return refused("cannot rename to", to, errno);
 }
 

@@ -39,8 +39,8 @@ public:
     Result<std::string> write_and_read_back(const std::string& source,
                                             const std::string& path,
                                             const Progress& progress) override;
-    /// SMB renames onto a taken name by deleting it first: only for names just seen to be free, in
-    /// a folder that this station made.
+    /// Looks whether the name is free, then renames. libsmbclient would delete what bears the name:
+    /// what is made between the two calls, of the order of a millisecond, is not seen.
     Result<void> move_to_free_name(const std::string& from, const std::string& to) override;
     Result<void> remove_file(const std::string& path) override;
     Result<void> sync_folder(const std::string& path) override;

@@ -193,8 +193,8 @@ class Publisher:
 
     def __init__(self, program, outbox, to, account, *more):
         self.said, self.log = [], []
-        words = [program, "--outbox", outbox, "--to", to, "--credentials", account, "--json", "--retry", "0.1", "--timeout", "1",
-                 *more]
+        patience = () if "--timeout" in more else ("--timeout", "1")
+        words = [program, "--outbox", outbox, "--to", to, "--credentials", account, "--json", "--retry", "0.1", *patience, *more]
         self.process = subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                         preexec_fn=die_with_parent)
         self.threads = [threading.Thread(target=self._hear, args=ear, daemon=True)

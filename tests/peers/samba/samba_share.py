@@ -5,6 +5,7 @@ Each function is a test. Nothing is slept for: every wait is for a condition and
 is a failure unless AXISCAL_MAY_SKIP names samba (then exit 77).
 """
 import contextlib
+import hashlib
 import json
 import os
 import shutil
@@ -203,6 +204,24 @@ def network_cut():
         holder.wait()
 
 
+@contextlib.contextmanager
+def held_open(site, path):
+    """Somebody's smbclient has this file of the share open."""
+    holder = subprocess.Popen(
+        ["smbclient", "-s", site.samba.conf, "-p", str(site.samba.port), "-U", f"games%{samba_server.PASSWORD}",
+         "//127.0.0.1/results"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        preexec_fn=samba_server.die_with_parent)
+    try:
+        holder.stdin.write(f"open {path}\n")
+        holder.stdin.flush()
+        # Only what is open in full stands there with its name: our own .part has another one.
+        wait_until(f"{path} is held open", lambda: f" {path} " in run("smbstatus", "-s", site.samba.conf, "-L"))
+        yield
+    finally:
+        holder.kill()
+        holder.wait()
+
+
 @sentence("ANameThatSomebodyHoldsOpenIsNeverReplaced")
 def name_held():
     with Site(PROGRAM) as site:
@@ -212,21 +231,43 @@ def name_held():
         theirs.write_bytes(b"somebody else's")
         site.samba.client(f"mkdir run-1; put {theirs} run-1/certificate.json")
         site.foreign = site.on_share()
-        holder = subprocess.Popen(
-            ["smbclient", "-s", site.samba.conf, "-p", str(site.samba.port), "-U", f"games%{samba_server.PASSWORD}",
-             "//127.0.0.1/results"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-            preexec_fn=samba_server.die_with_parent)
-        try:
-            holder.stdin.write("open run-1/certificate.json\n")
-            holder.stdin.flush()
-            wait_until("the file is held open", lambda: "certificate.json" in run("smbstatus", "-s", site.samba.conf, "-L"))
+        with held_open(site, "run-1/certificate.json"):
             site.stage("run-1")
             site.publish()
             site.expect_all_published()
             expect(site.publisher.published()[0]["folder"].endswith("/run-1-2"), site.publisher.said)
-        finally:
-            holder.kill()
-            holder.wait()
+
+
+def take_name_in_mid_write(meanwhile):
+    """The folder is chosen and the file half written when somebody makes a file of its final name there, and has it open or not
+    while ours comes to its end: `meanwhile` is a context for that. The publisher is the one that stands still, for a frozen
+    server would not take the foreign file either."""
+    with Site(PROGRAM) as site:
+        site.samba.start()
+        site.publish("--timeout", "60")  # standing still is no lost share here
+        caught = site.catch_in_mid_write(lambda: site.publisher.process.send_signal(signal.SIGSTOP),
+                                         lambda: site.publisher.process.send_signal(signal.SIGCONT))
+        name = f"{caught}/raw.bin"
+        theirs = site.folder / "theirs"
+        theirs.write_bytes(b"somebody else's")
+        site.samba.client(f"put {theirs} {name}")
+        site.foreign = {name: hashlib.sha256(b"somebody else's").hexdigest()}
+        with meanwhile(site, name):
+            site.publisher.process.send_signal(signal.SIGCONT)
+            site.expect_all_published()  # theirs as it was, ours whole, the receipt with our digest
+        last = site.publisher.published(len(site.staged))[-1]
+        expect(last["folder"] == f"{site.samba.url}/{caught}-2", f"it lies in {last['folder']}")
+        expect(not site.publisher.reasons(), f"it waited: {site.publisher.reasons()}")
+
+
+@sentence("ANameTakenWhileItsFileIsOnTheWayIsNeverReplaced")
+def name_taken():
+    take_name_in_mid_write(lambda *_: contextlib.nullcontext())
+
+
+@sentence("ANameTakenAndHeldOpenWhileItsFileIsOnTheWayIsNeverReplaced")
+def name_taken_and_held():
+    take_name_in_mid_write(held_open)
 
 
 @sentence("AServerOfSmb1IsRefused")

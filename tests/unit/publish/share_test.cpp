@@ -125,10 +125,50 @@ TEST(Share, TakesANameOfOtherCaseForTaken) {
     EXPECT_EQ(read_bytes(share.at("run-1/A.JSON")), "somebody else's");
 }
 
-/// A share that gives back other bytes than it took.
+/// Copies while somebody writes "theirs" to the given path as soon as `there` has come.
+Result<PublishReceipt> copy_beside_somebody(const Share& share,
+                                            const OutboxEntry& entry,
+                                            const std::string& there,
+                                            const std::string& path) {
+    FolderDestination folder{share.destination};
+    return copy_entry(entry, folder, published_at, [&] {
+        if (std::filesystem::exists(there) && !std::filesystem::exists(path))
+            write_bytes(path, "theirs");
+    });
+}
+
+TEST(Share, GoesAroundANameThatIsTakenWhileItWrites) {
+    const Share share;
+    const auto copied = copy_beside_somebody(share, share.entry({{"a", "ours"}}), share.at("run-1"),
+                                             share.at("run-1/a"));
+    ASSERT_TRUE(copied) << describe(copied.error());
+    EXPECT_EQ(copied->folder, share.at("run-1-2"));
+    EXPECT_EQ(read_bytes(share.at("run-1/a")), "theirs");
+    EXPECT_EQ(read_bytes(share.at("run-1-2/a")), "ours");
+    const std::filesystem::directory_iterator all{share.at("run-1")};
+    EXPECT_EQ(std::distance(begin(all), end(all)), 1); // no .part left
+}
+
+TEST(Share, PutsAllFilesOfAResultIntoOneFolderWhenTheSecondNameIsTaken) {
+    const Share share;
+    const auto entry = share.entry({{"a", "ours a"}, {"b", "ours b"}});
+    const auto copied =
+        copy_beside_somebody(share, entry, share.at("run-1/a"), share.at("run-1/b"));
+    ASSERT_TRUE(copied) << describe(copied.error());
+    EXPECT_EQ(copied->folder, share.at("run-1-2"));
+    EXPECT_EQ(read_bytes(share.at("run-1/b")), "theirs");
+    EXPECT_EQ(read_bytes(share.at("run-1/a")), "ours a"); // nothing is deleted
+    EXPECT_EQ(read_bytes(share.at("run-1-2/a")), "ours a");
+    EXPECT_EQ(read_bytes(share.at("run-1-2/b")), "ours b");
+}
+
+/// A share that gives back other bytes than it took, or takes no name.
 class ForgetfulDestination final : public Destination {
 public:
+    explicit ForgetfulDestination(std::string gives_back)
+        : gives_back_{std::move(gives_back)} {}
     std::vector<std::string> renamed;
+    bool every_name_is_taken = false;
     [[nodiscard]] std::string place() const override { return "forgetful"; }
     Result<void> check() override { return {}; }
     Result<bool> make_folder(const std::string&) override { return true; }
@@ -138,22 +178,36 @@ public:
     Result<std::string> sha256_of(const std::string&, const Progress&) override { return {}; }
     Result<std::string>
     write_and_read_back(const std::string&, const std::string&, const Progress&) override {
-        return sha256_hex("other bytes");
+        return sha256_hex(gives_back_);
     }
     Result<void> move_to_free_name(const std::string&, const std::string& to) override {
         renamed.push_back(to);
+        if (every_name_is_taken) return fail(Fault::refused, to + " exists already");
         return {};
     }
     Result<void> remove_file(const std::string&) override { return {}; }
     Result<void> sync_folder(const std::string&) override { return {}; }
+
+private:
+    std::string gives_back_;
 };
 
 TEST(Share, GivesNoFinalNameToBytesThatCameBackWrong) {
     const Share share;
-    ForgetfulDestination forgetful;
+    ForgetfulDestination forgetful{"other bytes"};
     const auto copied = copy_entry(share.entry({{"a", "ours"}}), forgetful, published_at);
     EXPECT_EQ(copied.error().fault, Fault::checksum);
     EXPECT_TRUE(forgetful.renamed.empty());
+}
+
+TEST(Share, TellsOfANameThatIsTakenEachTimeInsteadOfWritingForEver) {
+    const Share share;
+    ForgetfulDestination forgetful{"ours"};
+    forgetful.every_name_is_taken = true;
+    const auto copied = copy_entry(share.entry({{"a", "ours"}}), forgetful, published_at);
+    EXPECT_EQ(copied.error().fault, Fault::refused);
+    EXPECT_EQ(copied.error().detail, "run-1/a exists already");
+    EXPECT_EQ(forgetful.renamed.size(), 3U);
 }
 
 /// Copies in a child that kills itself at the given progress call; false when it came to the end.
