@@ -19,6 +19,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/open_requests.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_line.hpp"
 #include "drivers/framing/line_framer.hpp"
@@ -62,7 +63,11 @@ private:
     ask(ByteLink& link, Scheduler& scheduler, std::string_view what, int lines);
     Task<Result<void>> identify(ByteLink& link, InstrumentContext context);
     Task<Result<void>> ask_calibration(ByteLink& link, InstrumentContext context);
+    Task<Result<void>>
+    hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
+    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<void>> poll(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    void close_request(std::string_view text, MonotonicTime read_at);
     void take_line(std::string_view text, MonotonicTime read_at, SampleSink& sink);
     void hand_up(int channel, const PlacedTime& at, std::optional<double> value, SampleSink& sink);
 
@@ -70,8 +75,10 @@ private:
     Duration poll_period_;
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
-    bool probe_heard_ = false;             ///< in this poll
-    MonotonicTime asked_at_{};             ///< this poll's request
+    bool probe_heard_ = false; ///< in this poll
+    OpenRequests requests_;
+    MonotonicTime asked_at_{};             ///< the request that was answered last
+    bool probe_may_follow_ = false;        ///< the last line was the stick's own
     std::optional<PlacedTime> heard_at_{}; ///< the stick's own line, in this poll
 };
 
@@ -146,8 +153,18 @@ void TemperSerial::hand_up(int channel,
     sink.take(sample_at(channel, at, value));
 }
 
+/// An answer begins with the stick's own line, damaged or not; the probe's belongs to the same one.
+void TemperSerial::close_request(std::string_view text, MonotonicTime read_at) {
+    const bool own = text.starts_with("Temp-Inner:");
+    if (!own && !text.starts_with("Temp-Outer:")) return;
+    const bool goes_on = std::exchange(probe_may_follow_, own) && !own;
+    if (goes_on) return;
+    if (const auto asked = requests_.answered(read_at)) asked_at_ = *asked;
+}
+
 void TemperSerial::take_line(std::string_view text, MonotonicTime read_at, SampleSink& sink) {
     if (text.empty()) return;
+    close_request(text, read_at);
     const auto line = parse_temper_line(text);
     if (!line) {
         ++counters_.bad_frames;
@@ -166,20 +183,13 @@ void TemperSerial::take_line(std::string_view text, MonotonicTime read_at, Sampl
                 sink);
 }
 
-/// One request and what comes until the next is due. A probe of which there is no line is absent.
 /// The link and the framer are owned by run()'s frame, which waits.
-Task<Result<void>>
-TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    Scheduler& scheduler = *context.scheduler;
-    asked_at_ = scheduler.now();
-    const MonotonicTime next = asked_at_ + poll_period_;
-    heard_at_.reset();
-    probe_heard_ = false;
-    auto request = command("ReadTemp");
-    const auto written = co_await link.write_all(std::move(request), next + link_patience);
-    if (!written) co_return written;
-    while (scheduler.now() < next) {
-        const auto arrived = co_await link.read_some(next);
+Task<Result<void>> TemperSerial::hear_until(ByteLink& link,
+                                            InstrumentContext context,
+                                            LineFramer& framer,
+                                            MonotonicTime end) {
+    while (context.scheduler->now() < end) {
+        const auto arrived = co_await link.read_some(end);
         if (!arrived && arrived.error().fault == Fault::link_timeout) break;
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
         const auto oversized = framer.feed(arrived->bytes, [&](std::string_view line) {
@@ -187,6 +197,38 @@ TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer
         });
         counters_.bad_frames += oversized;
     }
+    co_return Result<void>{};
+}
+
+/// Where the stick answered while another request is open, what is late is heard before it is asked
+/// again: an answer is never taken for that of a request that came after it.
+Task<Result<void>>
+TemperSerial::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    while (const auto end = requests_.listen_until()) {
+        const MonotonicTime now = context.scheduler->now();
+        if (now >= *end) requests_.forget();
+        const MonotonicTime soon = std::min(*end, now + poll_period_);
+        const auto heard = co_await hear_until(link, context, framer, soon);
+        if (!heard) co_return heard;
+    }
+    co_return Result<void>{};
+}
+
+/// One request and what comes until the next is due. A probe of which there is no line is absent.
+Task<Result<void>>
+TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    heard_at_.reset();
+    probe_heard_ = false;
+    const auto late = co_await hear_late(link, context, framer);
+    if (!late) co_return late;
+    const MonotonicTime asked = context.scheduler->now();
+    requests_.asked(asked);
+    const MonotonicTime next = asked + poll_period_;
+    auto request = command("ReadTemp");
+    const auto written = co_await link.write_all(std::move(request), next + link_patience);
+    if (!written) co_return written;
+    const auto heard = co_await hear_until(link, context, framer, next);
+    if (!heard) co_return heard;
     if (heard_at_ && !probe_heard_)
         hand_up(probe_temperature, *heard_at_, std::nullopt, *context.sink);
     co_return Result<void>{};
@@ -201,6 +243,9 @@ Task<Result<void>> TemperSerial::run(InstrumentContext context) {
     if (!known) co_return known;
     const auto told = co_await ask_calibration(*link, context);
     if (!told) co_return told;
+    requests_.forget();
+    probe_may_follow_ = false;
+    asked_at_ = context.scheduler->now(); // no reading is older
     LineFramer framer{longest_line};
     for (int silent = 0; silent < silent_polls;) {
         const auto polled = co_await poll(*link, context, framer);

@@ -18,6 +18,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/open_requests.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/vaisala_line.hpp"
 #include "drivers/framing/line_framer.hpp"
@@ -108,24 +109,34 @@ private:
     Task<Result<void>>
     hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
     Task<Result<void>> prepare(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<int>>
     ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_reading(const VaisalaReading& reading, const PlacedTime& at, SampleSink& sink);
     [[nodiscard]] PlacedTime placed(MonotonicTime read_at) const;
+    void close_request(MonotonicTime read_at);
 
     VaisalaSetup setup_;
     std::vector<Channel> channels_;
     std::string request_;
     InstrumentCounters counters_;
     bool heard_ = false, identified_ = false;
-    bool spoke_ = false;                    ///< any byte came since the line was opened
-    std::optional<MonotonicTime> asked_at_; ///< the last request; empty: none since it was told
+    bool spoke_ = false; ///< any byte came since the line was opened
+    OpenRequests requests_;
+    std::optional<MonotonicTime>
+        asked_at_; ///< what was answered last; empty: none since it was told
 };
 
 /// A line that nobody asked for (it still sent by itself) states no u(t).
 PlacedTime Vaisala::placed(MonotonicTime read_at) const {
     return asked_at_ ? placed_between(*asked_at_, read_at) : PlacedTime{read_at, Duration{}};
+}
+
+/// What answers nothing, a line more, keeps the request that was answered last: it is older.
+void Vaisala::close_request(MonotonicTime read_at) {
+    if (const auto asked = requests_.answered(read_at)) asked_at_ = asked;
 }
 
 void Vaisala::take_reading(const VaisalaReading& reading, const PlacedTime& at, SampleSink& sink) {
@@ -144,6 +155,8 @@ void Vaisala::take_line(std::string_view text, MonotonicTime read_at, SampleSink
     if (line.empty() || is_talk(line)) return;
     const auto body = verify_vaisala_line(line, setup_.checksum);
     const auto reading = body ? parse_vaisala_line(*body) : tl::unexpected<Error>(body.error());
+    // A damaged reading is an answer as well; what is no reading at all may be anything.
+    if (reading || reading.error().fault == Fault::checksum) close_request(read_at);
     if (!reading) {
         ++(reading.error().fault == Fault::checksum ? counters_.checksum_errors
                                                     : counters_.bad_frames);
@@ -174,6 +187,7 @@ Task<Result<void>> Vaisala::hear_until(ByteLink& link,
 
 Task<Result<void>> Vaisala::prepare(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     asked_at_.reset();
+    requests_.forget();
     const auto commands = opening_commands(setup_);
     for (const std::string& text : commands) {
         const MonotonicTime end = context.scheduler->now() + talk;
@@ -186,6 +200,34 @@ Task<Result<void>> Vaisala::prepare(ByteLink& link, InstrumentContext context, L
     co_return Result<void>{};
 }
 
+/// Where it answered while another request is open, what is late is heard before it is asked again:
+/// an answer is never taken for that of a request that came after it.
+Task<Result<void>>
+Vaisala::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    while (const auto end = requests_.listen_until()) {
+        const MonotonicTime now = context.scheduler->now();
+        if (now >= *end) requests_.forget();
+        const MonotonicTime soon = std::min(*end, now + setup_.poll_period);
+        const auto heard = co_await hear_until(link, context, framer, soon);
+        if (!heard) co_return heard;
+    }
+    co_return Result<void>{};
+}
+
+/// One request and what comes until the next is due; heard_ tells whether a reading did.
+Task<Result<void>> Vaisala::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    const auto late = co_await hear_late(link, context, framer);
+    if (!late) co_return late;
+    heard_ = false;
+    const MonotonicTime asked = context.scheduler->now();
+    requests_.asked(asked);
+    const MonotonicTime next = asked + setup_.poll_period;
+    auto request = bytes_of(request_);
+    const auto written = co_await link.write_all(std::move(request), next + link_patience);
+    if (!written) co_return written;
+    co_return co_await hear_until(link, context, framer, next);
+}
+
 /// How many requests were answered before three in a row were not. Where not a byte came since the
 /// line was opened one is enough: an adapter that stalled must be opened anew.
 Task<Result<int>>
@@ -193,15 +235,8 @@ Vaisala::ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& 
     int answered = 0;
     for (int silent = 0; silent < (spoke_ ? silent_requests : 1);
          silent = heard_ ? 0 : silent + 1) {
-        heard_ = false;
-        const MonotonicTime asked = context.scheduler->now();
-        asked_at_ = asked;
-        const MonotonicTime next = asked + setup_.poll_period;
-        auto request = bytes_of(request_);
-        const auto written = co_await link.write_all(std::move(request), next + link_patience);
-        if (!written) co_return tl::unexpected<Error>(written.error());
-        const auto heard = co_await hear_until(link, context, framer, next);
-        if (!heard) co_return tl::unexpected<Error>(heard.error());
+        const auto asked = co_await ask(link, context, framer);
+        if (!asked) co_return tl::unexpected<Error>(asked.error());
         if (heard_)
             ++answered;
         else

@@ -18,12 +18,14 @@
 //
 // A gauge is asked each period and heard all the time: a value that a person sends with the DATA
 // key counts as well. A value belongs to the arrival of its last byte less the time that its line
-// needs on the wire. One that was asked for may be as old as its request, and u(t) says so.
+// needs on the wire. One that was asked for may be as old as its request, and u(t) says so, also
+// where the answer comes after the next request.
 
 #include "drivers/gauge/ascii_gauge.hpp"
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
+#include "drivers/clock/open_requests.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/gauge/gauge_answer.hpp"
@@ -75,6 +77,7 @@ private:
     Task<Result<void>>
     hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
     Task<Result<void>> ask_unit(ByteLink& link, InstrumentContext context, LineFramer& framer);
+    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
@@ -89,8 +92,8 @@ private:
     Duration latency_, time_uncertainty_{};
     std::vector<Channel> channels_;
     InstrumentCounters counters_;
-    std::optional<MonotonicTime> asked_at_; ///< a request that is not answered yet
-    std::optional<GaugeUnit> told_unit_;    ///< by the gauge, on this connection
+    OpenRequests requests_;
+    std::optional<GaugeUnit> told_unit_; ///< by the gauge, on this connection
     std::optional<Error> contradiction_;
     bool answered_ = false, identified_ = false;
     bool counted_before_ = false; ///< a value was handed up on an earlier connection
@@ -117,7 +120,7 @@ void AsciiGauge::learn_unit(GaugeUnit unit) {
 /// of a gauge that took its time. The first value after a request answers it, or is one that a
 /// person sent meanwhile; the next ones are a person's.
 Duration AsciiGauge::uncertainty_at(MonotonicTime at) {
-    const auto asked = std::exchange(asked_at_, std::nullopt);
+    const auto asked = requests_.answered(at);
     if (!asked) return time_uncertainty_;
     return std::max(time_uncertainty_, placed_at_end(at, at - *asked).uncertainty);
 }
@@ -148,6 +151,7 @@ void AsciiGauge::tell_identity(SampleSink& sink) {
 /// An autocollimator sees no mirror whenever the axis turns: its quality says so, and no note.
 void AsciiGauge::take_error(const Error& error, MonotonicTime at, SampleSink& sink) {
     answered_ = true;
+    requests_.answered(at - latency_);
     if (error.fault == Fault::beam_lost) {
         tell_identity(sink);
         return sink.take(Sample::bad(0, at - latency_, Quality::beam_lost, 0, epoch_));
@@ -229,11 +233,27 @@ tl::unexpected<Error> AsciiGauge::why_no_unit(const InstrumentCounters& before) 
                         "file");
 }
 
+/// Where a gauge answered while another request is open, what is late is heard before it is asked
+/// again: an answer is never taken for that of a request that came after it.
+Task<Result<void>>
+AsciiGauge::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    while (const auto end = requests_.listen_until()) {
+        const MonotonicTime now = context.scheduler->now();
+        if (now >= *end) requests_.forget();
+        const MonotonicTime soon = std::min(*end, now + setup_.poll_period);
+        const auto heard = co_await hear_until(link, context, framer, soon);
+        if (!heard) co_return heard;
+    }
+    co_return Result<void>{};
+}
+
 Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
+    const auto late = co_await hear_late(link, context, framer);
+    if (!late) co_return late;
     answered_ = false;
     const MonotonicTime now = context.scheduler->now();
     const MonotonicTime next = now + setup_.poll_period;
-    asked_at_ = now;
+    requests_.asked(now);
     auto request = bytes_of(setup_.model->request);
     const auto written = co_await link.write_all(std::move(request), next + link_patience);
     if (!written) co_return written;
@@ -250,7 +270,7 @@ Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
     // Answers have 10 to 24 characters; an adapter keeps them for as long as its timer runs.
     time_uncertainty_ = link->latency_uncertainty() + latency_ / 2;
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
-    asked_at_.reset();
+    requests_.forget();
     told_unit_.reset();
     contradiction_.reset();
     identified_ = false;
