@@ -66,6 +66,12 @@ Result<void> parse_line(std::string_view line, Tape& tape) {
     return {};
 }
 
+/// A file of the kernel that is not there or cannot be read says so at once, as a device that
+/// refuses does: without an entry the tape would be silent there for the driver's whole patience.
+bool no_answer_will_come(Fault fault) {
+    return fault == Fault::not_found || fault == Fault::io || fault == Fault::refused;
+}
+
 bool is_of_endpoint(const TapeEntry& entry, std::optional<int> endpoint) {
     if (!endpoint || entry.direction != TapeEntry::Direction::in) return true;
     return !entry.bytes.empty() && std::to_integer<int>(entry.bytes.front()) == *endpoint;
@@ -194,7 +200,7 @@ Task<Result<TimedBytes>> TapeRecorderLink::read_some(MonotonicTime deadline) {
         tape_.write(TapeEntry::Direction::in, arrived->read_at, arrived->bytes);
     else if (arrived.error().fault == Fault::link_closed)
         tape_.write(TapeEntry::Direction::closed, scheduler_.now(), {});
-    else if (arrived.error().fault == Fault::not_found || arrived.error().fault == Fault::refused)
+    else if (no_answer_will_come(arrived.error().fault))
         tape_.write(TapeEntry::Direction::refused, scheduler_.now(), {});
     co_return arrived;
 }

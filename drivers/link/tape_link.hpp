@@ -5,8 +5,8 @@
 // origin = device | vendor-document | simulator), then one line per transfer:
 //     <direction> <offset_ns> <hex>
 // with direction '<' from the instrument, '>' to it, '!' the link closed, 'x' the device refused
-// (STALL, or there is no such file; both without hex). Offsets are monotonic and count from the
-// first opening. '#' begins a comment line.
+// (STALL, or there is no such file, or it cannot be read; without hex). Offsets are monotonic and
+// count from the first opening. '#' begins a comment line.
 //
 // USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
 // endpoints '>' and '<' begin with the endpoint's address.

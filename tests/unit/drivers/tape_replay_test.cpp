@@ -206,6 +206,60 @@ TEST(Tape, KeepsAPacketForTheEndpointThatItCameFrom) {
     EXPECT_EQ(told, "link_timeout 1 2 ");
 }
 
+/// A file of a 1-Wire sensor whose adapter answers EIO 5 ms after it was asked.
+class UnreadableFile final : public ByteLink {
+public:
+    explicit UnreadableFile(Scheduler& scheduler)
+        : scheduler_{scheduler} {}
+    Task<Result<TimedBytes>> read_some(MonotonicTime /*deadline*/) override {
+        co_await scheduler_.sleep_for(std::chrono::milliseconds{5});
+        co_return fail(Fault::io, "28-0000075b3c2a/w1_slave",
+                       std::make_error_code(std::errc::io_error));
+    }
+    Task<Result<void>> write_all(std::vector<std::byte> /*bytes*/,
+                                 MonotonicTime /*deadline*/) override {
+        co_return Result<void>{};
+    }
+
+private:
+    Scheduler& scheduler_;
+};
+
+/// Asks for one file and waits for it as the driver of the sensors does; `fault` tells what came.
+Task<void> ask_for_file(ByteLink& link, Scheduler& scheduler, std::optional<Fault>& fault) {
+    const MonotonicTime latest = scheduler.now() + std::chrono::seconds{10};
+    std::vector<std::byte> name{std::byte{0x61}};
+    co_await link.write_all(std::move(name), latest);
+    const auto answer = co_await link.read_some(latest);
+    if (!answer) fault = answer.error().fault;
+}
+
+Task<void> replay_file(TapePlayer& player, Scheduler& scheduler, std::optional<Fault>& fault) {
+    const LinkSettings nowhere;
+    const auto opened = co_await player.open(nowhere, scheduler.now());
+    co_await ask_for_file(**opened, scheduler, fault);
+}
+
+TEST(Tape, TellsOfAFileThatCannotBeReadInsteadOfFallingSilent) {
+    testing::VirtualScheduler scheduler;
+    std::stringstream copy;
+    TapeRecorderLink recorder{std::make_unique<UnreadableFile>(scheduler), scheduler, copy,
+                              scheduler.now()};
+    std::optional<Fault> met, replayed;
+    boost::asio::co_spawn(scheduler.executor(), ask_for_file(recorder, scheduler, met),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::seconds{1});
+    EXPECT_EQ(met, Fault::io);
+    EXPECT_EQ(copy.str(), "> 0 61\nx 5000000\n");
+    const auto tape = parse_tape("origin = simulator\n" + copy.str());
+    ASSERT_TRUE(tape);
+    TapePlayer player{scheduler, *tape};
+    boost::asio::co_spawn(scheduler.executor(), replay_file(player, scheduler, replayed),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::milliseconds{5});
+    EXPECT_EQ(replayed, Fault::refused) << "at the moment when it was told";
+}
+
 TEST(Tape, IsRecordedAsItWasPlayed) {
     const std::string transfers = "> 0 3f\n< 1000 00ff41\n< 2000000000 42\n! 2000000001\n";
     const auto tape = parse_tape("origin = simulator\n" + transfers);
