@@ -11,6 +11,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Sample>);
 
+constexpr std::size_t given_back_bytes = std::size_t{64} * 4096; ///< a system call for thousands
+
 /// Whole pages that hold whole samples.
 std::size_t places_of(std::size_t capacity) {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -31,16 +33,16 @@ std::unique_ptr<Sample[], SampleRing::Unmap> SampleRing::mapped_twice(std::size_
     std::unique_ptr<Sample[], Unmap> places{static_cast<Sample*>(place), Unmap{bytes}};
     constexpr int shared = MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED;
     // mremap(2): of a length of 0, pages that are shared are seen at the new place as well.
-    const bool mapped =
-        ::mmap(place, bytes, PROT_READ | PROT_WRITE, shared, -1, 0) != MAP_FAILED &&
-        ::mremap(place, 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED,
-                 static_cast<std::byte*>(place) + bytes) != MAP_FAILED;
+    const bool mapped = ::mmap(place, bytes, PROT_READ | PROT_WRITE, shared, -1, 0) != MAP_FAILED &&
+                        ::mremap(place, 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED,
+                                 static_cast<std::byte*>(place) + bytes) != MAP_FAILED;
     if (!mapped) throw std::bad_alloc{};
     return places;
 }
 
 SampleRing::SampleRing(std::size_t capacity)
     : count_{places_of(capacity)}
+    , step_{places_of(given_back_bytes / sizeof(Sample))}
     , places_{mapped_twice(count_ * sizeof(Sample))} {}
 
 void SampleRing::push(const Sample& sample) {
@@ -51,8 +53,19 @@ void SampleRing::push(const Sample& sample) {
 }
 
 void SampleRing::pop() {
-    if (++first_ == count_) first_ = 0;
+    ++first_;
     --size_;
+    if (first_ - passed_ == step_ || first_ == count_) give_back_passed();
+    if (first_ == count_) first_ = passed_ = 0;
+}
+
+// A ring that is nearly full has its newest samples in the places just passed, by the second copy:
+// these pages are needed. Where the kernel refuses, they are only kept.
+void SampleRing::give_back_passed() {
+    const bool newest_behind = first_ + size_ > count_ + passed_;
+    if (!newest_behind)
+        ::madvise(&places_[passed_], (first_ - passed_) * sizeof(Sample), MADV_REMOVE);
+    passed_ = first_;
 }
 
 } // namespace axiscal
