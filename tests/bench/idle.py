@@ -7,7 +7,7 @@ The daemon as its unit starts it (a notify socket, a watchdog of 10 s), everythi
 state directory with 1000 closed runs. Its three instruments (laser, weather, thermistors on Modbus RTU) are those of the station file of
 tests/simulation; none of them is plugged in. "ready" is from before the program is started until its READY=1, the fastest of some
 rounds, every other one of which is the acceptor's; "at rest" is once nothing has woken for a moment: the runs were looked through and
-the readings of nobody have grown old. Wake-ups are voluntary context switches of all threads.
+the readings of nobody have grown old. All of it is pinned to one processor. Wake-ups are voluntary context switches of all threads.
 """
 import os
 import re
@@ -20,6 +20,8 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+
+import stall
 
 RUNS, ROUNDS, WATCHDOG_S = 1000, int(os.environ.get("AXISCAL_BENCH_ROUNDS", "9")), 10
 WATCH_S = float(os.environ.get("AXISCAL_BENCH_IDLE_SECONDS", "60"))
@@ -153,7 +155,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="axiscal-idle-") as name, socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as notify:
         notify.bind(f"{name}/notify")
         notify.settimeout(60)
-        best, rest, floor = measure(programs, source, Path(name), notify)
+        with stall.told(stall.last_processor(), "idle, pinned: ", pinned=True):
+            best, rest, floor = measure(programs, source, Path(name), notify)
 
     def verdict(met):
         return "" if met else "  MISSED"

@@ -71,6 +71,26 @@ measure(const TimedRow& row, const char* kind, const TimedWork& work, const std:
         ->Unit(benchmark::kNanosecond);
 }
 
+/// A row of a number that is no time.
+struct CountRow {
+    std::string name;
+    std::function<double()> count;
+    std::string unit;
+    double most; ///< the goal
+};
+
+inline bool add(const CountRow& row) {
+    benchmark::RegisterBenchmark((row.name + "/count").c_str(), [row](benchmark::State& state) {
+        double count = 0;
+        for ([[maybe_unused]] auto _ : state)
+            count = row.count();
+        state.counters["count"] = count;
+        state.counters["goal_count"] = row.most;
+        state.SetLabel(row.unit);
+    });
+    return true;
+}
+
 inline bool add(const TimedRow& row) {
     measure(row, "this", row.ours, row.limit_name);
     measure(row, "limit", row.limit, row.limit_name);

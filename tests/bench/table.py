@@ -15,7 +15,9 @@ import platform
 import re
 import subprocess
 import sys
-import time
+
+import stall
+from stall import time_text
 
 REPETITIONS = 9
 
@@ -44,9 +46,9 @@ def run_ours(program, cpu, seconds, wanted):
             continue
         name, kind = one["run_name"].removesuffix("/manual_time").rsplit("/", 1)
         row = rows.setdefault(name, {"peers": [], "parts": []})
-        row[kind] = min(row.get(kind, float("inf")), one["real_time"])
+        row[kind] = one["count"] if kind == "count" else min(row.get(kind, float("inf")), one["real_time"])
         row[kind + " label"] = one.get("label", "")
-        row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy", "goal_peer")})
+        row.update({key: one[key] for key in ("goal_ratio", "goal_ms", "goal_numpy", "goal_peer", "goal_count") if key in one})
     for row in rows.values():
         if "peer" in row:
             row["peers"].append((row["peer"], row["peer label"]))
@@ -69,27 +71,11 @@ def run_peers(folder, cpu, wanted, rows):
     return told
 
 
-def idle_stall_ns(cpu):
-    """How late a sleep of 1 ms ended at worst in two seconds: what this computer adds to any figure by itself."""
-    affinity = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {int(cpu)})
-    worst, end = 0, time.monotonic_ns() + 2_000_000_000
-    while (before := time.monotonic_ns()) < end:
-        time.sleep(0.001)
-        worst = max(worst, time.monotonic_ns() - before - 1_000_000)
-    os.sched_setaffinity(0, affinity)
-    return worst
-
-
-def time_text(ns):
-    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "us")):
-        if ns >= size:
-            return f"{ns / size:.3g} {unit}"
-    return f"{ns:.3g} ns"
-
-
 def goals_of(row):
     """(what, whether it is met; None: not measured)"""
+    if "count" in row:
+        yield f"<= {row['goal_count']:g} {row['count label']}", row["count"] <= row["goal_count"]
+        return
     ours = row["this"]
     if row["goal_ratio"]:
         yield f"<= {row['goal_ratio']:g} x limit", ours <= row["goal_ratio"] * row["limit"]
@@ -103,11 +89,14 @@ def goals_of(row):
 
 
 def cells(name, row):
-    ours, limit, peer = row["this"], row.get("limit"), min(row["peers"], default=None)
     words = {True: "", False: " MISSED", None: " (not measured)"}
+    goals = ", ".join(goal + words[met] for goal, met in goals_of(row)) or "-"
+    if "count" in row:
+        return [name, f"{row['count']:.3g} {row['count label']}", "-", "-", "-", goals]
+    ours, limit, peer = row["this"], row.get("limit"), min(row["peers"], default=None)
     return [name, time_text(ours), f"{time_text(limit)} ({row['limit label']})" if limit else "-",
             f"{time_text(peer[0])} ({peer[1]}), {peer[0] / ours:.3g} x" if peer else "-",
-            f"{ours / limit:.2f}" if limit else "-", ", ".join(goal + words[met] for goal, met in goals_of(row)) or "-"]
+            f"{ours / limit:.2f}" if limit else "-", goals]
 
 
 def other_peers(rows):
@@ -120,12 +109,9 @@ def main():
     program, cpu, seconds, peers = sys.argv[1:5]
     wanted = sys.argv[5] if len(sys.argv) > 5 else "."
     print(f"{machine()}; pinned to processor {cpu}, fastest of {REPETITIONS} interleaved repetitions")
-    begin, stalls = os.getloadavg()[0], [idle_stall_ns(cpu)]
-    rows = run_ours(program, cpu, seconds, wanted)
-    told = run_peers(pathlib.Path(peers), cpu, wanted, rows) if peers != "-" else ["peers did not run: tools/bench --peers"]
-    stalls.append(idle_stall_ns(cpu))
-    print(f"load of the computer (1 min): {begin:.1f} before, {os.getloadavg()[0]:.1f} after; its own stall: a sleep of 1 ms ended "
-          f"{time_text(stalls[0])} late at worst before, {time_text(stalls[1])} after")
+    with stall.told(cpu):
+        rows = run_ours(program, cpu, seconds, wanted)
+        told = run_peers(pathlib.Path(peers), cpu, wanted, rows) if peers != "-" else ["peers did not run: tools/bench --peers"]
     head = ["name", "this", "limit", "best peer", "ratio", "goal"]
     table = [head, ["---"] * len(head), *(cells(name, row) for name, row in rows.items())]
     widths = [max(map(len, column)) for column in zip(*table)]
