@@ -5,14 +5,12 @@ import fcntl
 import os
 import socket
 import struct
-import time
 
 import bench
 from bench import expect, sentence
 
 NOTES = 2000  # of more than 100 bytes: more than pipe and daemon keep
 SAMPLES = 3000  # of a laser of 1 kHz: what the kernel keeps of it lasts a tenth of a second
-STOP_S = 10.0  # half of what the unit allows before systemd kills
 LOSSES = ("restarts", "bad_frames", "checksum_errors", "gaps", "lost_records")
 
 
@@ -68,11 +66,8 @@ def unread(b):
         lost = {key: after[key] - before[key] for key in LOSSES}
         print(f"{after['samples'] - before['samples']} samples beside {NOTES} notes that nobody read: {lost}")
         expect(not any(lost.values()), f"the laser lost {lost}")
-        began = time.monotonic()
-        code = b.end("axiscald")
-        took_s = time.monotonic() - began
+        code = b.end("axiscald")  # or TimeoutExpired, naming the program: nobody ever reads the pipe
     expect(code == 0, f"axiscald ended with {code}")
-    expect(took_s < STOP_S, f"it took {took_s:.1f} s to end")
 
 
 if __name__ == "__main__":

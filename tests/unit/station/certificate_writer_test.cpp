@@ -61,16 +61,15 @@ TEST_F(ReportProgram, TalkingWithoutEndIsEnded) {
     EXPECT_FALSE(said("yes"));
 }
 
-// The program itself hangs; and a child of it, which holds the pipe when it is gone.
+// The program itself hangs; and a child of it, which holds the pipe when it is gone. Where neither
+// is killed, this waits for an hour, and ctest ends it.
 TEST_F(ReportProgram, HangingIsKilledAtTheLimit) {
-    for (const char* body : {"exec sleep 600", "sleep 40; true"}) {
-        const auto began = std::chrono::steady_clock::now();
+    for (const char* body : {"exec sleep 3600", "sleep 3600; true"}) {
         const auto answer = answer_of(report_script(scratch, body), std::chrono::milliseconds{300});
         ASSERT_FALSE(answer);
         EXPECT_EQ(answer.error().fault, Fault::io);
         EXPECT_NE(answer.error().detail.find("has not finished after 0.3 s"), std::string::npos)
             << answer.error().detail;
-        EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds{30});
     }
 }
 
