@@ -26,10 +26,17 @@ def begin(b):
     b.wait_for_points(BEFORE)
 
 
+# What is wrong, and what to do about it.
+FULL = ("is full (", " MB are free): free some 100 MB there; runs under published have been copied to the share and may go.")
+READ_ONLY = ("cannot be written: mount its disk for writing, and let it belong to the user of axiscald.",)
+BROKEN = ("reports an error of its own (see dmesg): copy the runs to another one.",)
+
+
 def held(b, words):
     """The station names the fault and what to do; the CNC sees no new `done`."""
     run = b.wait_for_refusal("not_durable")
-    expect(words in run["sentence"], f"not a word of {words!r}: {run['sentence']}")
+    for part in words:
+        expect(part in run["sentence"], f"not a word of {part!r}: {run['sentence']}")
     expect(run["state"] == "stopped", f"{run}")
     done = b.sim("status")["done"]
     expect(done == run["done"], f"the CNC sees {done} done, the run {run['done']}")
@@ -63,17 +70,17 @@ def fails(b, error, kinds, words):
 
 @sentence("FullDiskHoldsTheCncAndTheRunGoesOn")
 def full(b):
-    fails(b, errno.ENOSPC, DATA | NAME, "is full")
+    fails(b, errno.ENOSPC, DATA | NAME, FULL)
 
 
 @sentence("ReadOnlyDiskHoldsTheCncAndTheRunGoesOn")
 def read_only(b):
-    fails(b, errno.EROFS, DATA | NAME, "cannot be written")
+    fails(b, errno.EROFS, DATA | NAME, READ_ONLY)
 
 
 @sentence("DiskThatCannotSyncHoldsTheCncAndTheRunGoesOn")
 def broken_sync(b):
-    fails(b, errno.EIO, SYNC, "reports an error of its own")
+    fails(b, errno.EIO, SYNC, BROKEN)
 
 
 def own_mounts():
@@ -132,7 +139,7 @@ def really_full(b):
                         file.write(bytes(size))
                 except OSError as full_now:
                     expect(full_now.errno == errno.ENOSPC, f"{full_now}")
-        done = held(b, "is full")
+        done = held(b, FULL)
         ballast.unlink()
         goes_on(b, done)
     finally:

@@ -6,6 +6,7 @@ AXISCAL_MAY_SKIP names samba (then exit 77).
 """
 import json
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -23,6 +24,15 @@ def sentence(name):
         sentences[name] = function
         return function
     return register
+
+
+def expect_age(text, place, youngest_s, eldest_s):
+    """`axiscal status` tells how long the oldest of two waits, rounded to its unit; asked between these two ages."""
+    found = re.search(r"^Outbox       2 waiting, the oldest since (\d+) (s|min|h), to (.+)$", text, re.M)
+    expect(found and found[3] == place, text)
+    unit_s = {"s": 1, "min": 60, "h": 3600}[found[2]]
+    told_s = int(found[1]) * unit_s
+    expect(youngest_s - unit_s / 2 <= told_s <= eldest_s + unit_s / 2, f"{youngest_s} s to {eldest_s} s old: {text}")
 
 
 @sentence("AFrozenShareDelaysNoCapture")
@@ -55,7 +65,8 @@ def frozen(b, samba):
     expect(shown["waiting"] == 2 and shown["publisher"]["runs"] and shown["publisher"]["destination"] == samba.url, f"{shown}")
     expect("2 results wait" in shown["alarm"] and "does not answer in time" in shown["alarm"], f"{shown}")
     text = b.axiscal("status")
-    expect("Outbox       2 waiting" in text and "ALARM: 2 results wait" in text, text)
+    expect("ALARM: 2 results wait" in text, text)
+    expect_age(text, samba.url, shown["oldest_s"], b.status()["outbox"]["oldest_s"])
     wait_until("the alarm stands in the notes", lambda: any("Alarm: " in note for note in b.status()["notes"]))
     mapped = Path(f"/proc/{b.processes['axiscald'].pid}/maps").read_text()
     expect("smbclient" not in mapped, "axiscald has libsmbclient in its memory")
