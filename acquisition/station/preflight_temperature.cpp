@@ -14,6 +14,8 @@ namespace {
 constexpr double telling_change_K = 0.03;
 /// Of the two residuals: below it they move by chance.
 constexpr double telling_correlation = 0.8;
+/// Fewer readings tell nothing about who follows whom.
+constexpr std::size_t fewest_readings = 10;
 
 std::string in_kelvin(double kelvins) {
     return plain_number(kelvins, 3) + " K";
@@ -62,10 +64,12 @@ double value_at(const DriftSeries& series, double time) {
     return series.readings[i - 1] + share * (series.readings[i] - series.readings[i - 1]);
 }
 
+bool too_few(const DriftSeries& series) {
+    return series.times.size() < fewest_readings;
+}
+
 /// Share of the air's swings that the sensor shows; empty when nothing can be told.
 std::optional<double> air_share_of(const DriftSeries& material, const DriftSeries& air) {
-    constexpr std::size_t fewest = 10;
-    if (material.times.size() < fewest || air.times.size() < fewest) return std::nullopt;
     std::vector<double> beside;
     beside.reserve(material.times.size());
     for (const double time : material.times)
@@ -138,23 +142,36 @@ PreflightRecord check_sensors(const PreflightFacts& facts) {
 
 PreflightRecord check_contact(const PreflightFacts& facts) {
     const PreflightConfig& limits = facts.config.preflight;
-    const Duration window = std::max<Duration>(limits.soak_window, std::chrono::seconds{1});
+    const Duration window = limits.soak_window;
+    if (window <= Duration{}) return passed("contact", "Not asked: preflight.soak_window is 0.");
     const auto air = std::ranges::find_if(facts.sensors, [](const SensorFacts& sensor) {
         return sensor.medium == Medium::air && sensor.kind == ChannelKind::temperature;
     });
     if (air == facts.sensors.end())
         return passed("contact", "There is no air sensor to compare with.");
     const DriftSeries air_series = air->log->last(window, facts.now);
-    std::string wrong;
+    std::string wrong, unread;
     for (const SensorFacts& sensor : facts.sensors) {
         if (sensor.medium != Medium::material) continue;
-        const auto share = air_share_of(sensor.log->last(window, facts.now), air_series);
+        const DriftSeries series = sensor.log->last(window, facts.now);
+        if (too_few(series) || too_few(air_series)) {
+            join(unread, sensor.name);
+            continue;
+        }
+        const auto share = air_share_of(series, air_series);
         if (share && *share >= limits.air_share)
             join(wrong, sensor.name + " shows " + plain_number(*share * 100, 0) +
                             " % of each change of " + air->name);
     }
-    if (wrong.empty()) return passed("contact", "No material sensor follows the air.");
-    return failed("contact", wrong + ". It reads the air: press it on with paste and cover it.");
+    if (!wrong.empty())
+        return failed("contact",
+                      wrong + ". It reads the air: press it on with paste and cover it.");
+    if (!unread.empty())
+        return passed("contact", "Not judged for " + unread + ": within " + in_minutes(window) +
+                                     " (preflight.soak_window) there are fewer than " +
+                                     std::to_string(fewest_readings) +
+                                     " readings of it or of the air.");
+    return passed("contact", "No material sensor follows the air.");
 }
 
 PreflightRecord check_environment(const PreflightFacts& facts) {

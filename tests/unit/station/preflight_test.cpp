@@ -210,6 +210,24 @@ TEST_F(Preflight, AMaterialSensorThatFollowsTheAirIsNamed) {
     EXPECT_TRUE(named(judge_preflight(facts()), "contact").passed);
 }
 
+// Sensors that are read once a second, both of which hang in the air.
+TEST_F(Preflight, ContactThatCannotBeJudgedIsSaidToBeSo) {
+    const auto swing = [](double minutes) { return 0.1 * std::sin(minutes * 2.1); };
+    const auto follows = [&](double minutes) { return 20.5 + swing(minutes); };
+    read([&](double minutes) { return 21 + swing(minutes); }, follows, follows);
+    EXPECT_FALSE(named(judge_preflight(facts()), "contact").passed);
+    config.preflight.soak_window = 5s;
+    PreflightRecord contact = named(judge_preflight(facts()), "contact");
+    EXPECT_TRUE(contact.passed);
+    EXPECT_EQ(contact.verdict,
+              "Not judged for material/left; material/right: within 5 s (preflight.soak_window) "
+              "there are fewer than 10 readings of it or of the air.");
+    config.preflight.soak_window = 0s;
+    contact = named(judge_preflight(facts()), "contact");
+    EXPECT_TRUE(contact.passed);
+    EXPECT_EQ(contact.verdict, "Not asked: preflight.soak_window is 0.");
+}
+
 TEST_F(Preflight, AWeakSignalIsToldIfTheLaserTellsIt) {
     auto weak = facts();
     SensorLog log{20min, SensorLog::Keep::lowest};
