@@ -18,6 +18,7 @@ NO_CODEC = {
     "drivers/appearance.hpp": "a table of what instruments show themselves as",
     "drivers/canopen/pdo_stream.hpp": "counts frames by their times; the frames are judged by canopen",
     "drivers/clock/lower_hull.hpp": "reached through device_clock",
+    "drivers/clock/open_requests.hpp": "instants, no bytes",
     "drivers/clock/placed_time.hpp": "two instants, no bytes",
     "drivers/cnc/coil_and_index_map.hpp": "made by register_map",
     "drivers/cnc/dwell_detector.hpp": "samples in, no bytes",

@@ -92,7 +92,7 @@ public:
         context.sink->identify({"Maker", "Model", serial, "1.0"});
         for (;;) {
             co_await context.scheduler->sleep_for(send_every);
-            if (unplugged) co_return fail(Fault::link_closed, "unplugged");
+            if (unplugged) co_return tl::unexpected<Error>(when_unplugged);
             const MonotonicTime now = context.scheduler->now();
             if (!silent) send(now, *context.sink);
             for (int i = 0; i < notes_each_period; ++i)
@@ -107,6 +107,7 @@ public:
     std::optional<LinkSettings> asks_the_next_too;
     std::deque<Error> refuses_with; ///< each opening ends with the next of them
     bool unplugged = false, silent = false;
+    Error when_unplugged{Fault::link_closed, "unplugged", {}, {}};
     Quality quality = Quality::good;
     std::uint32_t epoch = 0;
     std::uint64_t modulus = 0;

@@ -91,8 +91,8 @@ TEST_F(Supervision, ThatNothingAnswersIsOneReasonInWhateverWords) {
     Shop other;
     Life young{other};
     const Error hangs{Fault::link_timeout, "the adapter hangs", {}, {}};
-    young.air->refuses_with = {Error{Fault::link_timeout, "no reading", {}, {}}, hangs, hangs,
-                               hangs, hangs};
+    young.air->when_unplugged = {Fault::link_timeout, "no reading", {}, {}};
+    young.air->refuses_with = {hangs, hangs, hangs, hangs};
     young.air->unplugged = true;
     young.run(5s); // tries after 0, 0.25, 0.75, 1.75 and 3.75 s
     EXPECT_EQ(young.notes_with("no reading"), 1);
