@@ -196,6 +196,16 @@ TEST(AnalyzeCaseRefuses, WrongShapes) {
     expect_field(refusal_with("/backward/1", {1, 2, 3, 4, 5, 6}), "backward[1]");
 }
 
+TEST(AnalyzeCaseRefuses, NoTargetsByTheirNameWhateverTheRowsAre) {
+    json request = good_case();
+    request["targets"] = request["forward"] = request["backward"] = json::array();
+    expect_field(refusal_of(request.dump()), "targets");
+    request.erase("backward");
+    expect_field(refusal_of(request.dump()), "targets");
+    request["forward"] = json::array({json::array()});
+    expect_field(refusal_of(request.dump()), "targets");
+}
+
 TEST(AnalyzeCaseRefuses, WhatIsNoFiniteNumber) {
     expect_field(refusal_with("/forward/2/1", "3.0"), "forward[2][1]");
     expect_field(refusal_with("/forward/2/1", true), "forward[2][1]");

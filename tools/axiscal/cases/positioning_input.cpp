@@ -19,6 +19,8 @@ void subtract_targets(DeviationTable& table) {
 Result<DeviationTable> table_of(const json& object) {
     DeviationTable table;
     AXISCAL_TRY(table.targets, numbers_at(object, "targets", "targets"));
+    if (table.targets.empty()) // else the rows, of which none is right then, would be named
+        return refuse(Fault::bad_case, "targets", "is empty; at least one target is needed");
     AXISCAL_TRY(const json* forward, member(object, "forward", "forward"));
     AXISCAL_TRY(table.forward, rows_of(*forward, "forward"));
     if (object.contains("backward")) {
