@@ -37,6 +37,7 @@ void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config) {
     config.approaches = static_cast<int>(cycle.integer("approaches", 1, 50, config.approaches));
     config.bidirectional = cycle.flag("bidirectional", config.bidirectional);
     config.overrun = units.coordinate(cycle, "overrun", mm(0.01), metre(1));
+    if (cycle.refused("overrun")) config.overrun = Length{}; // not known: nothing is judged by it
     config.near_tolerance = units.optional_coordinate(cycle, "near_tolerance", um(1), mm(10));
     config.datum = units.optional_coordinate(cycle, "datum", -farthest, farthest);
     config.feed = units.speed(cycle, "feed", slowest, light_axis);

@@ -8,6 +8,13 @@ namespace {
 using namespace std::chrono_literals;
 using Keys = std::initializer_list<const char*>;
 
+/// Which other keys belong to the table. A word that is not known, or that contradicts the other
+/// one, decides nothing.
+struct TriggerWords {
+    std::optional<TriggerShape> shape;
+    std::optional<TriggerTransport> transport;
+};
+
 TriggerShape read_shape(Settings& trigger) {
     const std::string shape =
         trigger.choice("shape", {"sequence-block", "single-register", "coil-and-index", "dwell"});
@@ -16,26 +23,41 @@ TriggerShape read_shape(Settings& trigger) {
     return shape == "dwell" ? TriggerShape::dwell : TriggerShape::sequence_block;
 }
 
-TriggerTransport read_transport(Settings& trigger, TriggerShape shape) {
+TriggerTransport transport_of(const std::string& word) {
+    if (word == "tcp-mirrored") return TriggerTransport::tcp_client;
+    if (word == "rtu") return TriggerTransport::rtu_server;
+    return word == "none" ? TriggerTransport::none : TriggerTransport::tcp_server;
+}
+
+void refuse_contradiction(Settings& trigger, TriggerShape shape, const std::string& transport) {
     const bool dwell = shape == TriggerShape::dwell;
-    const std::string written =
-        trigger.choice("transport", {"tcp", "tcp-mirrored", "rtu", "none"},
-                       dwell ? std::optional<std::string>{"none"} : std::nullopt);
-    if (trigger.refused("transport") || trigger.refused("shape"))
-        return dwell ? TriggerTransport::none : TriggerTransport::tcp_server;
-    if (dwell && written != "none")
-        trigger.refuse("transport", "\"" + written +
+    if (dwell && transport != "none")
+        trigger.refuse("transport", "\"" + transport +
                                         "\" does not go with shape \"dwell\", which watches the "
                                         "axis and has no wire: remove transport");
-    if (!dwell && written == "none")
+    if (!dwell && transport == "none")
         trigger.refuse("transport",
                        "\"none\" goes with shape \"dwell\" only: say \"tcp\" or \"rtu\"");
-    if (written == "tcp-mirrored" && shape != TriggerShape::sequence_block && !dwell)
+    if (transport == "tcp-mirrored" && shape != TriggerShape::sequence_block && !dwell)
         trigger.refuse("transport", "\"tcp-mirrored\" (the CNC is the server) exists for shape "
                                     "\"sequence-block\" only");
-    if (written == "tcp-mirrored") return TriggerTransport::tcp_client;
-    if (written == "rtu") return TriggerTransport::rtu_server;
-    return written == "none" ? TriggerTransport::none : TriggerTransport::tcp_server;
+}
+
+TriggerWords read_words(Settings& trigger, TriggerConfig& config) {
+    TriggerWords words;
+    config.shape = read_shape(trigger);
+    if (!trigger.refused("shape")) words.shape = config.shape;
+    // a shape that is not known is "dwell" at heart where a key stands that dwell alone needs
+    const bool may_miss = words.shape ? words.shape == TriggerShape::dwell : trigger.has("window");
+    const std::string transport =
+        trigger.choice("transport", {"tcp", "tcp-mirrored", "rtu", "none"},
+                       may_miss ? std::optional<std::string>{"none"} : std::nullopt);
+    if (trigger.refused("transport")) return words;
+    if (words.shape) refuse_contradiction(trigger, *words.shape, transport);
+    if (trigger.refused("transport")) return {};
+    config.transport = transport_of(transport);
+    if (words.shape || transport != "none") words.transport = config.transport;
+    return words;
 }
 
 /// Keys that say nothing here mislead the next reader of the file.
@@ -45,7 +67,6 @@ void refuse_unused(Settings& trigger, bool used, Keys keys, const std::string& o
             trigger.refuse(key, "belongs to " + owner + " and says nothing here: remove it");
 }
 
-/// Modbus has no password: who may reach the door may write to it.
 void read_allowed_clients(Settings& trigger, TriggerConfig& config) {
     for (const std::string& client : trigger.texts("allowed_clients", std::vector<std::string>{})) {
         if (auto range = parse_address_range(client))
@@ -53,11 +74,30 @@ void read_allowed_clients(Settings& trigger, TriggerConfig& config) {
         else
             trigger.refuse("allowed_clients", range.error().detail);
     }
+}
+
+/// Modbus has no password: who may reach the door may write to it.
+void refuse_open_door(Settings& trigger, const TriggerConfig& config) {
     const bool judged = trigger.refused("host") || trigger.refused("allowed_clients");
     if (judged || is_loopback(config.host) || !config.allowed_clients.empty()) return;
     trigger.refuse("host", "\"" + config.host +
                                "\" is heard by other computers: name those that may connect, as in "
                                "allowed_clients = [\"192.168.10.20\"]");
+}
+
+void read_port(Settings& trigger, TriggerConfig& config) {
+    config.port = static_cast<int>(trigger.integer("port", 1, 65535));
+}
+
+void read_clients(Settings& trigger, TriggerConfig& config) {
+    config.client_limit =
+        static_cast<int>(trigger.integer("client_limit", 1, 100, config.client_limit));
+    read_allowed_clients(trigger, config);
+}
+
+void read_polling(Settings& trigger, TriggerConfig& config) {
+    config.base_address = static_cast<int>(trigger.integer("base_address", 0, 65536 - 33, 0));
+    config.poll_interval = trigger.duration("poll_interval", 20ms, 1s, config.poll_interval);
 }
 
 void read_tcp(Settings& trigger, TriggerConfig& config) {
@@ -68,16 +108,21 @@ void read_tcp(Settings& trigger, TriggerConfig& config) {
     refuse_unused(trigger, client, {"base_address", "poll_interval"}, "transport \"tcp-mirrored\"");
     if (server) {
         config.host = read_address(trigger, "host", config.host);
-        config.client_limit =
-            static_cast<int>(trigger.integer("client_limit", 1, 100, config.client_limit));
-        read_allowed_clients(trigger, config);
+        read_clients(trigger, config);
+        refuse_open_door(trigger, config);
     }
     if (client) {
         config.host = trigger.text("host");
-        config.base_address = static_cast<int>(trigger.integer("base_address", 0, 65536 - 33, 0));
-        config.poll_interval = trigger.duration("poll_interval", 20ms, 1s, config.poll_interval);
+        read_polling(trigger, config);
     }
-    if (server || client) config.port = static_cast<int>(trigger.integer("port", 1, 65535));
+    if (server || client) read_port(trigger, config);
+}
+
+void read_line_form(Settings& trigger, TriggerConfig& config) {
+    config.baud = static_cast<int>(trigger.integer("baud", 1200, 1'000'000, config.baud));
+    const std::string parity = trigger.choice("parity", {"none", "even", "odd"}, "none");
+    config.parity = parity == "even" ? 'E' : parity == "odd" ? 'O' : 'N';
+    config.stop_bits = static_cast<int>(trigger.integer("stop_bits", 1, 2, config.stop_bits));
 }
 
 void read_serial(Settings& trigger, TriggerConfig& config) {
@@ -86,10 +131,31 @@ void read_serial(Settings& trigger, TriggerConfig& config) {
                   "transport \"rtu\"");
     if (!rtu) return;
     config.serial_path = read_absolute_path(trigger, "serial_port");
-    config.baud = static_cast<int>(trigger.integer("baud", 1200, 1'000'000, config.baud));
-    const std::string parity = trigger.choice("parity", {"none", "even", "odd"}, "none");
-    config.parity = parity == "even" ? 'E' : parity == "odd" ? 'O' : 'N';
-    config.stop_bits = static_cast<int>(trigger.integer("stop_bits", 1, 2, config.stop_bits));
+    read_line_form(trigger, config);
+}
+
+/// What a key of the wire says is right or wrong whether or not it belongs here.
+void judge_wire_keys(Settings& trigger) {
+    TriggerConfig unused;
+    if (trigger.has("host")) unused.host = trigger.text("host");
+    if (trigger.has("port")) read_port(trigger, unused);
+    if (trigger.has("serial_port")) unused.serial_path = read_absolute_path(trigger, "serial_port");
+    read_clients(trigger, unused);
+    read_polling(trigger, unused);
+    read_line_form(trigger, unused);
+}
+
+void read_unit_id(Settings& trigger, TriggerConfig& config) {
+    config.unit_id = static_cast<int>(trigger.integer("unit_id", 1, 247, 1));
+}
+
+void read_block_flags(Settings& trigger, TriggerConfig& config) {
+    config.low_word_first = trigger.flag("low_word_first", config.low_word_first);
+    config.watch_heartbeat = trigger.flag("watch_heartbeat", config.watch_heartbeat);
+}
+
+void read_index_grace(Settings& trigger, TriggerConfig& config) {
+    config.index_grace = trigger.duration("index_grace", 1ms, 5s, config.index_grace);
 }
 
 void read_shape_keys(Settings& trigger, TriggerConfig& config) {
@@ -100,12 +166,9 @@ void read_shape_keys(Settings& trigger, TriggerConfig& config) {
     refuse_unused(trigger, block, {"low_word_first", "watch_heartbeat"},
                   "shape \"sequence-block\"");
     refuse_unused(trigger, coil, {"index_grace"}, "shape \"coil-and-index\"");
-    if (wired) config.unit_id = static_cast<int>(trigger.integer("unit_id", 1, 247, 1));
-    if (block) {
-        config.low_word_first = trigger.flag("low_word_first", config.low_word_first);
-        config.watch_heartbeat = trigger.flag("watch_heartbeat", config.watch_heartbeat);
-    }
-    if (coil) config.index_grace = trigger.duration("index_grace", 1ms, 5s, config.index_grace);
+    if (wired) read_unit_id(trigger, config);
+    if (block) read_block_flags(trigger, config);
+    if (coil) read_index_grace(trigger, config);
 }
 
 /// A halt counts only after the axis was seen to leave the last one: a reversal within window and
@@ -125,6 +188,19 @@ void refuse_unseen_overrun(Settings& trigger,
             "the two smaller");
 }
 
+/// `all`: a length that is missing is refused; else it need not stand.
+void read_halt(Settings& trigger, AxisUnits units, bool all, TriggerConfig& config) {
+    const auto read = [&](const char* key, Length low, Length high, Length& into) {
+        if (all || trigger.has(key)) into = units.coordinate(trigger, key, low, high);
+    };
+    read("window", um(1), mm(50), config.window);
+    read("stability_range", nm(1), mm(1), config.stability_range);
+    config.stability_period =
+        trigger.duration("stability_period", 10ms, 60s, config.stability_period);
+    read("hysteresis", um(1), mm(50), config.hysteresis);
+    config.minimum_halt = trigger.duration("minimum_halt", 10ms, 10min, config.minimum_halt);
+}
+
 void read_dwell(Settings& trigger,
                 AxisUnits units,
                 const CycleConfig& cycle,
@@ -134,14 +210,18 @@ void read_dwell(Settings& trigger,
                   {"window", "stability_range", "stability_period", "hysteresis", "minimum_halt"},
                   "shape \"dwell\"");
     if (!dwell) return;
-    config.window = units.coordinate(trigger, "window", um(1), mm(50));
-    config.stability_range = units.coordinate(trigger, "stability_range", nm(1), mm(1));
-    config.stability_period =
-        trigger.duration("stability_period", 10ms, 60s, config.stability_period);
-    config.hysteresis = units.coordinate(trigger, "hysteresis", um(1), mm(50));
-    config.minimum_halt = trigger.duration("minimum_halt", 10ms, 10min, config.minimum_halt);
+    read_halt(trigger, units, true, config);
     if (!trigger.refused("window") && !trigger.refused("hysteresis"))
         refuse_unseen_overrun(trigger, units, cycle, config);
+}
+
+/// As judge_wire_keys(), of the keys that belong to one shape or another.
+void judge_shape_keys(Settings& trigger, AxisUnits units) {
+    TriggerConfig unused;
+    read_unit_id(trigger, unused);
+    read_block_flags(trigger, unused);
+    read_index_grace(trigger, unused);
+    read_halt(trigger, units, false, unused);
 }
 
 } // namespace
@@ -150,16 +230,19 @@ void read_trigger(Settings trigger,
                   AxisUnits units,
                   const CycleConfig& cycle,
                   TriggerConfig& config) {
-    config.shape = read_shape(trigger);
-    config.transport = read_transport(trigger, config.shape);
-    if (trigger.refused("shape") || trigger.refused("transport")) {
-        trigger.accept_rest(); // which keys belong here is told when these two are right
-        return;
+    const TriggerWords words = read_words(trigger, config);
+    if (words.transport) {
+        read_tcp(trigger, config);
+        read_serial(trigger, config);
+    } else {
+        judge_wire_keys(trigger);
     }
-    read_tcp(trigger, config);
-    read_serial(trigger, config);
-    read_shape_keys(trigger, config);
-    read_dwell(trigger, units, cycle, config);
+    if (words.shape) {
+        read_shape_keys(trigger, config);
+        read_dwell(trigger, units, cycle, config);
+    } else {
+        judge_shape_keys(trigger, units);
+    }
 }
 
 } // namespace axiscal

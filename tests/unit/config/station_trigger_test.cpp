@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <regex>
 #include <string>
+#include <vector>
 
 namespace axiscal::station_trigger_test {
 namespace {
@@ -87,6 +88,68 @@ INSTANTIATE_TEST_SUITE_P(
                     "trigger.watch_heartbeat: belongs to shape \"sequence-block\""},
         TriggerCase{"shape = \"sequense-block\"\ntransport = \"tcp\"\nport = 502\n",
                     "did you mean \"sequence-block\"?"}));
+
+/// Tables with several mistakes: `refusals` are all of them, in the order of the lines.
+struct HiddenCase {
+    const char* table;
+    std::vector<const char*> refusals;
+};
+
+class WrongTriggerTable : public testing::TestWithParam<HiddenCase> {};
+
+TEST_P(WrongTriggerTable, TellsEveryMistakeBesideAWrongShapeOrTransportAndNoOther) {
+    const Reading reading = read_trigger_table(GetParam().table);
+    for (const char* refusal : GetParam().refusals)
+        EXPECT_NE(reading.told.find(refusal), std::string::npos) << refusal << "\n" << reading.told;
+    EXPECT_EQ(test::count_lines(reading.told), static_cast<int>(GetParam().refusals.size()))
+        << reading.told;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mistakes,
+    WrongTriggerTable,
+    testing::Values(
+        HiddenCase{"shape = \"sequense-block\"\ntransport = \"tcp\"\nport = 150200\n",
+                   {"did you mean \"sequence-block\"?", "trigger.port: 150200 is out of range"}},
+        HiddenCase{"shape = \"sequence-block\"\ntransport = \"tpc\"\nport = 150200\n",
+                   {"trigger.transport: \"tpc\" is not one of", "port: 150200 is out of range"}},
+        HiddenCase{
+            "shape = \"sequense-block\"\ntransport = \"tpc\"\nport = 150200\nprot = 1\n"
+            "unit_id = 500\nwindow = 1\nindex_grace = \"1 h\"\nbaud = 1\n"
+            "serial_port = \"ttyS0\"\nallowed_clients = [\"cnc\"]\n",
+            {"shape: \"sequense-block\" is not one of", "transport: \"tpc\" is not one of",
+             "port: 150200 is out of range", "prot: is not a key of this table; did you mean",
+             "unit_id: 500 is out of range", "window: is a bare number",
+             "index_grace: \"1 h\" is out of range", "baud: 1 is out of range",
+             "serial_port: \"ttyS0\" is no whole path", "allowed_clients: \"cnc\" is no address"}},
+        // which keys belong here cannot be told: each that is right by itself is let be
+        HiddenCase{"shape = \"sequense-block\"\ntransport = \"tpc\"\nhost = \"cnc\"\nport = 502\n"
+                   "baud = 9600\nunit_id = 3\nwindow = \"0.5 mm\"\nbase_address = 8\n",
+                   {"shape: \"sequense-block\" is not one of", "transport: \"tpc\" is not one of"}},
+        HiddenCase{"shape = \"dwel\"\nwindow = \"0.5 mm\"\nstability_range = \"2 um\"\n"
+                   "hysteresis = \"0.2 mm\"\n", // and needs no transport
+                   {"did you mean \"dwell\"?"}},
+        HiddenCase{"shape = \"dwell\"\ntransport = \"tcp\"\nport = 150200\n",
+                   {"does not go with shape \"dwell\"", "port: 150200 is out of range"}},
+        // the word that is right decides about its own keys
+        HiddenCase{"shape = \"sequense-block\"\ntransport = \"tcp\"\nport = 502\nbaud = 9600\n",
+                   {"did you mean \"sequence-block\"?", "baud: belongs to transport \"rtu\""}},
+        HiddenCase{"shape = \"single-register\"\ntransport = \"tpc\"\nindex_grace = \"9 ms\"\n",
+                   {"transport: \"tpc\" is not one of",
+                    "index_grace: belongs to shape \"coil-and-index\""}},
+        HiddenCase{"", {"trigger.shape: is missing", "trigger.transport: is missing"}}));
+
+/// An overrun that cannot be read is not compared with the halt that the trigger waits for.
+TEST(StationTrigger, ADwellIsNotJudgedByAnOverrunThatIsRefused) {
+    std::string text = example_text();
+    text = std::regex_replace(text, std::regex{"\n(shape|transport|host|port) = [^\n]*"}, "\n");
+    text = std::regex_replace(text, std::regex{"\noverrun = [^\n]*"}, "\noverrun = \"2 s\"");
+    const auto at = text.find("[trigger]\n");
+    expect_refused_once(read_text(text.insert(at + 10, "shape = \"dwell\"\nwindow = \"0.5 mm\"\n"
+                                                       "stability_range = \"2 um\"\n"
+                                                       "hysteresis = \"0.2 mm\"\n")),
+                        "cycle.overrun: \"2 s\"");
+}
 
 } // namespace
 } // namespace axiscal::station_trigger_test
