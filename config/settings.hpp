@@ -145,7 +145,8 @@ public:
     [[nodiscard]] Settings root() const;
     [[nodiscard]] const std::string& source_text() const;
     [[nodiscard]] const std::string& name() const;
-    /// Adds a refusal for every key nobody read, then hands over all of them, by line.
+    /// Adds a refusal for every key nobody read, then hands over all of them, by line. Once more:
+    /// those that came since.
     std::vector<Refusal> finish();
     /// Every key asked for so far, "cycle.overrun" (list indices left out), sorted, once each.
     [[nodiscard]] std::vector<std::string> asked_keys() const;

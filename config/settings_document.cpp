@@ -75,7 +75,8 @@ void SettingsDocument::State::refuse_unread(const TomlNode& table, const std::st
     for (const auto& [key, entry] : *entries) {
         const std::string below = joined_path(path, key);
         if (!known.contains(key)) {
-            if (!accepted.contains(path)) refuse(below, entry.line, unread_reason(key, known));
+            if (!accepted.contains(path) && !refused.contains(below)) // told by finish() before
+                refuse(below, entry.line, unread_reason(key, known));
             continue;
         }
         if (asked.contains(below)) refuse_unread(entry, below);

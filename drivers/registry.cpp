@@ -68,13 +68,26 @@ template <class Names> std::string list_of(const Names& names) {
     return text;
 }
 
+/// Where one of these is refused the channels are not those that are meant.
+bool channels_are_known(const Settings& options) {
+    constexpr std::array decisive{"profile", "model", "axis", "sensors", "inputs"};
+    return std::ranges::none_of(decisive, [&](const char* key) { return options.refused(key); });
+}
+
+std::string no_such_channel(const std::string& name, const std::vector<Channel>& channels) {
+    std::vector<std::string> names;
+    for (const Channel& channel : channels)
+        names.push_back(channel.name);
+    const std::string near = nearest_word(name, names);
+    return "\"" + name + "\" is no channel of this instrument; it has " + list_of(channels) +
+           (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
+
 void check_channel(const Instrument& instrument, const ChannelConfig& wanted, Settings& options) {
     const auto& channels = instrument.channels();
     const auto found = std::ranges::find(channels, wanted.channel, &Channel::name);
     if (found == channels.end()) {
-        options.refuse("channel", "\"" + wanted.channel +
-                                      "\" is no channel of this instrument; it has " +
-                                      list_of(channels));
+        options.refuse("channel", no_such_channel(wanted.channel, channels));
         return;
     }
     const std::string stored{stored_unit_of(found->kind)};
@@ -119,13 +132,16 @@ make_instruments(const std::vector<InstrumentConfig>& configs, std::vector<Setti
     for (std::size_t i = 0; i < configs.size(); ++i) {
         const auto driver = find_driver(configs[i].driver);
         if (!driver) {
-            options[i].refuse("driver", driver.error().detail);
+            if (!options[i].refused("driver")) // missing
+                options[i].refuse("driver", driver.error().detail);
+            options[i].accept_rest(); // its own keys are told when the driver is right
             instruments.push_back(nullptr);
             continue;
         }
         auto instrument = (*driver)->make(configs[i], options[i]);
+        const bool known = channels_are_known(options[i]);
         for (const ChannelConfig& channel : configs[i].channels)
-            check_channel(*instrument, channel, options[i]);
+            if (known) check_channel(*instrument, channel, options[i]);
         instruments.push_back(std::move(instrument));
     }
     return instruments;

@@ -5,6 +5,7 @@
 #include "drivers/registry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -66,6 +67,28 @@ void check_reference(const Instrument& reference, const AxisConfig& axis, Settin
                                               "scale in [axis.scale] instead");
 }
 
+void check_targets(LoadedStation& station, Settings root) {
+    if (station.config.circles_alone()) return;
+    if (auto passes = plan_passes(station.config.cycle, 0))
+        station.passes = *std::move(passes);
+    else
+        root.refuse("cycle", describe(passes.error()));
+    if (!station.config.axis.angle) return;
+    for (const RunPlan& plan : station.passes)
+        if (auto fits = check_rotary_plan(plan, station.config.axis.angle->setup); !fits)
+            root.refuse("cycle", describe(fits.error()));
+}
+
+/// Nothing that the plan of the targets is made of has been refused.
+bool targets_are_known(const std::vector<Refusal>& refusals) {
+    constexpr std::array sources{"axis", "axis.kind", "axis.travel_low", "axis.travel_high",
+                                 "axis.feedback_pitch"};
+    return std::none_of(refusals.begin(), refusals.end(), [&](const Refusal& refusal) {
+        return refusal.key.starts_with("cycle") || refusal.key.starts_with("axis.angle") ||
+               std::find(sources.begin(), sources.end(), refusal.key) != sources.end();
+    });
+}
+
 /// What is wrong with the whole although every key is right by itself.
 void check_together(LoadedStation& station, Settings root) {
     std::vector<StationChannel> channels;
@@ -97,15 +120,21 @@ void check_together(LoadedStation& station, Settings root) {
         else
             root.refuse("ballbar", describe(bar.error()));
     }
-    if (station.config.circles_alone()) return;
-    if (auto passes = plan_passes(station.config.cycle, 0))
-        station.passes = *std::move(passes);
-    else
-        root.refuse("cycle", describe(passes.error()));
-    if (!station.config.axis.angle) return;
-    for (const RunPlan& plan : station.passes)
-        if (auto fits = check_rotary_plan(plan, station.config.axis.angle->setup); !fits)
-            root.refuse("cycle", describe(fits.error()));
+    check_targets(station, root);
+}
+
+/// Judged together once every key is right by itself; the targets as soon as theirs are.
+std::vector<Refusal> refusals_of(SettingsDocument& document, LoadedStation& station) {
+    std::vector<Refusal> refusals = document.finish();
+    if (refusals.empty()) {
+        check_together(station, document.root());
+        return document.finish();
+    }
+    if (targets_are_known(refusals)) check_targets(station, document.root());
+    std::ranges::move(document.finish(), std::back_inserter(refusals));
+    std::stable_sort(refusals.begin(), refusals.end(),
+                     [](const Refusal& a, const Refusal& b) { return a.line < b.line; });
+    return refusals;
 }
 
 } // namespace
@@ -119,11 +148,7 @@ tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string
     station.instruments =
         make_instruments(station.config.instruments, station.config.instrument_options);
     load_tapes(station);
-    std::vector<Refusal> refusals = document->finish();
-    if (refusals.empty()) {
-        check_together(station, document->root());
-        refusals = document->finish();
-    }
+    std::vector<Refusal> refusals = refusals_of(*document, station);
     if (!refusals.empty()) return tl::unexpected(std::move(refusals));
     return station;
 }

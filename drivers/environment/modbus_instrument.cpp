@@ -194,7 +194,7 @@ std::unique_ptr<Instrument> make_modbus_instrument(ModbusProfile profile, Modbus
 std::unique_ptr<Instrument> make_modbus(const InstrumentConfig& config, Settings& options) {
     const std::string name = options.text("profile");
     Result<ModbusProfile> profile = ModbusProfile{};
-    if (!name.empty()) {
+    if (!options.refused("profile")) {
         const auto path = find_profile(name, profile_folders());
         if (path)
             profile = load_profile(*path);

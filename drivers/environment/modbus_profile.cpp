@@ -1,5 +1,6 @@
 #include "drivers/environment/modbus_profile.hpp"
 
+#include "config/measure.hpp"
 #include "config/settings.hpp"
 
 #include <algorithm>
@@ -230,9 +231,11 @@ Result<std::string> find_profile(const std::string& name, const std::vector<std:
         std::error_code missing;
         if (std::filesystem::exists(path, missing)) return path.string();
     }
+    const std::vector<std::string> known = profiles_in(folders);
+    const std::string near = nearest_word(name, known);
     return fail(Fault::not_found, "there is no profile \"" + name + "\" in " +
-                                      joined(folders, ":") +
-                                      "; known: " + joined(profiles_in(folders), ", "));
+                                      joined(folders, ":") + "; known: " + joined(known, ", ") +
+                                      (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }
 
 std::vector<std::string> profile_folders() {

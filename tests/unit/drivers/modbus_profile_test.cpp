@@ -3,6 +3,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -220,6 +221,23 @@ TEST(ModbusProfile, KeysOfTheStationFileAreChecked) {
     const auto wrong = testing::make_instrument(
         "modbus", "profile = \"nothing\"\nlink = \"serial:/dev/ttyUSB0\"\naddress_offset = 5\n");
     EXPECT_EQ(wrong.refusals.size(), 2u);
+}
+
+TEST(ModbusProfile, ThatIsRefusedSaysNothingOfTheChannels) {
+    InstrumentConfig config;
+    config.channels.push_back({});
+    config.channels.back().channel = "contact 1";
+    setenv("AXISCAL_PROFILE_PATH", shipped.c_str(), 1);
+    for (const char* profile : {"profile = \"tm-th9\"\n", "profile = \"\"\n", ""}) {
+        const auto made = testing::make_instrument(
+            "modbus", profile + std::string{"link = \"serial:/dev/ttyUSB0\"\n"}, config);
+        ASSERT_EQ(made.refusals.size(), 1u) << profile;
+        EXPECT_EQ(made.refusals.front().key, "profile");
+    }
+    const auto near = testing::make_instrument(
+        "modbus", "profile = \"tm-th9\"\nlink = \"serial:/dev/ttyUSB0\"\n", config);
+    EXPECT_NE(near.refusals.front().reason.find("did you mean \"tm-th8\"?"), std::string::npos)
+        << near.refusals.front().reason;
 }
 
 } // namespace

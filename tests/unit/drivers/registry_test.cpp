@@ -35,6 +35,25 @@ TEST(Registry, RefusesAnUnknownDriverInTheStationFile) {
     EXPECT_NE(all_refusals(made).find("did you mean \"umd\""), std::string::npos);
 }
 
+TEST(Registry, SaysNothingOfTheKeysOfADriverThatItDoesNotKnow) {
+    const auto made = testing::make_instrument("udm", "driver = \"udm\"\n" + umd_keys);
+    ASSERT_EQ(made.refusals.size(), 1U) << all_refusals(made);
+    EXPECT_EQ(made.refusals.front().key, "driver");
+    EXPECT_NE(made.refusals.front().reason.find("did you mean \"umd\""), std::string::npos);
+}
+
+TEST(Registry, SaysNothingOfTheChannelsUnitsOrInputsOfAModelThatItDoesNotKnow) {
+    InstrumentConfig config;
+    config.channels.push_back({});
+    config.channels.back().channel = "angle";
+    const auto made = testing::make_instrument(
+        "ascii-gauge",
+        "link = \"serial:/dev/ttyUSB0\"\nmodel = \"elcomat\"\nunit = \"arcsec\"\ninput = 2\n",
+        config);
+    ASSERT_EQ(made.refusals.size(), 1U) << all_refusals(made);
+    EXPECT_EQ(made.refusals.front().key, "model");
+}
+
 TEST(Registry, MakesALaserWithItsOptics) {
     const auto made = testing::make_instrument("umd", umd_keys);
     EXPECT_EQ(all_refusals(made), "");
@@ -82,7 +101,8 @@ TEST(Registry, RefusesAChannelThatTheInstrumentDoesNotHave) {
     config.channels.push_back({});
     config.channels.back().channel = "axis 2";
     const auto made = testing::make_instrument("umd", umd_keys, config);
-    EXPECT_NE(all_refusals(made).find("it has axis 1"), std::string::npos) << all_refusals(made);
+    EXPECT_NE(all_refusals(made).find("it has axis 1; did you mean \"axis 1\"?"), std::string::npos)
+        << all_refusals(made);
 }
 
 TEST(Registry, RefusesACorrectionInAnotherUnitThanTheChannels) {

@@ -3,10 +3,14 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace axiscal::station_loader_test {
 namespace {
@@ -46,6 +50,42 @@ TEST(StationLoader, SaysOnceWhereAFileIsThatCannotBeReadOrParsed) {
     const std::string told = refusals_of("a = 1\na = 2\n");
     EXPECT_NE(told.find("station.toml:2:"), std::string::npos) << told;
     EXPECT_EQ(told.find("station.toml"), told.rfind("station.toml")) << told;
+}
+
+/// The example with each piece of text exchanged for the one beside it.
+std::string example_with_all(const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string text = example_with("[station]", "[station]");
+    for (const auto& [from, to] : changes) {
+        EXPECT_NE(text.find(from), std::string::npos) << from;
+        text.replace(text.find(from), from.size(), to);
+    }
+    return text;
+}
+
+const std::pair<std::string, std::string> four_targets{"target_count = 11", "target_count = 4"};
+const std::string too_few = "the standard asks for at least 5";
+
+/// Every mistake at once: a plan is judged although a key that it does not need is wrong.
+TEST(StationLoader, TellsOfTooFewTargetsBesideOtherMistakes) {
+    const std::string told = refusals_of(example_with_all(
+        {four_targets, {"\nsign = 1\n", "\nsgin = 1\n"}, {"port = 1502", "port = 150200"}}));
+    EXPECT_NE(told.find(too_few), std::string::npos) << told;
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 4) << told; // sgin: no key; sign: missing
+    EXPECT_LT(told.find(too_few), told.find("150200")) << told;       // by line
+}
+
+TEST(StationLoader, DoesNotJudgeTargetsByKeysThatCannotBeRead) {
+    const std::vector<std::pair<std::string, std::string>> unread{
+        {"overrun = \"2 mm\"", "overrun = \"2 s\""},
+        {"travel_high = \"1000 mm\"", "travel_high = \"1000\""},
+        {"feedback_pitch = \"10 mm\"", "feedback_pitch = 10"},
+        {"kind = \"linear\"", "kind = \"linaer\""},
+        {"interval = \"93 mm\"", "interval = \"93 mm\"\napproach = 5"}};
+    for (const auto& change : unread) {
+        const std::string told = refusals_of(example_with_all({four_targets, change}));
+        EXPECT_EQ(told.find(too_few), std::string::npos) << told;
+        EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1) << told;
+    }
 }
 
 /// A scale's lengths would be divided by the index of air.
