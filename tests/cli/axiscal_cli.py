@@ -775,14 +775,15 @@ class RotaryUnits(OneAnswer):
 
 
 class Screen(Scratch):
-    """`watch` on a terminal, against a door whose axis moves on by 1 mm with each answer."""
+    """`watch` on a terminal, against a door whose axis moves on by 1 mm, and whose strength and time left fall by 1 % and
+    1 s, with each answer; `known`: it says where the CNC goes next, and what strength and time there are."""
 
     CLEAR = "\x1b[H\x1b[2J"
 
     def setUp(self):
         super().setUp()
         self.path = os.path.join(self.folder, "fake.sock")
-        self.asked, self.last = 0, None
+        self.asked, self.last, self.known = 0, None, True
         self.door = socket.socket(socket.AF_UNIX)
         self.door.bind(self.path)
         self.door.listen(4)
@@ -816,9 +817,12 @@ class Screen(Scratch):
         channel = {"instrument": "material", "channel": "contact 1", "name": "screw, left", "place": "nut",
                    "kind": "temperature", "medium": "material", "value": 21.5, "unit": "degC", "age_s": 0.1,
                    "quality": "good", "used": True}
+        going = self.known and not over
+        following = {"target": 6, "nominal_mm": 651.25, "direction": "negative", "approach": 2}
         axis = {"name": "X", "position_mm": self.asked, "deviation_um": None, "spread_um": None,
-                "strength_percent": None, "still": False}
-        run = {"state": "complete" if over else "armed", "certificate": "outbox/r" if over else ""}
+                "strength_percent": 97.4 - self.asked if self.known else None, "still": False}
+        run = {"state": "complete" if over else "armed", "next": following if going else None,
+               "seconds_left": 754.6 - self.asked if going else None, "certificate": "outbox/r" if over else ""}
         return station_status(axis, run) | {"channels": [channel]}
 
     def read_until(self, enough):
@@ -836,6 +840,11 @@ class Screen(Scratch):
         self.read_until(lambda: False)  # what it wrote last stays in the terminal until it is read
         return os.waitpid(self.child, 0)[1]
 
+    def finish(self):
+        """The run is over for whoever watches it."""
+        self.last = 0
+        self.end()
+
     def test_it_redraws_and_ends_on_ctrl_c(self):
         self.read_until(lambda: self.shown.count(self.CLEAR) >= 4)
         frames = self.shown.split(self.CLEAR)
@@ -849,6 +858,36 @@ class Screen(Scratch):
         self.assertEqual(termios.tcgetattr(self.terminal), self.before)
         # Nothing that would have to be undone: no other screen, no hidden cursor, no colour.
         self.assertEqual(set(re.findall(r"\x1b\[[^A-Za-z]*[A-Za-z]", self.shown)), {"\x1b[H", "\x1b[2J"})
+
+    def test_each_frame_tells_the_next_target_the_strength_and_the_time_left(self):
+        self.read_until(lambda: self.shown.count(self.CLEAR) >= 4)
+        frames = self.shown.split(self.CLEAR)
+        for number, left in ((1, "12:34"), (2, "12:33"), (3, "12:32")):  # 753.6 s is 12 min 34 s
+            # people count targets and approaches from 1
+            self.assertRegex(frames[number], r"(?m)^Next +P7 = 651\.250 mm  ↓ from above  approach 3\r?$")
+            self.assertRegex(frames[number], rf"(?m)^Strength +{97 - number} %\r?$")
+            self.assertRegex(frames[number], rf"(?m)^Run +r, armed, 3 of 10 points, {left} left\r?$")
+        self.finish()
+
+    def test_status_tells_them_and_leaves_out_what_is_not_known(self):
+        shown = self.expect(0, "status", "--socket", self.path).stdout
+        self.assertRegex(shown, r"(?m)^Next +P7 = 651\.250 mm  ↓ from above  approach 3$")
+        self.assertRegex(shown, r"(?m)^Strength +\d\d %$")
+        self.assertRegex(shown, r"(?m)^Run .*, 12:\d\d left$")
+        self.known = False
+        shown = self.expect(0, "status", "--socket", self.path).stdout
+        self.assertRegex(shown, r"(?m)^Next +none$")
+        self.assertNotIn("Strength", shown)
+        self.assertNotIn("left\n", shown)
+        self.finish()
+
+    def test_a_log_has_them_in_its_line(self):
+        log = subprocess.Popen([os.path.join(BIN, "axiscal"), "watch", "--socket", self.path], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (log.kill(), log.wait(), log.stdout.close()))
+        line = log.stdout.readline()
+        self.assertRegex(line, r"^  3/10  next P07 ↓ 3  x .* strength \d\d %  left 12:\d\d$")
+        self.finish()
+        self.assertEqual(log.wait(30), 0)
 
     def test_it_ends_with_the_run(self):
         self.last = 2
