@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 
 namespace axiscal::report_test {
 namespace {
@@ -26,6 +27,17 @@ int count(const std::string& text, const std::string& words) {
     for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1))
         ++found;
     return found;
+}
+
+/// Fields are set wide apart; a blank between their words is one here.
+std::string close_set(const std::string& text) {
+    return std::regex_replace(text, std::regex{" +"}, " ");
+}
+
+/// The row of a parameter in a text that is close set: symbol, words and value in one line.
+std::string row_of(const ParameterLine& line, double units_a_mm_or_degree) {
+    return std::string{line.symbol} + " " + std::string{line.words} + " " +
+           fixed(*line.value * units_a_mm_or_degree, 1) + " ";
 }
 
 RunRecord run_without_words() {
@@ -133,8 +145,8 @@ TEST_F(Report, OfALinearScaleNamesItAndSaysNothingOfAir) {
     const std::string text = test::text_of(render(run));
     for (const char* words :
          {"Reference", "linear scale, 0.1000 µm a count", "Nothing is corrected for air",
-          "Coefficient β of the scale", "8.50 µm/(m·K), standard uncertainty",
-          "26.50 → 26.50 °C", "Temperature of the scale", "Misalignment of the scale"})
+          "Coefficient β of the scale", "8.50 µm/(m·K), standard uncertainty", "26.50 → 26.50 °C",
+          "Temperature of the scale", "Misalignment of the scale"})
         EXPECT_THAT(text, HasSubstr(words));
     for (const char* words : {"Refractivity", "Vacuum wavelength", "Dead path", "Laser system"})
         EXPECT_THAT(text, Not(HasSubstr(words)));
@@ -142,13 +154,17 @@ TEST_F(Report, OfALinearScaleNamesItAndSaysNothingOfAir) {
 
 TEST_F(Report, HoldsEverySymbolAndItsValue) {
     const Certificate certificate = test::certificate_of(test::synthetic_run());
-    const std::string text = test::text_of(render(test::synthetic_run()));
+    const std::string text = close_set(test::text_of(render(test::synthetic_run())));
     const PositioningParameters& p = certificate.result.parameters;
+    std::set<std::string> values;
     for (const auto& lines : {parameters_of_both_directions(p), parameters_of_one_direction(p)})
         for (const ParameterLine& line : lines) {
-            EXPECT_THAT(text, HasSubstr(line.symbol));
-            EXPECT_THAT(text, HasSubstr(fixed(*line.value * 1000, 1))) << line.symbol;
+            EXPECT_EQ(count(text, row_of(line, 1000) + "U not evaluated"), 1)
+                << row_of(line, 1000) << "\n"
+                << text;
+            values.insert(fixed(*line.value * 1000, 1));
         }
+    EXPECT_GE(values.size(), 8U) << "rows with one value could change places unseen";
     EXPECT_EQ(count(text, "U not evaluated"), 12);
     for (const char* words :
          {"B\u0304 = mean forward minus mean backward", "actual − target", "ISO 230-2:2014",
@@ -176,8 +192,14 @@ TEST_F(Report, OfACompleteBudgetIsFinalAndPrintsUOfEachParameter) {
     EXPECT_EQ(count(text, "Preliminary"), 0);
     EXPECT_THAT(text, HasSubstr("± U (k = 2)"));
     const Certificate certificate = test::certificate_of(stated_run());
-    for (const ParameterUncertainty& figure : certificate.uncertainty.budget->parameters)
-        EXPECT_THAT(text, HasSubstr("± " + fixed_up(figure.expanded, 1))) << figure.key;
+    const PositioningParameters& p = certificate.result.parameters;
+    for (const auto& lines : {parameters_of_both_directions(p), parameters_of_one_direction(p)})
+        for (const ParameterLine& line : lines) {
+            const auto* figure = certificate.uncertainty.budget->find(line.key);
+            ASSERT_TRUE(figure) << line.key;
+            EXPECT_THAT(close_set(text),
+                        HasSubstr(row_of(line, 1000) + "± " + fixed_up(figure->expanded, 1)));
+        }
     EXPECT_GE(count(text, "± 2.1"), 1) << "U(R) = 1.7 sqrt(4.4 / 3) = 2.0588 um, rounded up";
     for (const char* words : {"Measurement uncertainty", "L = 953.000 mm", "U_cal = 0.7 µm/m",
                               "e = 1 mm", "R(θ) = 0.7 K", "E_VE = 1.7 µm", "ΔT = 3.2", "2.059"})
@@ -305,11 +327,6 @@ TEST_F(Report, SaysOnEachPageWhatIsMissing) {
                 HasSubstr("device, alignment, temperature, expansion, drift"));
 }
 
-/// Fields are set wide apart; a blank between their words is one here.
-std::string close_set(const std::string& text) {
-    return std::regex_replace(text, std::regex{" +"}, " ");
-}
-
 RunRecord rotary_run() {
     RunRecord run = test::truth_with_a_bad_table().run();
     run.statements = test::synthetic_statements();
@@ -327,7 +344,7 @@ TEST_F(Report, OfARotaryAxisIsInDegreesAndSecondsOfArc) {
     const std::string text = close_set(test::text_of(render(run)));
     EXPECT_THAT(text, HasSubstr("Rotary positioning"));
     for (const ParameterLine& line : parameters_of_both_directions(certificate.result.parameters))
-        EXPECT_THAT(text, HasSubstr(fixed(*line.value * 3600, 1))) << line.symbol;
+        EXPECT_THAT(text, HasSubstr(row_of(line, 3600)));
     for (const char* words : {"Value, ″", "0.000 to 318.800 °", "Measurement of the angle",
                               "72 positions of 5.0000°", "Distance of the reflectors S 32.6100 mm",
                               "8 µm at a radius of 100 mm", "T-7", "W-12", "counted with the axis"})
