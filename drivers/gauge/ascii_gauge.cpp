@@ -324,11 +324,12 @@ std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& /*config*/,
     GaugeSetup setup;
     setup.model = named ? named : &gauge_models().front(); // refused above
     setup.link = read_link(options, setup.model->line);
-    if (named) setup.unit = read_unit(options, *named);
-    if (!named) options.choice("unit", {"mm", "inch", "arcsec"}, "mm"); // one of them has it
+    const bool known = !options.refused("model");
+    if (known) setup.unit = read_unit(options, *setup.model);
+    if (!known) options.choice("unit", {"mm", "inch", "arcsec"}, "mm"); // one of them has it
     setup.sign = options.choice("counting", {"normal", "reversed"}, "normal") == "normal" ? 1 : -1;
     setup.input = static_cast<int>(options.integer("input", 1, 9, 1));
-    if (setup.input != 1 && named && !named->has_inputs())
+    if (setup.input != 1 && known && !setup.model->has_inputs())
         options.refuse("input", "this gauge has one input only: remove the key");
     setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{20},
                                          std::chrono::seconds{60}, setup.model->poll_period);

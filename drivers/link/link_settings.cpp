@@ -60,12 +60,10 @@ Result<LinkSettings> parse_link(std::string_view text, LinkSettings defaults) {
 LinkSettings read_link(Settings& options, const LinkSettings& defaults) {
     const bool stated = options.has("link");
     const auto parsed = parse_link(options.text("link"), defaults);
-    if (!parsed) {
-        if (stated) options.refuse("link", parsed.error().detail);
-        return defaults;
-    }
-    LinkSettings settings = *parsed;
-    if (settings.kind == LinkSettings::Kind::tcp) return settings;
+    if (!parsed && stated && !options.refused("link"))
+        options.refuse("link", parsed.error().detail);
+    if (parsed && parsed->kind == LinkSettings::Kind::tcp) return *parsed;
+    LinkSettings settings = parsed ? *parsed : defaults; // the keys of a line are right beside it
     settings.baud = static_cast<int>(options.integer("baud", 1200, 3'000'000, defaults.baud));
     const auto parity = options.choice("parity", {"none", "even", "odd"},
                                        std::string{name_of_parity(defaults.parity)});

@@ -42,6 +42,19 @@ TEST(Registry, SaysNothingOfTheKeysOfADriverThatItDoesNotKnow) {
     EXPECT_NE(made.refusals.front().reason.find("did you mean \"umd\""), std::string::npos);
 }
 
+TEST(Registry, JudgesTheKeysOfASerialLineBesideALinkThatItCannotRead) {
+    const std::string link = "link = \"serial:/dev/ttyACM0\"\n";
+    for (const char* wrong : {"link = \"seriel:/dev/ttyACM0\"\n", "link = 5\n", ""}) {
+        const std::string keys = wrong + umd_keys.substr(link.size());
+        const auto right =
+            testing::make_instrument("umd", keys + "baud = 9600\nparity = \"even\"\n");
+        ASSERT_EQ(right.refusals.size(), 1U) << all_refusals(right);
+        EXPECT_EQ(right.refusals.front().key, "link");
+        const auto both = testing::make_instrument("umd", keys + "baud = 1\n");
+        EXPECT_EQ(both.refusals.size(), 2U) << all_refusals(both);
+    }
+}
+
 TEST(Registry, SaysNothingOfTheChannelsUnitsOrInputsOfAModelThatItDoesNotKnow) {
     InstrumentConfig config;
     config.channels.push_back({});
