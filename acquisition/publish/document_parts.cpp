@@ -4,11 +4,36 @@
 #include "acquisition/journal/row.hpp"
 #include "acquisition/journal/run_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 
 namespace axiscal {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// A part of a document without its uncertainties, which no digest covers either.
+Json figures_in(const Json& document, const char* part) {
+    Json figures = document.contains(part) ? document[part] : Json{};
+    for (Json& figure : figures)
+        if (figure.is_object()) figure.erase("expanded_uncertainty");
+    return figures;
+}
+
+/// True where each figure stored agrees with the one of now, and none stands on one side alone.
+bool agrees(const StoredResult& stored, const ComputedFigures& now) {
+    const Json written = Json::parse(stored.document, nullptr, false);
+    if (!written.is_object()) return false;
+    const Json anew = now.document();
+    return std::ranges::all_of(std::array{"parameters", "positions"}, [&](const char* part) {
+        return disagreements(figures_in(written, part), figures_in(anew, part), now.agreement)
+            .empty();
+    });
+}
+
+} // namespace
 
 std::string digest_of_figures(std::string format, std::span<const double> figures) {
     for (const double figure : figures)
@@ -16,14 +41,15 @@ std::string digest_of_figures(std::string format, std::span<const double> figure
     return sha256_hex(format);
 }
 
-Result<void> check_stored_result(const std::string& run_file,
-                                 const std::string& digest,
-                                 const std::string& besides) {
+Result<std::string> standing_digest(const std::string& run_file,
+                                    const ComputedFigures& now,
+                                    const std::string& besides) {
     const auto stored = read_stored_result(run_file);
-    if (!stored && stored.error().fault == Fault::not_found) return {};
+    if (!stored && stored.error().fault == Fault::not_found) return now.digest;
     if (!stored) return tl::unexpected<Error>(stored.error());
-    if (stored->digest == digest) return {};
-    return fail(Fault::bad_run_file, run_file + ": the figures recomputed now (" + digest +
+    const bool exact = now.agreement.absolute == 0 && now.agreement.relative == 0;
+    if (stored->digest == now.digest || (!exact && agrees(*stored, now))) return stored->digest;
+    return fail(Fault::bad_run_file, run_file + ": the figures recomputed now (" + now.digest +
                                          ") are not those of its first evaluation (" +
                                          stored->digest + ")" + besides);
 }

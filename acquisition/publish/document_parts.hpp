@@ -2,10 +2,9 @@
 // What documents of every kind are made with: how figures are held against those of the first
 // evaluation, and how a document becomes text. Pure, but for reading the run file.
 
-#include "analysis/run_record.hpp"
+#include "acquisition/publish/figure_agreement.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include <functional>
 #include <span>
 #include <string>
 
@@ -15,13 +14,21 @@ namespace axiscal {
 /// @param format "axiscal.drift/1"
 std::string digest_of_figures(std::string format, std::span<const double> figures);
 
-/// Figures that differ from those of the first evaluation are refused; without one all are good.
-/// @param digest of the figures recomputed now
+/// Figures as computed now.
+struct ComputedFigures {
+    std::string digest;
+    FigureAgreement agreement; ///< with those of the first evaluation
+    /// "parameters" and, where there are some, "positions"; asked for where the digests differ.
+    std::function<nlohmann::ordered_json()> document;
+};
+
+/// The digest that stands for the figures: that of the first evaluation, also where they agree with
+/// it without having its bits; without one that of now. Figures that do not agree are refused.
 /// @param besides ends the sentence: "; ..." or nothing
 /// @errors Fault::bad_run_file; what read_stored_result says but Fault::not_found.
-Result<void> check_stored_result(const std::string& run_file,
-                                 const std::string& digest,
-                                 const std::string& besides = {});
+Result<std::string> standing_digest(const std::string& run_file,
+                                    const ComputedFigures& now,
+                                    const std::string& besides = {});
 
 /// The first members of "run" in the document of a test: which run, where and when, by what, and
 /// three digests.

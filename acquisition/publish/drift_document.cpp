@@ -45,6 +45,23 @@ Json parameters_of(const RunDrift& drift) {
     return object;
 }
 
+int refused_readings(const RunDrift& drift) {
+    int count = 0;
+    for (const RefusedReadings& refused : drift.refused)
+        count += refused.count;
+    return count;
+}
+
+/// What is stored at the first evaluation.
+Json drift_figures(const RunDrift& drift) {
+    Json figures;
+    figures["format"] = "axiscal.drift/1";
+    figures["unit"] = drift.unit;
+    figures["parameters"] = parameters_of(drift);
+    figures["refused_readings"] = refused_readings(drift);
+    return figures;
+}
+
 /// A length has an E_VE; what is as warm or as moist as it is has a range alone.
 bool has_eve(const ChannelDrift& channel) {
     return channel.kind == ChannelKind::displacement && channel.series.readings.size() > 1;
@@ -78,13 +95,6 @@ Json budget_of(const DriftDocument& document) {
     object["by"] = document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
     object["informative"] = {"ETVE", "end_change", "E_VE_as_read", "slope_per_h", "channels"};
     return object;
-}
-
-int refused_readings(const RunDrift& drift) {
-    int count = 0;
-    for (const RefusedReadings& refused : drift.refused)
-        count += refused.count;
-    return count;
 }
 
 Json refused_of(const RunDrift& drift) {
@@ -193,20 +203,16 @@ Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
                             contents.run.closed);
     document.run = std::move(contents.run);
     document.attachments = std::move(contents.attachments);
-    document.result_digest = digest_of(document.drift);
-    AXISCAL_CHECK(check_stored_result(run_file, document.result_digest));
+    AXISCAL_TRY(document.result_digest,
+                standing_digest(run_file, {digest_of(document.drift), agreement_of(document.run),
+                                           [&document] { return drift_figures(document.drift); }}));
     return document;
 }
 
 Result<void> seal_drift(const std::string& run_file) {
     if (read_stored_result(run_file)) return {};
     AXISCAL_TRY(const DriftDocument document, drift_of_run_file(run_file));
-    Json figures;
-    figures["format"] = "axiscal.drift/1";
-    figures["unit"] = document.drift.unit;
-    figures["parameters"] = parameters_of(document.drift);
-    figures["refused_readings"] = refused_readings(document.drift);
-    return store_result(run_file, {document.result_digest, figures.dump()});
+    return store_result(run_file, {document.result_digest, drift_figures(document.drift).dump()});
 }
 
 Json drift_to_json(const DriftDocument& document) {

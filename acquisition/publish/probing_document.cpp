@@ -46,6 +46,15 @@ Json series_list(const std::vector<ProbingDelay>& results) {
     return list;
 }
 
+/// What is stored at the first evaluation.
+Json probing_figures(const ProbingDocument& document) {
+    Json figures;
+    figures["format"] = "axiscal.probing/1";
+    figures["unit"] = "mm";
+    figures["parameters"] = series_list(document.results);
+    return figures;
+}
+
 Json run_of(const ProbingDocument& document) {
     const RunRecord& run = document.run;
     Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
@@ -71,19 +80,16 @@ Result<ProbingDocument> probing_of_run_file(const std::string& run_file) {
     document.record = std::move(*contents.attachments.probing);
     AXISCAL_TRY(document.results, evaluate_probing_delay(case_of(document.record)));
     document.run = std::move(contents.run);
-    document.result_digest = digest_of(document.results);
-    AXISCAL_CHECK(check_stored_result(run_file, document.result_digest));
+    AXISCAL_TRY(document.result_digest,
+                standing_digest(run_file, {digest_of(document.results), rounding_of_the_library,
+                                           [&document] { return probing_figures(document); }}));
     return document;
 }
 
 Result<void> seal_probing(const std::string& run_file) {
     if (read_stored_result(run_file)) return {};
     AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(run_file));
-    Json figures;
-    figures["format"] = "axiscal.probing/1";
-    figures["unit"] = "mm";
-    figures["parameters"] = series_list(document.results);
-    return store_result(run_file, {document.result_digest, figures.dump()});
+    return store_result(run_file, {document.result_digest, probing_figures(document).dump()});
 }
 
 Json probing_to_json(const ProbingDocument& document) {

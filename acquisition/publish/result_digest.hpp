@@ -1,5 +1,6 @@
 #pragma once
-// The digest by which a recomputed result is known to have the same bits. Pure.
+// The digest by which a recomputed result is known to have the same bits (of a circular test: to
+// 1e-8 mm). One that differs is judged figure by figure: figure_agreement.hpp. Pure.
 
 #include "analysis/circular/circular_parameters.hpp"
 #include "analysis/positioning_accuracy.hpp"

@@ -13,6 +13,8 @@
 namespace axiscal {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 tl::unexpected<Error> still_open(const std::string& run_file) {
     return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
 }
@@ -20,6 +22,11 @@ tl::unexpected<Error> still_open(const std::string& run_file) {
 /// Why figures are no longer those of the first evaluation.
 std::string differs_from(const std::string& software_version) {
     return "; this program computes differently from version " + software_version;
+}
+
+Json circular_figures_of(const CircularCertificate& certificate) {
+    return circular_to_json({certificate.measured.test, certificate.measured.axes,
+                             certificate.parameters, certificate.diagnosis, certificate.budget});
 }
 
 /// Digest and result document of what was evaluated just now.
@@ -30,11 +37,7 @@ Result<StoredResult> first_result_of(const std::string& run_file) {
         return StoredResult{certificate.result_digest, result_to_json(certificate.result).dump()};
     }
     AXISCAL_TRY(const CircularCertificate certificate, circular_certificate_of_run_file(run_file));
-    const CircularMeasurement& measured = certificate.measured;
-    return StoredResult{certificate.result_digest,
-                        circular_to_json({measured.test, measured.axes, certificate.parameters,
-                                          certificate.diagnosis, certificate.budget})
-                            .dump()};
+    return StoredResult{certificate.result_digest, circular_figures_of(certificate).dump()};
 }
 
 } // namespace
@@ -55,10 +58,13 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
         certificate.remarks.push_back("E_VE is the range of the drift test " +
                                       certificate.attachments.eve_source + ".");
     certificate.result_digest = result_digest(certificate.result);
+    const auto document = [&certificate] { return result_to_json(certificate.result); };
     // A run that was added to is evaluated anew: the stored result is of what it held before.
     if (contents.results < certificate.revisions.closings) return certificate;
-    AXISCAL_CHECK(check_stored_result(run_file, certificate.result_digest,
-                                      differs_from(certificate.run.software_version)));
+    AXISCAL_TRY(certificate.result_digest,
+                standing_digest(
+                    run_file, {certificate.result_digest, agreement_of(certificate.run), document},
+                    differs_from(certificate.run.software_version)));
     return certificate;
 }
 
@@ -72,8 +78,11 @@ Result<CircularCertificate> circular_certificate_of_run_file(const std::string& 
                 evaluate_measurement(std::move(measured), std::move(sha256)));
     certificate.result_digest = result_digest(certificate.parameters);
     if (contents.results < contents.revisions.closings) return certificate;
-    AXISCAL_CHECK(check_stored_result(run_file, certificate.result_digest,
-                                      differs_from(certificate.measured.run.software_version)));
+    const auto document = [&certificate] { return circular_figures_of(certificate); };
+    AXISCAL_TRY(certificate.result_digest,
+                standing_digest(run_file,
+                                {certificate.result_digest, rounding_of_the_library, document},
+                                differs_from(certificate.measured.run.software_version)));
     return certificate;
 }
 

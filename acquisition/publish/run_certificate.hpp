@@ -9,8 +9,8 @@
 
 namespace axiscal {
 
-/// Reads and verifies the run file and computes everything. Figures that differ in any bit from
-/// the digest stored when the run was first evaluated are refused.
+/// Reads and verifies the run file and computes everything. Figures that do not agree
+/// (agreement_of) with those stored when the run was first evaluated are refused.
 /// @errors Fault::incomplete_run for an open or incomplete run; Fault::bad_run_file,
 /// Fault::not_found; what make_certificate() refuses.
 Result<Certificate> certificate_of_run_file(const std::string& run_file);

@@ -7,6 +7,7 @@
 #include "acquisition/publish/circular_certificate_json.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/drift_document.hpp"
+#include "acquisition/publish/figure_agreement.hpp"
 #include "acquisition/publish/probing_document.hpp"
 #include "acquisition/publish/run_certificate.hpp"
 
@@ -22,23 +23,19 @@ using Json = nlohmann::ordered_json;
 
 /// What a certificate says of the run. The rest of its document (words, summaries of the
 /// environment) may be told in another way by a later version.
-constexpr std::array held_places{"/parameters",
-                                 "/positions",
-                                 "/expanded_uncertainty",
-                                 "/standard",
-                                 "/unit",
-                                 "/run/id",
-                                 "/run/plan",
-                                 "/run/deviations",
-                                 "/zones",
-                                 "/repeats",
-                                 "/run/circles",
-                                 "/run/bar",
-                                 "/run/config_sha256",
-                                 "/run/datums",
-                                 "/run/synchronisation",
-                                 "/run/result_digest",
-                                 "/run/run_file_sha256"};
+constexpr std::array computed_places{
+    "/parameters", "/positions", "/expanded_uncertainty", "/run/deviations",
+    "/zones",      "/repeats",   "/run/circles",          "/run/synchronisation"};
+/// What it only repeats, and what names it: the same, whatever the figures may differ by.
+constexpr std::array repeated_places{"/standard",
+                                     "/unit",
+                                     "/run/id",
+                                     "/run/plan",
+                                     "/run/bar",
+                                     "/run/config_sha256",
+                                     "/run/datums",
+                                     "/run/result_digest",
+                                     "/run/run_file_sha256"};
 
 Result<Json> read_certificate(const std::string& path) {
     std::ifstream file{path, std::ios::binary};
@@ -75,20 +72,32 @@ std::string shown(const Json& value) {
     return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
-void compare(const Json& printed, const Json& right, VerifyReport& report) {
-    for (const char* text : held_places) {
-        const Json::json_pointer place{text};
-        const Json there = printed.contains(place) ? printed[place] : Json{};
-        const Json due = right.contains(place) ? right[place] : Json{};
-        for (const auto& step : Json::diff(due, there)) {
-            const std::string where = text + step["path"].get<std::string>();
-            const Json::json_pointer at{step["path"].get<std::string>()};
-            report.certificate_findings.push_back(
-                {where, where + " says " + (there.contains(at) ? shown(there[at]) : "nothing") +
-                            ", the run file gives " +
-                            (due.contains(at) ? shown(due[at]) : "nothing")});
-        }
+/// One place of the certificate against the same of the document due.
+void compare_at(const char* text,
+                const Json& printed,
+                const Json& right,
+                const FigureAgreement& agreement,
+                VerifyReport& report) {
+    const Json::json_pointer place{text};
+    const Json there = printed.contains(place) ? printed[place] : Json{};
+    const Json due = right.contains(place) ? right[place] : Json{};
+    for (const std::string& step : disagreements(there, due, agreement)) {
+        const std::string where = text + step;
+        const Json::json_pointer at{step};
+        report.certificate_findings.push_back(
+            {where, where + " says " + (there.contains(at) ? shown(there[at]) : "nothing") +
+                        ", the run file gives " + (due.contains(at) ? shown(due[at]) : "nothing")});
     }
+}
+
+void compare(const Json& printed,
+             const Json& right,
+             const FigureAgreement& agreement,
+             VerifyReport& report) {
+    for (const char* place : computed_places)
+        compare_at(place, printed, right, agreement, report);
+    for (const char* place : repeated_places)
+        compare_at(place, printed, right, same_bits, report);
 }
 
 /// Without figures the marks that need none are held: the file's own hash, the run, the datums.
@@ -120,27 +129,30 @@ std::string state_in_words(const ChainReport& chain) {
 namespace {
 
 /// The certificate's document as the run file gives it now.
-Result<Json> document_of_run_file(const std::string& run_file, std::string& digest) {
+struct Recomputed {
+    Json document;
+    std::string digest;
+    FigureAgreement agreement; ///< with a document made on another processor
+};
+
+Result<Recomputed> recomputed(const std::string& run_file) {
     AXISCAL_TRY(const bool circular, is_circular_run(run_file));
     if (circular) {
         AXISCAL_TRY(const CircularCertificate made, circular_certificate_of_run_file(run_file));
-        digest = made.result_digest;
-        return circular_certificate_to_json(made);
+        return Recomputed{circular_certificate_to_json(made), made.result_digest,
+                          rounding_of_the_library};
     }
     AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
     if (summary.probing) {
         AXISCAL_TRY(const ProbingDocument made, probing_of_run_file(run_file));
-        digest = made.result_digest;
-        return probing_to_json(made);
+        return Recomputed{probing_to_json(made), made.result_digest, rounding_of_the_library};
     }
     if (summary.drift) {
         AXISCAL_TRY(const DriftDocument made, drift_of_run_file(run_file));
-        digest = made.result_digest;
-        return drift_to_json(made);
+        return Recomputed{drift_to_json(made), made.result_digest, agreement_of(made.run)};
     }
     AXISCAL_TRY(const Certificate made, certificate_of_run_file(run_file));
-    digest = made.result_digest;
-    return certificate_to_json(made);
+    return Recomputed{certificate_to_json(made), made.result_digest, agreement_of(made.run)};
 }
 
 } // namespace
@@ -154,19 +166,21 @@ Result<VerifyReport> verify_run(const std::string& run_file, const std::string& 
     report.run_id = summary.run_id;
     report.certificate = certificate;
     AXISCAL_TRY(const auto printed, certificate_for(run_file, report.run_id, report.certificate));
-    std::optional<Json> right;
+    std::optional<Recomputed> right;
     if (!report.chain.intact()) {
         report.no_figures = "rows are not what they were";
     } else if (!report.chain.complete) {
         report.no_figures = state_in_words(report.chain);
-    } else if (auto made = document_of_run_file(run_file, report.result_digest)) {
+    } else if (auto made = recomputed(run_file)) {
         right = *std::move(made);
+        report.result_digest = right->digest;
     } else if (const auto stored = read_stored_result(run_file)) {
         report.wrong_result = describe(made.error());
     } else {
         report.no_figures = describe(made.error());
     }
-    if (printed) compare(*printed, right ? *right : marks_of(report, *printed), report);
+    if (printed && right) compare(*printed, right->document, right->agreement, report);
+    if (printed && !right) compare(*printed, marks_of(report, *printed), same_bits, report);
     return report;
 }
 

@@ -1,6 +1,6 @@
-// The same run gives the same bits on every compiler, optimisation and preset. The digest below is
-// no known answer (those are in tests/unit/analysis): it only ties the presets to each other. It
-// may change only together with a formula, and then the commit says why.
+// The same run of a linear axis gives the same bits on every compiler, optimisation and preset. The
+// digest below is no known answer (those are in tests/unit/analysis): it only ties the presets to
+// each other. It may change only together with a formula, and then the commit says why.
 
 #include "acquisition/publish/result_digest.hpp"
 #include "analysis/certificate.hpp"

@@ -17,7 +17,7 @@ Load and start it; when the axis waits at its datum: axiscal arm --program X-who
 
 constexpr const char* export_footer = R"(Example:
   axiscal export RUN.axiscal --out papers
-Writes what the station wrote after the run, with the same figures, bit by bit.)";
+Writes what the station wrote after the run, with the same figures.)";
 
 constexpr const char* check_config_footer = R"(Example:
   axiscal check-config station.toml
