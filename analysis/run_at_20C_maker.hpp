@@ -1,6 +1,6 @@
 #pragma once
 // Sole maker of RunAt20C. For declare_at_20C() and compensate_to_20C() only: whoever else includes
-// this header breaks the law that compensation happens exactly once. Pure.
+// this header breaks the law that compensation happens exactly once (tests/guards/arrows.py). Pure.
 
 #include "analysis/positioning_accuracy.hpp"
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The arrows of docs/architecture.md (table "Rooms"), held against every #include and every link of the product.
+"""The arrows of docs/architecture.md (table "Rooms"), held against every #include and every link of the product; and the
+headers that only their makers may include, held against the tests, too.
 
 arrows.py SOURCE_DIR               checks the tree
 arrows.py --self-test SOURCE_DIR   proves that planted backward includes and links are seen
@@ -17,6 +18,15 @@ LINKED_AS = {"PkgConfig::pangocairo": "cairo", "PkgConfig::modbus": "modbus", "P
              "PkgConfig::smbclient": "libsmbclient", "Boost::headers": "boost/asio"}
 # Links that carry no arrow: compiler options, and libraries that stand in no row.
 FREE = {"axiscal_options", "Threads::Threads", "CLI11::CLI11", "spdlog::spdlog", "nlohmann_json::nlohmann_json", "PkgConfig::systemd"}
+# header -> who may include it, whatever the room. Of RunAt20C: the compensation and declare_at_20C.
+MAKERS = {"analysis/run_at_20C_maker.hpp": {"analysis/thermal_compensation.cpp", "analysis/deviation_table.cpp"}}
+
+
+def maker_complaints(path, text):
+    for included in INCLUDE.findall(text):
+        for header, makers in MAKERS.items():
+            if included.rsplit("/", 1)[-1] == header.rsplit("/", 1)[-1] and path not in makers:
+                yield f"{path}: only {' and '.join(sorted(makers))} may include {header}"
 
 
 class Table:
@@ -129,20 +139,35 @@ def link_self_test(table, files):
     return wrong + ([] if len(list(cmake_complaints(table, without))) > alone else ["a target of the table without a CMakeLists"])
 
 
+def maker_self_test(files):
+    """files: path -> text. A planted include by anybody else is seen, the makers' own are there and are fine."""
+    wrong = [path for path in ("analysis/x.cpp", "analysis/run_at_20C.hpp", "tools/axiscal/x.cpp", "tests/unit/analysis/x.cpp")
+             if not list(maker_complaints(path, '#include "analysis/run_at_20C_maker.hpp"\n'))]
+    wrong += [] if list(maker_complaints("analysis/x.cpp", '#include "run_at_20C_maker.hpp"\n')) else ["beside the header"]
+    for header, makers in MAKERS.items():
+        wrong += [f"{path} does not include {header}" for path in makers if header not in INCLUDE.findall(files[path])]
+        wrong += [alarm for path in makers for alarm in maker_complaints(path, files[path])]
+    return wrong
+
+
 def main():
     root = pathlib.Path(sys.argv[-1])
     table = Table((root / "docs/architecture.md").read_text(encoding="utf-8"))
     lists = {file.relative_to(root).as_posix(): file.read_text(encoding="utf-8")
              for folder in FOLDERS for file in sorted((root / folder).rglob("CMakeLists.txt"))}
     if sys.argv[1] == "--self-test":
-        wrong = include_self_test(table) + link_self_test(table, lists)
+        texts = {path: (root / path).read_text(encoding="utf-8") for makers in MAKERS.values() for path in makers}
+        wrong = include_self_test(table) + link_self_test(table, lists) + maker_self_test(texts)
         print("not as planted:", wrong)
         return 1 if wrong else 0
     found, seen = list(cmake_complaints(table, lists)), 0
-    for folder in FOLDERS:
+    for folder in (*FOLDERS, "tests"):
         for file in sorted((root / folder).rglob("*.[ch]pp")):
-            seen += 1
-            found += table.include_complaints(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8"))
+            path, text = file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")
+            found += maker_complaints(path, text)
+            if folder != "tests":
+                seen += 1
+                found += table.include_complaints(path, text)
     print("\n".join(found) or f"{seen} files and {len(table.target_room)} targets, every arrow points the right way")
     return 1 if found or seen < 20 or len(table.may) < 15 else 0
 

@@ -11,12 +11,33 @@
 
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <functional>
+#include <type_traits>
 
 namespace axiscal::testing::receipt_to_cnc_test {
 namespace {
 
 using namespace std::chrono_literals;
+
+// No receipt without a commit: it cannot be made here, and nothing else opens the way to `done`.
+static_assert(!std::is_default_constructible_v<JournalReceipt>);
+static_assert(!std::is_aggregate_v<JournalReceipt>);
+static_assert(!std::constructible_from<JournalReceipt, std::uint16_t, int>);
+static_assert(!std::constructible_from<JournalReceipt, int>);
+static_assert(!std::assignable_from<JournalReceipt&, std::pair<std::uint16_t, int>>);
+
+template <class Proof>
+concept Acknowledged = requires(TriggerPort& port, const Proof& proof) {
+    port.acknowledge(proof);
+};
+static_assert(Acknowledged<JournalReceipt>);
+static_assert(!Acknowledged<std::uint16_t> && !Acknowledged<int> && !Acknowledged<PointRecord>);
+template <class Map>
+concept Finishable = requires(Map& map) {
+    map.finish(std::uint16_t{1});
+};
+static_assert(!Finishable<RegisterMap>);
 
 class ReceiptToCnc : public ::testing::Test {
 protected:
