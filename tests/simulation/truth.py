@@ -118,6 +118,7 @@ def truth_is_found(b, scenario, seed):
     certificate = b.finish()
     truth = b.truth()
     expect(truth["approaches"] == 5 and len(truth["targets"]) == 11, "the truth's plan")
+    expect(truth["draws"] == 10000, "R and A are judged by 10 000 draws")
     bounds = bounds_mm(b.scenario, truth["targets"], truth["approaches"])
     wide = wider_than(truth, bounds)
     expect(not wide, f"the truth file allows more than its scenario explains: {', '.join(wide)}")

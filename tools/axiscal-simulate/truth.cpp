@@ -300,6 +300,7 @@ nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
             {"unit", "mm"},
             {"targets", plan.targets_mm},
             {"approaches", plan.approaches},
+            {"draws", scenario.truth.draws},
             {"parameters", parameters},
             {"formula", bound_formula},
             {"terms_um",

@@ -1,5 +1,7 @@
 #include "truth.hpp"
 
+#include "injected_process.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,6 +107,70 @@ TEST(Truth, IntervalOfTheScatterIsThatOfTheDraws) {
             << key;
     EXPECT_NEAR(bound(truth, "A", "high") - bound(truth, "A", "draw_high"), rounding_mm + 6e-5,
                 1e-12);
+}
+
+/// Probability that s of five normal readings gives R = 4 s or less, at each of m targets: of
+/// chi-square with 4 degrees of freedom, x = 4 s^2 / sigma^2, F(x) = 1 - exp(-x/2) (1 + x/2).
+double probability_of(double R_um, double sigma_um, int targets) {
+    const double half_x = R_um * R_um / (8 * sigma_um * sigma_um);
+    const double one = -std::expm1(-half_x) - half_x * std::exp(-half_x);
+    return std::pow(one, targets);
+}
+
+/// One way, noise of 0.2 um and nothing else, as many draws as a scenario has that states none.
+nlohmann::json truth_of_noise(int targets) {
+    Scenario s = injected();
+    s.truth.draws = Scenario{}.truth.draws;
+    TruthPlan one_way{{}, 5, false};
+    for (int i = 0; i < targets; ++i)
+        one_way.targets_mm.push_back(100.0 * i);
+    return truth_of(s, one_way);
+}
+
+// The k-th smallest of 10 000 probabilities is Beta(k, 10001 - k), near enough Gamma(k) / 10 000:
+// all but 1e-4 of it lies, for k = 5 (share 0.0005), between 3.8e-5 and 1.87e-3, and for the sixth
+// largest (share 0.9995 of 9999, cut to a whole number) between 6.2e-5 and 2.05e-3. The median
+// scatters by 0.005.
+TEST(Truth, IntervalOfFiveNormalReadingsIsThatOfChiSquare) {
+    for (const int targets : {1, 5}) {
+        const auto truth = truth_of_noise(targets);
+        EXPECT_EQ(truth["draws"], 10000);
+        const auto at = [&](const char* which) {
+            return probability_of(bound(truth, "R_forward", which) * 1e3, 0.2, targets);
+        };
+        EXPECT_GT(at("draw_low"), 3.8e-5) << targets;
+        EXPECT_LT(at("draw_low"), 1.87e-3) << targets;
+        EXPECT_GT(1 - at("draw_high"), 6.2e-5) << targets;
+        EXPECT_LT(1 - at("draw_high"), 2.05e-3) << targets;
+        EXPECT_NEAR(at("value"), 0.5, 4 * 0.005) << targets;
+    }
+}
+
+// Which of the 10 000 they are, to the last one: five lie at or below the low end, six at or above
+// the high one.
+TEST(Truth, IntervalLeavesFiveInTenThousandOutOnEachSide) {
+    const TruthPlan one_way{{500}, 5, false};
+    Scenario s = injected();
+    s.truth.draws = Scenario{}.truth.draws;
+    const auto truth = truth_of(s, one_way);
+    const InjectedProcess process{s, one_way};
+    const double low_um = bound(truth, "R_forward", "draw_low") * 1e3;
+    const double high_um = bound(truth, "R_forward", "draw_high") * 1e3;
+    constexpr double rounding_um = 1e-9; // far below the distance of two draws in the tails
+    int up_to_low = 0, from_high = 0;
+    for (std::uint64_t k = 0; k < 10'000; ++k) {
+        const auto run = process.draw(k);
+        double sum = 0, squares = 0;
+        for (const double um : run.forward.front())
+            sum += um;
+        for (const double um : run.forward.front())
+            squares += (um - sum / 5) * (um - sum / 5);
+        const double R_um = 4 * std::sqrt(squares / 4);
+        up_to_low += R_um <= low_um + rounding_um;
+        from_high += R_um >= high_um - rounding_um;
+    }
+    EXPECT_EQ(up_to_low, 5);
+    EXPECT_EQ(from_high, 6);
 }
 
 TEST(Truth, OneApproachHasNoScatterParameters) {
