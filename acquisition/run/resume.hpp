@@ -20,7 +20,7 @@ enum class ResumeDecision : std::uint8_t {
     close_sequence_lost,  ///< any other request
     close_config_changed, ///< the station file is not the run's
     close_other_instrument,
-    close_never_armed, ///< the daemon ended between opening the run and tying its datum
+    close_never_armed, ///< the daemon, or the computer, ended before the datum was tied
     close_datum_lost,
     close_environment ///< the air or the machine is outside the station's limits
 };

@@ -162,6 +162,20 @@ TEST(Resume, ARunWithoutADatumHasNoneToLose) {
     EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::capture_standing);
 }
 
+TEST(Resume, ARunWithoutADatumEndsWithTheBootThatItsAirWasReadIn) {
+    auto run = run_with_points(0);
+    run.datums.clear();
+    run.events.push_back({EventKind::armed, at_s(1), 0, "the CNC ties", Fault::none, 0});
+    auto now = same_station(200);
+    now.boot_id = "another boot";
+    const auto verdict = decide_resume(run, 1, now);
+    EXPECT_EQ(verdict.decision, ResumeDecision::close_never_armed);
+    EXPECT_EQ(verdict.sentence,
+              "The computer was restarted before the datum was tied; nothing was measured yet.");
+    run.rotary.emplace().method = AngleMethod::polygon; // needs neither datum nor air
+    EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::capture_standing);
+}
+
 TEST(Resume, ARunWhoseDatumAPersonWasTyingIsClosedToBeArmedAnew) {
     auto run = run_with_points(0);
     run.datums.clear();
