@@ -114,8 +114,8 @@ TEST(Registry, RefusesAChannelThatTheInstrumentDoesNotHave) {
     config.channels.push_back({});
     config.channels.back().channel = "axis 2";
     const auto made = testing::make_instrument("umd", umd_keys, config);
-    EXPECT_NE(all_refusals(made).find("it has axis 1; did you mean \"axis 1\"?"), std::string::npos)
-        << all_refusals(made);
+    for (const char* part : {"it has axis 1, ", "; did you mean \"axis 1\"?"})
+        EXPECT_NE(all_refusals(made).find(part), std::string::npos) << all_refusals(made);
 }
 
 TEST(Registry, RefusesACorrectionInAnotherUnitThanTheChannels) {
