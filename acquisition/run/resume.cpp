@@ -53,8 +53,7 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
         return {ResumeDecision::close_never_armed, Fault::no_run_armed,
                 "The station went down before the datum was tied; nothing was measured yet."};
     // The air and the temperatures kept so far count by a clock that has begun anew.
-    const bool before_a_polygon = run.rotary && run.rotary->method == AngleMethod::polygon;
-    if (run.datums.empty() && !before_a_polygon && now.boot_id != run.boot_id)
+    if (run.datums.empty() && now.boot_id != run.boot_id)
         return {ResumeDecision::close_never_armed, Fault::no_run_armed,
                 "The computer was restarted before the datum was tied; nothing was measured yet."};
     if (run.datums.empty()) return {};

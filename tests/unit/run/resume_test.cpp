@@ -172,8 +172,6 @@ TEST(Resume, ARunWithoutADatumEndsWithTheBootThatItsAirWasReadIn) {
     EXPECT_EQ(verdict.decision, ResumeDecision::close_never_armed);
     EXPECT_EQ(verdict.sentence,
               "The computer was restarted before the datum was tied; nothing was measured yet.");
-    run.rotary.emplace().method = AngleMethod::polygon; // needs neither datum nor air
-    EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::capture_standing);
 }
 
 TEST(Resume, ARunWhoseDatumAPersonWasTyingIsClosedToBeArmedAnew) {
