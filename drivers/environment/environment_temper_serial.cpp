@@ -19,7 +19,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
-#include "drivers/clock/open_requests.hpp"
+#include "drivers/clock/late_answers.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_line.hpp"
 #include "drivers/framing/line_framer.hpp"
@@ -65,7 +65,6 @@ private:
     Task<Result<void>> ask_calibration(ByteLink& link, InstrumentContext context);
     Task<Result<void>>
     hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
-    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<void>> poll(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void close_request(std::string_view text, MonotonicTime read_at);
     void take_line(std::string_view text, MonotonicTime read_at, SampleSink& sink);
@@ -200,26 +199,13 @@ Task<Result<void>> TemperSerial::hear_until(ByteLink& link,
     co_return Result<void>{};
 }
 
-/// Where the stick answered while another request is open, what is late is heard before it is asked
-/// again: an answer is never taken for that of a request that came after it.
-Task<Result<void>>
-TemperSerial::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    while (const auto end = requests_.listen_until()) {
-        const MonotonicTime now = context.scheduler->now();
-        if (now >= *end) requests_.forget();
-        const MonotonicTime soon = std::min(*end, now + poll_period_);
-        const auto heard = co_await hear_until(link, context, framer, soon);
-        if (!heard) co_return heard;
-    }
-    co_return Result<void>{};
-}
-
 /// One request and what comes until the next is due. A probe of which there is no line is absent.
 Task<Result<void>>
 TemperSerial::poll(ByteLink& link, InstrumentContext context, LineFramer& framer) {
     heard_at_.reset();
     probe_heard_ = false;
-    const auto late = co_await hear_late(link, context, framer);
+    const auto hear = [&](MonotonicTime end) { return hear_until(link, context, framer, end); };
+    const auto late = co_await hear_late(requests_, *context.scheduler, poll_period_, hear);
     if (!late) co_return late;
     const MonotonicTime asked = context.scheduler->now();
     requests_.asked(asked);

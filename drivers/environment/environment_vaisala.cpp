@@ -18,7 +18,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
-#include "drivers/clock/open_requests.hpp"
+#include "drivers/clock/late_answers.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/vaisala_line.hpp"
 #include "drivers/framing/line_framer.hpp"
@@ -109,7 +109,6 @@ private:
     Task<Result<void>>
     hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
     Task<Result<void>> prepare(ByteLink& link, InstrumentContext context, LineFramer& framer);
-    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<int>>
     ask_while_heard(ByteLink& link, InstrumentContext context, LineFramer& framer);
@@ -200,23 +199,10 @@ Task<Result<void>> Vaisala::prepare(ByteLink& link, InstrumentContext context, L
     co_return Result<void>{};
 }
 
-/// Where it answered while another request is open, what is late is heard before it is asked again:
-/// an answer is never taken for that of a request that came after it.
-Task<Result<void>>
-Vaisala::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    while (const auto end = requests_.listen_until()) {
-        const MonotonicTime now = context.scheduler->now();
-        if (now >= *end) requests_.forget();
-        const MonotonicTime soon = std::min(*end, now + setup_.poll_period);
-        const auto heard = co_await hear_until(link, context, framer, soon);
-        if (!heard) co_return heard;
-    }
-    co_return Result<void>{};
-}
-
 /// One request and what comes until the next is due; heard_ tells whether a reading did.
 Task<Result<void>> Vaisala::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    const auto late = co_await hear_late(link, context, framer);
+    const auto hear = [&](MonotonicTime end) { return hear_until(link, context, framer, end); };
+    const auto late = co_await hear_late(requests_, *context.scheduler, setup_.poll_period, hear);
     if (!late) co_return late;
     heard_ = false;
     const MonotonicTime asked = context.scheduler->now();

@@ -25,7 +25,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
-#include "drivers/clock/open_requests.hpp"
+#include "drivers/clock/late_answers.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/gauge/gauge_answer.hpp"
@@ -77,7 +77,6 @@ private:
     Task<Result<void>>
     hear_until(ByteLink& link, InstrumentContext context, LineFramer& framer, MonotonicTime end);
     Task<Result<void>> ask_unit(ByteLink& link, InstrumentContext context, LineFramer& framer);
-    Task<Result<void>> hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer);
     Task<Result<void>> ask(ByteLink& link, InstrumentContext context, LineFramer& framer);
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
@@ -233,22 +232,9 @@ tl::unexpected<Error> AsciiGauge::why_no_unit(const InstrumentCounters& before) 
                         "file");
 }
 
-/// Where a gauge answered while another request is open, what is late is heard before it is asked
-/// again: an answer is never taken for that of a request that came after it.
-Task<Result<void>>
-AsciiGauge::hear_late(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    while (const auto end = requests_.listen_until()) {
-        const MonotonicTime now = context.scheduler->now();
-        if (now >= *end) requests_.forget();
-        const MonotonicTime soon = std::min(*end, now + setup_.poll_period);
-        const auto heard = co_await hear_until(link, context, framer, soon);
-        if (!heard) co_return heard;
-    }
-    co_return Result<void>{};
-}
-
 Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, LineFramer& framer) {
-    const auto late = co_await hear_late(link, context, framer);
+    const auto hear = [&](MonotonicTime end) { return hear_until(link, context, framer, end); };
+    const auto late = co_await hear_late(requests_, *context.scheduler, setup_.poll_period, hear);
     if (!late) co_return late;
     answered_ = false;
     const MonotonicTime now = context.scheduler->now();
