@@ -122,13 +122,39 @@ Result<std::int64_t> Database::integer_of(const std::string& sql) const {
     return integer ? *integer : 0;
 }
 
+namespace {
+
+/// What ended the last call on a file that failed; 0: none did, or it is not known.
+int last_errno_of(sqlite3_file* file) {
+    int code = 0;
+    if (file != nullptr && file->pMethods != nullptr)
+        file->pMethods->xFileControl(file, SQLITE_FCNTL_LAST_ERRNO, &code);
+    return code;
+}
+
+/// By the file itself, the log or the main one: sqlite3_system_errno gives what errno holds when
+/// the statement ends, which is as often that of the calls with which SQLite tidied up.
+int errno_of_files(sqlite3* connection) {
+    for (const int which : {SQLITE_FCNTL_JOURNAL_POINTER, SQLITE_FCNTL_FILE_POINTER}) {
+        sqlite3_file* file = nullptr;
+        if (sqlite3_file_control(connection, "main", which, &file) != SQLITE_OK) continue;
+        if (const int code = last_errno_of(file); code != 0) return code;
+    }
+    return 0;
+}
+
+} // namespace
+
 tl::unexpected<Error> Database::failure() const {
     int system = connection_ ? sqlite3_system_errno(connection_.get()) : 0;
     const int kind = connection_ ? sqlite3_extended_errcode(connection_.get()) : SQLITE_NOMEM;
     // For these SQLite keeps no errno, or not always.
     if (kind == SQLITE_FULL) system = ENOSPC;
     if (kind == SQLITE_READONLY) system = EROFS;
-    if ((kind & 0xff) == SQLITE_IOERR && system == 0) system = EIO;
+    if ((kind & 0xff) == SQLITE_IOERR) {
+        if (const int of_file = errno_of_files(connection_.get()); of_file != 0) system = of_file;
+        if (system == 0) system = EIO;
+    }
     const char* word = connection_ ? sqlite3_errmsg(connection_.get()) : "out of memory";
     const std::error_code cause =
         system != 0 ? std::error_code{system, std::generic_category()} : std::error_code{};

@@ -108,7 +108,7 @@ Task<Result<void>> UmdInstrument::run(InstrumentContext context) {
     LineFramer framer{longest_record, true};
     last_record_at_ = context.scheduler->now();
     for (;;) {
-        const auto arrived = co_await link->read_some(last_record_at_ + patience);
+        const auto arrived = co_await link->read_some(context.scheduler->now() + patience);
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
         digest(*arrived, framer, *context.sink);
         if (arrived->read_at - last_record_at_ > patience)

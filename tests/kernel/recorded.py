@@ -3,9 +3,10 @@ readings again in virtual time. The daemon, which holds the wires, is ended firs
 
 import json
 import re
+import shutil
 import subprocess
 
-from guest import READY_S, expect
+from guest import READY_S, SHARE, expect
 from usb_station import bench  # noqa: F401  (lays the folder of the whole-run tests on the path)
 from tapes import SAMPLE
 
@@ -31,6 +32,8 @@ def record(station, names):
         for process in running.values():
             process.kill()
             process.wait()
+        for tape in station.folder.glob("*.tape"):
+            shutil.copy(tape, SHARE)
     return told
 
 
