@@ -116,9 +116,9 @@ std::unique_ptr<CanLink> record_can(std::unique_ptr<CanLink> inner,
 }
 
 Task<Result<std::unique_ptr<CanLink>>> TapePlayer::open_can(const LinkSettings& /*settings*/,
-                                                            MonotonicTime /*deadline*/) {
-    if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
-    if (!begin_) begin_ = scheduler_.now();
+                                                            MonotonicTime deadline) {
+    const auto begun = co_await begin_opening(deadline);
+    if (!begun) co_return tl::unexpected<Error>(begun.error());
     co_return std::make_unique<TapeCanLink>(*this);
 }
 

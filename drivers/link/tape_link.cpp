@@ -109,10 +109,19 @@ TapePlayer::TapePlayer(Scheduler& scheduler, const Tape& tape)
     : scheduler_{scheduler}
     , tape_{tape} {}
 
-Task<Result<std::unique_ptr<ByteLink>>> TapePlayer::open(const LinkSettings& /*settings*/,
-                                                         MonotonicTime /*deadline*/) {
+Task<Result<void>> TapePlayer::begin_opening(MonotonicTime deadline) {
     if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
     if (!begin_) begin_ = scheduler_.now();
+    const TapeEntry& first = tape_.entries[next_];
+    if (first.direction == TapeEntry::Direction::out)
+        co_await scheduler_.sleep_until(std::min(deadline, *begin_ + first.offset));
+    co_return Result<void>{};
+}
+
+Task<Result<std::unique_ptr<ByteLink>>> TapePlayer::open(const LinkSettings& /*settings*/,
+                                                         MonotonicTime deadline) {
+    const auto begun = co_await begin_opening(deadline);
+    if (!begun) co_return tl::unexpected<Error>(begun.error());
     co_return std::make_unique<TapePlayerLink>(*this);
 }
 

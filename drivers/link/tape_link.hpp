@@ -64,6 +64,10 @@ public:
                                                     MonotonicTime deadline) override;
     [[nodiscard]] bool at_end() const { return next_ == tape_.entries.size(); }
 
+    /// What each opening begins with. It lasts as long as it did where the driver speaks first:
+    /// whoever waits for an answer then waits for it from the same instant as on the tape.
+    /// @errors Fault::link_closed at the end of the tape.
+    Task<Result<void>> begin_opening(MonotonicTime deadline);
     /// What links of this player are made of: the next entry must be to, or from, the instrument.
     /// @errors Fault::link_timeout when nothing comes before the deadline, link_closed at '!' and
     /// at the end, refused at 'x'.

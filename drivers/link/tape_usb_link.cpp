@@ -141,9 +141,9 @@ std::unique_ptr<UsbLink> record_usb(std::unique_ptr<UsbLink> inner,
 }
 
 Task<Result<std::unique_ptr<UsbLink>>> TapePlayer::open_usb(const LinkSettings& /*settings*/,
-                                                            MonotonicTime /*deadline*/) {
-    if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
-    if (!begin_) begin_ = scheduler_.now();
+                                                            MonotonicTime deadline) {
+    const auto begun = co_await begin_opening(deadline);
+    if (!begun) co_return tl::unexpected<Error>(begun.error());
     const auto header = [&](const char* key) {
         const auto found = tape_.header.find(key);
         return found == tape_.header.end() ? std::string{} : found->second;

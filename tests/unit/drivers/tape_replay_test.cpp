@@ -206,6 +206,36 @@ TEST(Tape, KeepsAPacketForTheEndpointThatItCameFrom) {
     EXPECT_EQ(told, "link_timeout 1 2 ");
 }
 
+/// Opens, asks on 0x01 and waits 20 ms for the answer, as the driver of a U6 does; then once more.
+Task<void> ask_twice(TapePlayer& player, Scheduler& scheduler, std::string& told) {
+    const LinkSettings nowhere;
+    for (int opening = 0; opening < 2; ++opening) {
+        const MonotonicTime patience = scheduler.now() + std::chrono::seconds{2};
+        const auto opened = co_await player.open_usb(nowhere, patience);
+        std::vector<std::byte> question{std::byte{0xb0}};
+        const auto asked = co_await (*opened)->bulk_out(0x01, std::move(question), patience);
+        const MonotonicTime soon = scheduler.now() + std::chrono::milliseconds{20};
+        const auto answer = co_await (*opened)->bulk_in(0x82, 64, soon);
+        told += std::string{asked ? "asked" : fault_name(asked.error().fault)} +
+                (answer ? ", answered; " : ", silent; ");
+    }
+}
+
+// 2026-11-23, on the kernel: to open a U6 took 282 ms, and another one was looked into first. The
+// tape was played as if it had taken none, and its answers came too late.
+TEST(Tape, TakesAsLongToOpenAsItTook) {
+    const auto tape = parse_tape("origin = simulator\n> 282000000 01b0\n< 301000000 82b1\n"
+                                 "> 343000000 01b0\n< 362000000 82b1\n");
+    ASSERT_TRUE(tape);
+    testing::VirtualScheduler scheduler;
+    TapePlayer player{scheduler, *tape};
+    std::string told;
+    boost::asio::co_spawn(scheduler.executor(), ask_twice(player, scheduler, told),
+                          boost::asio::detached);
+    scheduler.run_for(std::chrono::seconds{5});
+    EXPECT_EQ(told, "asked, answered; asked, answered; ");
+}
+
 /// A file of a 1-Wire sensor whose adapter answers EIO 5 ms after it was asked.
 class UnreadableFile final : public ByteLink {
 public:
