@@ -113,9 +113,14 @@ Task<Result<void>> TapePlayer::begin_opening(MonotonicTime deadline) {
     if (at_end()) co_return fail(Fault::link_closed, "the tape is at its end");
     if (!begin_) begin_ = scheduler_.now();
     const TapeEntry& first = tape_.entries[next_];
+    const MonotonicTime when = *begin_ + first.offset;
     if (first.direction == TapeEntry::Direction::out)
-        co_await scheduler_.sleep_until(std::min(deadline, *begin_ + first.offset));
-    co_return Result<void>{};
+        co_await scheduler_.sleep_until(std::min(deadline, when));
+    if (first.direction != TapeEntry::Direction::closed) co_return Result<void>{};
+    co_await scheduler_.sleep_until(std::min(deadline, when));
+    if (when > deadline) co_return fail(Fault::link_timeout, "nothing is there on the tape");
+    ++next_;
+    co_return fail(Fault::link_closed, "the link closed on the tape");
 }
 
 Task<Result<std::unique_ptr<ByteLink>>> TapePlayer::open(const LinkSettings& /*settings*/,

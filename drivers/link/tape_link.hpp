@@ -4,9 +4,9 @@
 // A tape is text: header lines "key = value" (maker, model, firmware, who, when, what,
 // origin = device | vendor-document | simulator), then one line per transfer:
 //     <direction> <offset_ns> <hex>
-// with direction '<' from the instrument, '>' to it, '!' the link closed, 'x' the device refused
-// (STALL, or there is no such file, or it cannot be read; without hex). Offsets are monotonic and
-// count from the first opening. '#' begins a comment line.
+// with direction '<' from the instrument, '>' to it, '!' the link closed (or the recording ended),
+// 'x' the device refused (STALL, or there is no such file, or it cannot be read; without hex).
+// Offsets are monotonic and count from the first opening. '#' begins a comment line.
 //
 // USB transfers: '>' with the 8 bytes of a setup packet asks, '<' with the data answers it; of bulk
 // endpoints '>' and '<' begin with the endpoint's address.
@@ -66,7 +66,9 @@ public:
 
     /// What each opening begins with. It lasts as long as it did where the driver speaks first:
     /// whoever waits for an answer then waits for it from the same instant as on the tape.
-    /// @errors Fault::link_closed at the end of the tape.
+    /// An opening that only closes again is none: it is waited for.
+    /// @errors Fault::link_closed at the end of the tape and after such an opening, link_timeout
+    /// when its end lies beyond the deadline.
     Task<Result<void>> begin_opening(MonotonicTime deadline);
     /// What links of this player are made of: the next entry must be to, or from, the instrument.
     /// @errors Fault::link_timeout when nothing comes before the deadline, link_closed at '!' and

@@ -83,6 +83,11 @@ MonotonicTime RecordingOpener::begin() {
     return *begin_;
 }
 
+void RecordingOpener::end() {
+    if (begin_)
+        TapeWriter{tape_, *begin_}.write(TapeEntry::Direction::closed, scheduler_.now(), {});
+}
+
 Task<Result<std::unique_ptr<ByteLink>>> RecordingOpener::open(const LinkSettings& settings,
                                                               MonotonicTime deadline) {
     const MonotonicTime zero = begin();

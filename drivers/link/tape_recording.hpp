@@ -34,6 +34,9 @@ public:
     /// What was opened last: "serial", "tcp", "usb", "hid", "can", "counter" or "files"; empty
     /// before.
     [[nodiscard]] std::string_view wire() const { return wire_; }
+    /// Closes the wire on the tape, once, now: whoever plays it knows that until here nothing more
+    /// came. Does nothing before the first opening.
+    void end();
 
 private:
     class Relay;

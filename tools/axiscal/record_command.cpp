@@ -68,6 +68,7 @@ public:
         spawn(scheduler_, end_after(span));
         spawn(scheduler_, end_on_signal());
         loop_.run();
+        if (!tape_.view().empty()) opener_.end();
     }
     [[nodiscard]] std::string transfers() const { return tape_.str(); }
     [[nodiscard]] std::string_view wire() const { return opener_.wire(); }
