@@ -1,6 +1,8 @@
 #pragma once
 // Linear least squares of many rows and few columns, with what the rows cannot tell apart. Pure.
 
+#include "analysis/linear/triangle.hpp"
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -26,11 +28,11 @@ struct LinearSolution {
     [[nodiscard]] double standard_uncertainty(std::size_t column) const;
 };
 
-/// Takes rows one at a time and keeps their triangle: orthogonal (Householder), hence with the
-/// accuracy of the condition and not of its square; memory does not grow with the rows.
+/// Takes rows one at a time and keeps their triangle.
 class RowFit {
 public:
-    explicit RowFit(std::size_t columns);
+    explicit RowFit(std::size_t columns)
+        : rows_{columns} {}
     /// `row` times the unknowns shall be `value`; both are multiplied by `weight`.
     void add(std::span<const double> row, double value, double weight = 1);
     /// As if every row of `other` had been added here.
@@ -38,10 +40,8 @@ public:
     [[nodiscard]] LinearSolution solve() const;
 
 private:
-    void fold();
-    std::size_t columns_, width_, held_ = 0, rows_ = 0;
-    std::vector<double> triangle_; ///< width x width, row by row; the last column is the right side
-    std::vector<double> block_;    ///< rows to come, column by column
+    TriangleOfRows rows_;
+    std::vector<double> weighted_; ///< the row being added
 };
 
 } // namespace axiscal::circular

@@ -1,7 +1,7 @@
 #pragma once
 // The columns of the harmonic fit and the search of its pitch. For periodic_error.cpp alone.
 
-#include "analysis/positioning/column_fit.hpp"
+#include "analysis/linear/dense_fit.hpp"
 #include "analysis/positioning/periodic_error.hpp"
 
 namespace axiscal {

@@ -1,5 +1,6 @@
 #include "analysis/separation/chebyshev_fit.hpp"
 
+#include "analysis/linear/dense_fit.hpp"
 #include "analysis/separation/chebyshev_moments.hpp"
 #include "analysis/separation/minimum_norm.hpp"
 
@@ -46,34 +47,6 @@ Matrix gram_of(const ChebyshevMoments& moments) {
         for (std::size_t j = 0; j < n; ++j)
             gram(i, j) = (moments.basis[i + j] + moments.basis[i > j ? i - j : j - i]) / 2;
     return gram;
-}
-
-/// Lower factor of a symmetric matrix; false where it is not positive.
-bool factorise(Matrix& gram) {
-    for (std::size_t j = 0; j < gram.columns; ++j)
-        for (std::size_t i = j; i < gram.rows; ++i) {
-            double sum = gram(i, j);
-            for (std::size_t k = 0; k < j; ++k)
-                sum -= gram(i, k) * gram(j, k);
-            if (i == j && !(sum > 0)) return false;
-            gram(i, j) = i == j ? std::sqrt(sum) : sum / gram(j, j);
-        }
-    return true;
-}
-
-std::vector<double> solve(const Matrix& factor, std::vector<double> right) {
-    const std::size_t n = right.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < i; ++k)
-            right[i] -= factor(i, k) * right[k];
-        right[i] /= factor(i, i);
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k)
-            right[i] -= factor(k, i) * right[k];
-        right[i] /= factor(i, i);
-    }
-    return right;
 }
 
 /// Sum of a_k T_k(t) by Clenshaw.
@@ -123,15 +96,17 @@ bool fit_by_moments(const ChebyshevMoments& moments,
                     std::span<const double> x,
                     std::span<const double> y,
                     ChebyshevFit& fit) {
-    Matrix gram = gram_of(moments);
+    const Matrix gram = gram_of(moments);
     fit.gram_condition = condition_of(gram);
-    if (!fit.gram_condition || *fit.gram_condition > worst_gram || !factorise(gram)) return false;
-    fit.first_kind = solve(gram, moments.right);
+    if (!fit.gram_condition || *fit.gram_condition > worst_gram) return false;
+    const auto factor = lower_factor(gram);
+    if (!factor) return false;
+    fit.first_kind = solve_by_factor(*factor, moments.right);
     fit.rank = fit.first_kind.size();
     if (*fit.gram_condition <= refined_gram) return true;
     const auto residuals = residuals_of(fit, x, y);
     const auto left = chebyshev_moments(x, residuals, fit.rank - 1, fit.range.from, fit.range.to);
-    const auto step = solve(gram, left.right);
+    const auto step = solve_by_factor(*factor, left.right);
     for (std::size_t k = 0; k < fit.rank; ++k)
         fit.first_kind[k] += step[k];
     return true;

@@ -1,11 +1,9 @@
 #pragma once
-// Least squares of any rank: rows come one by one, the coefficients of least norm go out. Pure.
-//
-// Householder QR over blocks of rows (only the triangle is kept, so a million rows cost no memory),
-// then one-sided Jacobi on the triangle. Both use + - * / and sqrt in a fixed order: equal input
-// gives equal bits on every compiler and CPU.
+// Least squares of any rank: the coefficients of least norm, by the singular values of the rows'
+// triangle. Pure.
 
-#include "analysis/separation/matrix.hpp"
+#include "analysis/linear/singular_values.hpp"
+#include "analysis/linear/triangle.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -13,40 +11,6 @@
 #include <vector>
 
 namespace axiscal {
-
-/// A = Q R with one right side: what least squares needs of A and b.
-struct Triangle {
-    Matrix upper;                  ///< R, n by n
-    std::vector<double> projected; ///< the first n elements of Q^T b
-    double remainder = 0;          ///< sum of squares of the others
-    std::size_t rows = 0;          ///< rows that were added
-};
-
-class TriangleOfRows {
-public:
-    explicit TriangleOfRows(std::size_t columns);
-    /// row: `columns` finite numbers; value: the right side.
-    void add(std::span<const double> row, double value);
-    [[nodiscard]] Triangle finish();
-
-private:
-    void fold();
-
-    std::size_t columns_, filled_ = 0;
-    Triangle triangle_;
-    Matrix block_; ///< right side in the last column
-};
-
-/// The problem with only the stated columns; exact up to rounding.
-Triangle choose_columns(const Triangle& whole, std::span<const std::size_t> columns);
-
-/// A = U S V^T, singular values falling; columns of `left` are A v / s (zero where s is zero).
-struct SingularValues {
-    std::vector<double> values;
-    Matrix left, right;
-};
-/// One-sided Jacobi (Hestenes); small singular values keep their digits.
-SingularValues singular_values(const Matrix& matrix);
 
 struct MinimumNormSolution {
     std::vector<double> coefficients;
