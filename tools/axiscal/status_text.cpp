@@ -240,7 +240,7 @@ std::string progress_line(const Json& status) {
         text += "  by time " + units.reading.of(*time, "%.4f");
     for (const Json& channel : status.at("channels"))
         if (channel.at("kind") == "temperature" && channel.at("used") == true)
-            text += "  " + channel.at("medium").get<std::string>() + " " +
+            text += "  " + channel.at("name").get<std::string>() + " " +
                     number_or_dashes(channel.at("value"), "%.2f", "°C");
     const Json& strength = status.at("axis").at("strength_percent");
     if (strength.is_number()) text += "  strength " + number_or_dashes(strength, "%.0f", "%");
