@@ -75,9 +75,8 @@ bool channels_are_known(const Settings& options) {
 }
 
 std::string no_such_channel(const std::string& name, const std::vector<Channel>& channels) {
-    std::vector<std::string> names;
-    for (const Channel& channel : channels)
-        names.push_back(channel.name);
+    std::vector<std::string> names(channels.size());
+    std::ranges::transform(channels, names.begin(), &Channel::name);
     const std::string near = nearest_word(name, names);
     return "\"" + name + "\" is no channel of this instrument; it has " + list_of(channels) +
            (near.empty() ? "" : "; did you mean \"" + near + "\"?");

@@ -200,9 +200,11 @@ std::string exchanged_instrument(const RunRecord& run, const std::vector<Instrum
     for (const auto& [name, serial] : now) {
         const auto then = std::ranges::find(run.instruments, name, &InstrumentRecord::name);
         if (then == run.instruments.end() || then->serial.empty() || serial.empty()) continue;
-        if (serial != then->serial)
-            return "The instrument '" + name + "' has the serial number '" + serial +
-                   "', the run's has '" + then->serial + "'.";
+        if (serial == then->serial) continue;
+        std::string sentence = "The instrument '";
+        sentence.append(name).append("' has the serial number '").append(serial);
+        sentence.append("', the run's has '").append(then->serial).append("'.");
+        return sentence;
     }
     return {};
 }

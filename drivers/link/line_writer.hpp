@@ -16,7 +16,7 @@ class LineWriter {
 public:
     /// Kept for a reader that is slow, some thousand lines. Beyond it the oldest go, and where they
     /// would have stood one line says how many.
-    static constexpr std::size_t most_kept_bytes = 128 * 1024;
+    static constexpr std::size_t most_kept_bytes = std::size_t{128} * 1024;
     /// How long the end waits for the reader.
     static constexpr Duration last_words = std::chrono::seconds{1};
 

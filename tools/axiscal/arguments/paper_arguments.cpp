@@ -29,17 +29,7 @@ Computes the figures anew; each row that is not as it was written is named with 
 the certificate must say the same. A run that is still open can be verified as well. See docs/run-file.md
 for what the chain can show.)";
 
-void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
-    auto* analyze = app.add_subcommand(
-        "analyze",
-        "Figures of a run file, or of a JSON case (docs/analysis.md); told apart by content");
-    analyze
-        ->add_option("FILE", options.file,
-                     "RUN.axiscal or CASE.json; - reads a case from standard input")
-        ->required();
-    teach(*analyze, analyze_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
-    analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
-
+void add_program(CLI::App& app, Options& options, Command& chosen) {
     auto* program = app.add_subcommand("program", "Write the part program of the planned cycle");
     program->add_option("--config", options.config, "station file")->capture_default_str();
     program->add_option("--dialect", options.program.dialect,
@@ -65,6 +55,20 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
             return command_program(options.program, options.json);
         };
     });
+}
+
+void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
+    auto* analyze = app.add_subcommand(
+        "analyze",
+        "Figures of a run file, or of a JSON case (docs/analysis.md); told apart by content");
+    analyze
+        ->add_option("FILE", options.file,
+                     "RUN.axiscal or CASE.json; - reads a case from standard input")
+        ->required();
+    teach(*analyze, analyze_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
+    analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
+
+    add_program(app, options, chosen);
 
     auto* write = app.add_subcommand(
         "export", "certificate.json, .csv and .pdf of a closed run file, or of a circular case");
