@@ -1,7 +1,6 @@
 #include "acquisition/capture/sample_ring.hpp"
 
 #include <new>
-#include <numeric>
 #include <sys/mman.h>
 #include <type_traits>
 #include <unistd.h>
@@ -13,11 +12,12 @@ static_assert(std::is_trivially_copyable_v<Sample>);
 
 constexpr std::size_t given_back_bytes = std::size_t{64} * 4096; ///< a system call for thousands
 
-/// Whole pages that hold whole samples.
+/// The next count of samples that fills whole pages.
 std::size_t places_of(std::size_t capacity) {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-    const std::size_t step = std::lcm(page, sizeof(Sample)) / sizeof(Sample);
-    return (capacity + step - 1) / step * step;
+    while (capacity * sizeof(Sample) % page != 0)
+        ++capacity;
+    return capacity;
 }
 
 } // namespace

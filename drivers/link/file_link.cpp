@@ -45,7 +45,8 @@ private:
 std::unique_ptr<ByteLink> FileLinks::open(std::string folder) {
     auto reader = std::ranges::find_if(readers_, [](const Reader& one) { return !*one.taken; });
     if (reader == readers_.end()) {
-        readers_.push_back({std::make_unique<BlockingFiles>(loop_), std::make_shared<bool>(false)});
+        auto files = std::make_unique<BlockingFiles>(loop_);
+        readers_.push_back({std::move(files), std::make_shared<bool>(false)});
         reader = std::prev(readers_.end());
     }
     *reader->taken = true;

@@ -55,8 +55,9 @@ int last_hid_interface(const std::string& port, const std::string& sysfs) {
     constexpr int hid_class = 3;
     int last = -1;
     std::error_code error;
-    for (fs::directory_iterator part{sysfs + "/bus/usb/devices/" + port, error}, end;
-         !error && part != end; part.increment(error))
+    const fs::path device = fs::path{sysfs} / "bus/usb/devices" / port;
+    for (fs::directory_iterator part{device, error}, end; !error && part != end;
+         part.increment(error))
         if (hexadecimal_in(part->path() / "bInterfaceClass") == hid_class)
             last = std::max(last, hexadecimal_in(part->path() / "bInterfaceNumber"));
     return last;
