@@ -58,7 +58,7 @@ void TriangleOfRows::fold() {
 void TriangleOfRows::add_all_of(const Triangle& other) {
     const std::size_t rows = triangle_.rows + other.rows;
     std::vector<double> row(columns_);
-    for (std::size_t i = 0; i < columns_; ++i) {
+    for (std::size_t i = 0; i < other.upper.rows; ++i) {
         for (std::size_t j = 0; j < columns_; ++j)
             row[j] = other.upper(i, j);
         add(row, other.projected[i]);
@@ -73,17 +73,13 @@ Triangle TriangleOfRows::finish() {
 }
 
 Triangle choose_columns(const Triangle& whole, std::span<const std::size_t> columns) {
-    TriangleOfRows chosen{columns.size()};
-    std::vector<double> row(columns.size());
-    for (std::size_t i = 0; i < whole.upper.rows; ++i) {
-        for (std::size_t j = 0; j < columns.size(); ++j)
-            row[j] = whole.upper(i, columns[j]);
-        chosen.add(row, whole.projected[i]);
-    }
-    Triangle triangle = chosen.finish();
-    triangle.remainder += whole.remainder;
-    triangle.rows = whole.rows;
-    return triangle;
+    Triangle chosen = whole;
+    chosen.upper = Matrix{whole.upper.rows, columns.size()};
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        std::ranges::copy(whole.upper.column(columns[j]), chosen.upper.column(j).begin());
+    TriangleOfRows folded{columns.size()};
+    folded.add_all_of(chosen);
+    return folded.finish();
 }
 
 } // namespace axiscal

@@ -26,7 +26,7 @@ public:
     explicit TriangleOfRows(std::size_t columns);
     /// row: `columns` finite numbers; value: the right side.
     void add(std::span<const double> row, double value);
-    /// As if every row that `other` holds had been added; exact up to rounding.
+    /// As if every row that went into `other` had been added; exact up to rounding.
     void add_all_of(const Triangle& other);
     /// Of the rows so far; more may follow.
     [[nodiscard]] Triangle finish();

@@ -23,7 +23,7 @@ std::string change_words(const CaptureEffect& effect) {
 }
 
 /// Of what G is: of the readings, or of the mean of several circles.
-std::string readings_taken(const CircularCertificate& certificate) {
+std::string origin_words(const CircularCertificate& certificate) {
     const int repeats = certificate.measured.run.plan.repeats;
     if (repeats <= 1) return "G is that of the readings.";
     return "G is that of the mean circle of " + std::to_string(repeats) +
@@ -50,7 +50,7 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
     if (!is_changed(effect.capture)) {
         sheet.text("All readings count, spikes at reversals included. The station file states "
                    "neither averaging nor a filter of the bar's electronics. " +
-                       readings_taken(certificate),
+                       origin_words(certificate),
                    note_style);
         return;
     }
@@ -68,7 +68,7 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
             ": about what the first time took of forms that keep most of their amplitude; what "
             "was lost altogether does not show. ";
     if (!effect.not_known.empty()) words += effect.not_known + " ";
-    sheet.text(words + readings_taken(certificate), note_style);
+    sheet.text(words + origin_words(certificate), note_style);
 }
 
 } // namespace axiscal
