@@ -219,22 +219,46 @@ Result<std::string> SmbDestination::write_and_read_back(const std::string& sourc
     return *std::move(hash);
 }
 
-// libsmbclient renames onto a taken name by deleting what bears it, so it is looked for first. SMB
-// has no rename that refuses and look in one: a program that makes the very name between the two
-// calls still loses its file. Nobody but this station makes names in the folder of one of its runs.
+// The server refuses to rename to a name that is taken. libsmbclient answers by deleting what bears
+// it and renaming again, so not one frame more than a rename needs may leave: opened, renamed,
+// closed. With what it wanted to say behind them the session is lost, the name is not.
 Result<void> SmbDestination::move_to_free_name(const std::string& from, const std::string& to) {
     AXISCAL_CHECK(open_session());
+    if (looks_before_renames_) return look_and_rename(from, to);
+    constexpr unsigned frames_of_a_rename = 3;
+    const auto held_before = smb_frames().held_back;
+    allow_file_frames(frames_of_a_rename);
+    const bool renamed = rename(from, to);
+    const int error = errno;
+    allow_file_frames(any_number);
+    session_lost_ = smb_frames().held_back > held_before;
+    if (renamed) return {};
+    if (error == EEXIST) return taken(to);
+    if (!session_lost_) return refused("cannot rename to", to, error);
+    looks_before_renames_ = true;
+    return move_to_free_name(from, to);
+}
+
+// On a share of a DFS namespace the library asks where a path leads before it renames, by frames of
+// which nobody can tell how many: none may be forbidden. A program that makes the very name between
+// look and rename loses its file. Nobody but this station makes names in the folder of its runs.
+Result<void> SmbDestination::look_and_rename(const std::string& from, const std::string& to) {
     SMBCCTX* const context = session_->context();
     struct stat status {};
-    const bool taken = smbc_getFunctionStat(context)(context, url(to).c_str(), &status) == 0;
-    if (!taken && errno != ENOENT) return refused("cannot look for", to, errno);
-    if (!taken &&
-        smbc_getFunctionRename(context)(context, url(from).c_str(), context, url(to).c_str()) == 0)
-        return {};
-    if (taken || errno == EEXIST)
-        return fail(Fault::refused,
-                    place() + "/" + to + " exists already and is never overwritten");
-    return refused("cannot rename to", to, errno);
+    if (smbc_getFunctionStat(context)(context, url(to).c_str(), &status) == 0) return taken(to);
+    if (errno != ENOENT) return refused("cannot look for", to, errno);
+    if (rename(from, to)) return {};
+    return errno == EEXIST ? taken(to) : refused("cannot rename to", to, errno);
+}
+
+bool SmbDestination::rename(const std::string& from, const std::string& to) {
+    SMBCCTX* const context = session_->context();
+    return smbc_getFunctionRename(context)(context, url(from).c_str(), context, url(to).c_str()) ==
+           0;
+}
+
+tl::unexpected<Error> SmbDestination::taken(const std::string& path) const {
+    return fail(Fault::refused, place() + "/" + path + " exists already and is never overwritten");
 }
 
 Result<void> SmbDestination::remove_file(const std::string& path) {

@@ -39,8 +39,8 @@ public:
     Result<std::string> write_and_read_back(const std::string& source,
                                             const std::string& path,
                                             const Progress& progress) override;
-    /// Looks whether the name is free, then renames. libsmbclient would delete what bears the name:
-    /// what is made between the two calls, of the order of a millisecond, is not seen.
+    /// By the server's own rename, which refuses a name that is taken. On a share of a DFS namespace
+    /// by a look before it: what is made between the two, of the order of a millisecond, is not seen.
     Result<void> move_to_free_name(const std::string& from, const std::string& to) override;
     Result<void> remove_file(const std::string& path) override;
     Result<void> sync_folder(const std::string& path) override;
@@ -53,11 +53,16 @@ private:
     /// open files still belong to it.
     tl::unexpected<Error> refused(const std::string& what, const std::string& path, int error);
     tl::unexpected<Error> lost(int error);
+    Result<void> look_and_rename(const std::string& from, const std::string& to);
+    /// As the library does it; false: errno says why.
+    bool rename(const std::string& from, const std::string& to);
+    [[nodiscard]] tl::unexpected<Error> taken(const std::string& path) const;
 
     SmbSettings settings_;
     std::string root_url_;
     std::unique_ptr<Session> session_;
     bool session_lost_ = false;
+    bool looks_before_renames_ = false; ///< seen: this share asks more than a rename
 };
 
 /// "libsmbclient 4.17.12-Debian".

@@ -22,6 +22,7 @@ constexpr std::size_t command_offset = 12; // in the header, two bytes, the lowe
 constexpr std::array<unsigned char, 8> without_files{0, 1, 2, 3, 4, 11, 12, 13};
 
 bool forbidden = false;
+unsigned allowed = any_number;
 WireCount count;
 
 bool begins_with(const iovec& part, const char (&mark)[4]) {
@@ -33,20 +34,30 @@ bool concerns_files(const iovec& header) {
     return std::ranges::find(without_files, command) == without_files.end();
 }
 
-/// false: must not leave.
+/// false: must not leave. Encrypted ones count as concerned with files: what is not is never
+/// encrypted, but for the end of a session.
 bool may_leave(const iovec* parts, int parts_count) {
     if (parts_count < 2 || parts[0].iov_len != length_field) return true;
-    if (begins_with(parts[1], encrypted_mark)) ++count.encrypted;
-    if (!forbidden || !begins_with(parts[1], readable_mark) || !concerns_files(parts[1]))
-        return true;
-    ++count.held_back;
-    return false;
+    const bool encrypted = begins_with(parts[1], encrypted_mark);
+    const bool readable = begins_with(parts[1], readable_mark) && concerns_files(parts[1]);
+    if (!encrypted && !readable) return true;
+    if (allowed == 0 || (forbidden && readable)) {
+        ++count.held_back;
+        return false;
+    }
+    if (allowed != any_number) --allowed;
+    if (encrypted) ++count.encrypted;
+    return true;
 }
 
 } // namespace
 
 void forbid_readable_frames(bool forbid) {
     forbidden = forbid;
+}
+
+void allow_file_frames(unsigned number) {
+    allowed = number;
 }
 
 WireCount smb_frames() {

@@ -270,6 +270,24 @@ def name_taken_and_held():
     take_name_in_mid_write(held_open)
 
 
+@sentence("AShareOfANamespaceTakesResultsAndReplacesNothing")
+def dfs():
+    """Before each call that names a file the library asks such a share where the path leads."""
+    with Site(PROGRAM) as site:
+        site.samba.more = "  host msdfs = yes\n  msdfs root = yes"
+        site.samba.configure()
+        site.samba.start()
+        theirs = site.folder / "theirs"
+        theirs.write_bytes(b"somebody else's")
+        site.samba.client(f"mkdir run-1; put {theirs} run-1/certificate.json")
+        site.foreign = site.on_share()
+        for run_id in ("run-1", "run-2"):
+            site.stage(run_id)
+        site.publish()
+        site.expect_all_published()
+        expect(not site.publisher.reasons(), f"it waited: {site.publisher.reasons()}")
+
+
 @sentence("AServerOfSmb1IsRefused")
 def smb1():
     with Site(PROGRAM) as site:
