@@ -12,23 +12,29 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
+
+/// RunPlan::pass of a drift test: of the resting axis, or of the ballbar at rest. LaserSetup names
+/// the bar's instrument then and says nothing else.
+inline constexpr std::string_view axis_drift_pass = "drift", bar_drift_pass = "ballbar-drift";
 
 /// A drift test: every channel read at an interval while the axis rests. The readings stand in
 /// RunRecord::environment, those of the laser in vacuum wavelengths.
 struct DriftSetup {
     Duration duration{}, interval{};
-    Length place; ///< coordinate at which the axis rests
+    Length place; ///< coordinate at which the axis rests; 0 for a ballbar, which has none
 };
 
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
     std::optional<DriftSetup> drift;          ///< the run is a drift test: it has no points
     std::optional<ProbingRecord> probing; ///< the run is a probing test: it has no points either
-    std::string
-        eve_source; ///< id of the drift test that UncertaintySetup::eve comes from, or empty
+    /// Id of the drift test that UncertaintySetup::eve comes from, of a circular test
+    /// CircularUncertaintyStatement::eve_um; or empty.
+    std::string eve_source;
     std::vector<SynchronisationRecord> synchronisation; ///< of datums and points, as they came
 };
 

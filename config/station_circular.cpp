@@ -102,10 +102,13 @@ void read_plan(Settings& circular, CircularPlan& plan) {
     plan.work_offset = circular.text("work_offset", "");
 }
 
-void read_budget(Settings table, CircularUncertaintyStatement& statement) {
+void read_budget(Settings table, CircularConfig& config) {
+    CircularUncertaintyStatement& statement = config.setup.uncertainty;
     statement.device_width_um = width_um(table, "device_width");
     statement.repeatability_um = width_um(table, "repeatability");
     statement.eve_um = width_um(table, "eve");
+    refuse_beside(table, "eve", "eve_run");
+    config.eve_run = table.text("eve_run", "");
     statement.centre_width_um = width_um(table, "centre_width");
     statement.machine_temperature_width_K = width_K(table, "machine_temperature_width");
     statement.bar_temperature_width_K = width_K(table, "bar_temperature_width");
@@ -135,7 +138,7 @@ void read_circular(Settings root, StationConfig& station) {
     const double low_pass_hz = circular.number("low_pass_hz", 0, 1e6, 0);
     if (low_pass_hz > 0) setup.capture.low_pass_hz = low_pass_hz;
     setup.capture.averaged = static_cast<int>(circular.integer("averaged", 1, 100'000, 1));
-    read_budget(circular.table("uncertainty"), setup.uncertainty);
+    read_budget(circular.table("uncertainty"), config);
     setup.uncertainty.runs = setup.plan.repeats;
     const double alpha_per_K = station.axis.material.coefficient.si();
     const bool stated = root.has("axis") || circular.has("machine_expansion");

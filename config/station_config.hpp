@@ -94,6 +94,9 @@ struct RoleConfig {                  ///< which instrument channel plays which p
 struct CircularConfig {
     CircularSetup setup; ///< without the ids of channels, which the station resolves
     std::optional<RoleConfig> bar_temperature;
+    /// Drift test of the ballbar that E_VE comes from: its run id, or "latest"; empty:
+    /// setup.uncertainty.eve_um counts.
+    std::string eve_run;
 };
 
 /// Of a rotary axis: the artefact under the instrument, and its papers.

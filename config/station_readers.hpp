@@ -48,6 +48,9 @@ template <class Certified> void read_certificate_dates(Settings& table, Certifie
         table.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
 }
 
+/// Two keys that say one thing: refuses the second where both are stated.
+void refuse_beside(Settings& table, std::string_view first, std::string_view second);
+
 /// Fills config.instruments and config.instrument_options.
 void read_instruments(Settings root, StationConfig& config);
 /// After the instruments, which its roles name. Travel and kind go to config.cycle.

@@ -1,12 +1,13 @@
 #include "config/station_readers.hpp"
 
 namespace axiscal {
-namespace {
 
 void refuse_beside(Settings& table, std::string_view first, std::string_view second) {
     if (table.has(first) && table.has(second))
         table.refuse(second, "stands beside " + std::string{first} + ": one of them is enough");
 }
+
+namespace {
 
 void read_device(Settings& table, UncertaintySetup& setup) {
     constexpr double least_k = 1, largest_k = 5;

@@ -38,9 +38,14 @@ Result<void> read_drift_field(const std::string& key, const Json& value, DriftRe
             return refuse(Fault::bad_request, key, "is a coordinate in mm");
         return request.place_mm = value.get<double>(), Result<void>{};
     }
+    if (key == "of") {
+        if (value != "axis" && value != "ballbar")
+            return refuse(Fault::bad_request, key, "is \"axis\" or \"ballbar\"");
+        return request.of_bar = value == "ballbar", Result<void>{};
+    }
     if (key != "statements")
         return refuse(Fault::bad_request, key,
-                      "is unknown; known are duration_s, interval_s, place_mm, statements");
+                      "is unknown; known are duration_s, interval_s, of, place_mm, statements");
     if (!is_table_of_texts(value))
         return refuse(Fault::bad_request, key, "must be an object of texts");
     // Statements are those of a run, read by the same rules.

@@ -7,8 +7,8 @@
 
 namespace axiscal {
 
-/// {"duration_s": 1800, "interval_s": 1, "place_mm": 900, "statements": {...}}; each may be left
-/// out. @errors Fault::bad_request naming the field.
+/// {"of": "axis", "duration_s": 1800, "interval_s": 1, "place_mm": 900, "statements": {...}}; each
+/// may be left out. @errors Fault::bad_request naming the field.
 Result<DriftRequest> drift_request_from_json(const std::string& body);
 
 } // namespace axiscal

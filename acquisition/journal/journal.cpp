@@ -141,10 +141,9 @@ Task<Result<RunSummary>> Journal::summarize(std::string path) {
     co_return co_await perform<Worker, RunSummary>(worker_.get(), std::move(work));
 }
 
-Task<Result<StoredDrift>>
-Journal::find_drift(std::string folder, std::string which, std::string axis) {
-    std::function<Result<StoredDrift>()> work = [folder, which, axis] {
-        return axiscal::find_drift(folder, which, axis);
+Task<Result<StoredDrift>> Journal::find_drift(std::string folder, WantedDrift wanted) {
+    std::function<Result<StoredDrift>()> work = [folder, wanted] {
+        return axiscal::find_drift(folder, wanted);
     };
     co_return co_await perform<Worker, StoredDrift>(worker_.get(), std::move(work));
 }

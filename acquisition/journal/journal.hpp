@@ -25,6 +25,7 @@ struct RunSummary;
 struct StoredDrift;
 struct StoredResult;
 struct StoredRuns;
+struct WantedDrift;
 
 /// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
 /// under a virtual clock, where nothing else has to go on meanwhile.
@@ -84,7 +85,7 @@ public:
     Task<Result<RunSummary>> summarize(std::string path);
 
     /// As find_drift(), off the loop.
-    Task<Result<StoredDrift>> find_drift(std::string folder, std::string which, std::string axis);
+    Task<Result<StoredDrift>> find_drift(std::string folder, WantedDrift wanted);
 
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);

@@ -79,7 +79,8 @@ bool MissingRows::fits_header(const Hole& hole, std::string_view name) const {
     if (name == "linear_scale" && hole.alone) return false; // its sensors would tell
     if (name == "drift" || name.starts_with("probing"))
         return count_of("drift") == 0 && count_of("plan_target") == 0 && !is_circular();
-    if (name == "eve_source") return count_of(name) == 0 && count_of("uncertainty") > 0;
+    if (name == "eve_source")
+        return count_of(name) == 0 && (count_of("uncertainty") > 0 || is_circular());
     const bool single = name == "statement" || std::ranges::find(singles, name) != singles.end();
     return !single || count_of(name) == 0;
 }

@@ -162,9 +162,10 @@ struct RunSummary {
     std::int64_t opened_utc_ns = 0; ///< what the clock said
     int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;
-    bool evaluated = false; ///< a result is stored since the last closing
-    bool drift = false;     ///< a drift test
-    bool probing = false;   ///< a probing test
+    bool evaluated = false;         ///< a result is stored since the last closing
+    bool drift = false;             ///< a drift test
+    std::optional<std::string> bar; ///< its channel, "gauge/axis 1", where it is one of a ballbar
+    bool probing = false;           ///< a probing test
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Folder of its certificate. A run that was added to after its first one gets another: nothing
@@ -174,10 +175,18 @@ std::string certificate_name(const RunSummary& run);
 struct StoredDrift {
     std::string run_id, document;
 };
-/// `which`: a run id, or "latest": the newest one of `axis`. Only complete tests of this axis that
-/// were evaluated count. @errors Fault::not_found, with the way out.
-Result<StoredDrift>
-find_drift(const std::string& folder, const std::string& which, const std::string& axis);
+/// Which drift test a budget takes its E_VE from.
+struct WantedDrift {
+    std::string which;   ///< a run id, or "latest": the newest one
+    bool of_bar = false; ///< of a ballbar, else of an axis
+    std::string of;      ///< name of the axis, or channel of the ballbar: "gauge/axis 1"
+    /// The key of the station file that names it, and the order that makes another.
+    [[nodiscard]] std::string key() const;
+    [[nodiscard]] std::string order() const;
+};
+/// Only complete tests of that axis or ballbar that were evaluated count.
+/// @errors Fault::not_found, with the way out.
+Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wanted);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
 std::vector<RunSummary> list_run_files(const std::string& folder);
 /// Paths of those that are still open, to be resumed or closed.

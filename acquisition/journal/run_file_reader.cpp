@@ -318,6 +318,11 @@ Result<void> take_opening(const Database& database, RunSummary& summary) {
     return {};
 }
 
+/// As laser_channel_of() in run_drift.cpp finds it.
+constexpr const char* bar_of_drift =
+    "SELECT channel.instrument || '/' || channel.name FROM channel JOIN laser ON "
+    "channel.instrument=laser.instrument WHERE kind='displacement' ORDER BY channel.link LIMIT 1";
+
 } // namespace
 
 Result<RunSummary> summarize_run_file(const std::string& path) {
@@ -353,6 +358,9 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     if (format >= 3) {
         AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
         summary.drift = drifts != 0;
+        if (summary.drift && pass == bar_drift_pass) {
+            AXISCAL_TRY(summary.bar, text_of(bar_of_drift));
+        }
     }
     if (format >= 4) {
         AXISCAL_TRY(const auto probings, database->integer_of("SELECT count(*) FROM probing"));
@@ -396,18 +404,27 @@ std::vector<RunSummary> list_run_files(const std::string& folder) {
     return summaries;
 }
 
-Result<StoredDrift>
-find_drift(const std::string& folder, const std::string& which, const std::string& axis) {
+std::string WantedDrift::key() const {
+    return of_bar ? "circular.uncertainty.eve_run" : "uncertainty.eve_run";
+}
+
+std::string WantedDrift::order() const {
+    return of_bar ? "'axiscal drift --of ballbar'" : "'axiscal drift'";
+}
+
+Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wanted) {
     std::vector<RunSummary> tests = list_run_files(folder);
     std::erase_if(tests, [&](const RunSummary& run) {
-        const bool counts = run.drift && run.complete && run.evaluated && run.axis == axis;
-        return !counts || (which != "latest" && run.run_id != which);
+        const bool of_it = wanted.of_bar ? run.bar == wanted.of : !run.bar && run.axis == wanted.of;
+        const bool counts = run.drift && run.complete && run.evaluated && of_it;
+        return !counts || (wanted.which != "latest" && run.run_id != wanted.which);
     });
     const RunSummary* found = newest_run(tests, {});
     if (!found)
-        return fail(Fault::not_found, "uncertainty.eve_run = \"" + which + "\" names no complete " +
-                                          "drift test of axis " + axis + " in " + folder +
-                                          "; 'axiscal drift' makes one");
+        return fail(Fault::not_found, wanted.key() + " = \"" + wanted.which +
+                                          "\" names no complete drift test of " +
+                                          (wanted.of_bar ? "ballbar " : "axis ") + wanted.of +
+                                          " in " + folder + "; " + wanted.order() + " makes one");
     AXISCAL_TRY(StoredResult stored, read_stored_result(found->path));
     return StoredDrift{found->run_id, std::move(stored.document)};
 }

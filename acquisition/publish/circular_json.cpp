@@ -217,11 +217,14 @@ Json budget_json(const CircularBudget& budget) {
     object["n"] = budget.runs;
     object["k"] = budget.coverage;
     object["contributions"] = Json::array();
-    for (const CircularContribution& one : budget.contributions)
-        object["contributions"].push_back({{"term", one.term},
-                                           {"u_mm", one.u_mm},
-                                           {"formula", one.formula},
-                                           {"status", one.status}});
+    for (const CircularContribution& one : budget.contributions) {
+        Json term{{"term", one.term},
+                  {"u_mm", one.u_mm},
+                  {"formula", one.formula},
+                  {"status", one.status}};
+        if (!one.source.empty()) term["source"] = one.source;
+        object["contributions"].push_back(std::move(term));
+    }
     object["not_stated"] = budget.not_stated;
     object["trials"] = budget.trials;
     return object;

@@ -41,7 +41,7 @@ Json parameters_of(const RunDrift& drift) {
     object["ETVE"] = range_of(drift.axis, drift.window);
     object["ETVE"]["window_min"] = drift.window_min;
     object["end_change"]["value"] = drift.end_change;
-    object["E_VE_as_read"]["value"] = drift.as_read.range;
+    if (!drift.of_bar) object["E_VE_as_read"]["value"] = drift.as_read.range;
     return object;
 }
 
@@ -92,8 +92,10 @@ Json channel_of(const ChannelDrift& channel) {
 Json budget_of(const DriftDocument& document) {
     Json object;
     object["takes"] = document.drift.refused.empty() ? Json("E_VE") : Json();
-    object["by"] = document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
-    object["informative"] = {"ETVE", "end_change", "E_VE_as_read", "slope_per_h", "channels"};
+    object["by"] = drift_budget_by(document);
+    object["informative"] = {"ETVE", "end_change"};
+    if (!document.drift.of_bar) object["informative"].push_back("E_VE_as_read");
+    object["informative"].insert(object["informative"].end(), {"slope_per_h", "channels"});
     return object;
 }
 
@@ -118,11 +120,17 @@ Json run_of(const DriftDocument& document) {
     statements["place"] = stated_json(said.place);
     statements["machine"] = stated_json(said.machine);
     statements["machine_serial"] = stated_json(said.machine_serial);
-    statements["axis"] = stated_json(said.axis);
+    if (!document.drift.of_bar) statements["axis"] = stated_json(said.axis);
     statements["operator"] = stated_json(said.operator_name);
     statements["state"] = stated_json(said.state);
     statements["warm_up"] = stated_json(said.warm_up);
     statements["idle_axes"] = stated_json(said.idle_axes);
+    if (document.drift.of_bar) { // which has no datum and no beam
+        object["reference"] = "ballbar";
+        object["ballbar"] = full_name_of(document.drift.reading);
+        object["plane"] = stated_json(said.axis);
+        return object;
+    }
     if (run.rotary) {
         object["reference"] = "indexing table";
         object["laser"] = run.laser.instrument;
@@ -178,6 +186,7 @@ void put_figures(std::string& text, const ChannelDrift& channel) {
 }
 
 std::string axis_name(const RunDrift& drift) {
+    if (drift.of_bar) return "ballbar";
     return drift.unit == "um" ? "axis at 20 degC" : "axis";
 }
 
@@ -215,16 +224,26 @@ Result<void> seal_drift(const std::string& run_file) {
     return store_result(run_file, {document.result_digest, drift_figures(document.drift).dump()});
 }
 
+std::string drift_standards(const RunDrift& drift) {
+    return drift.of_bar ? "ISO/TR 230-9 E_VE, ISO 230-3 ETVE" : "ISO 230-2 E_VE, ISO 230-3 ETVE";
+}
+
+std::string drift_budget_by(const DriftDocument& document) {
+    if (document.drift.of_bar) return "ISO/TR 230-9";
+    return document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
+}
+
 Json drift_to_json(const DriftDocument& document) {
     const RunDrift& drift = document.drift;
     Json object;
     object["format"] = "axiscal.drift/1";
-    object["standard"] = "ISO 230-2 E_VE, ISO 230-3 ETVE";
+    object["standard"] = drift_standards(drift);
     object["unit"] = drift.unit;
     object["parameters"] = parameters_of(drift);
     object["slope_per_h"] = stated_json(drift.slope_per_h);
     object["budget"] = budget_of(document);
-    object["test"][document.run.rotary ? "place_deg" : "place_mm"] = drift.setup.place.in(mm);
+    if (!drift.of_bar)
+        object["test"][document.run.rotary ? "place_deg" : "place_mm"] = drift.setup.place.in(mm);
     object["test"]["duration_s"] = seconds_of(drift.setup.duration);
     object["test"]["interval_s"] = seconds_of(drift.setup.interval);
     object["test"]["readings"] = drift.axis.times.size();

@@ -26,6 +26,12 @@ Result<DriftDocument> drift_of_run_file(const std::string& run_file);
 /// The first evaluation: stores digest and figures in the closed run file, once.
 Result<void> seal_drift(const std::string& run_file);
 
+/// "ISO 230-2 E_VE, ISO 230-3 ETVE"; E_VE of a ballbar is that of ISO/TR 230-9.
+std::string drift_standards(const RunDrift& drift);
+/// By which paper a later budget takes E_VE: "ISO 230-2 annex A", of a rotary axis "annex B", of a
+/// ballbar "ISO/TR 230-9".
+std::string drift_budget_by(const DriftDocument& document);
+
 nlohmann::ordered_json drift_to_json(const DriftDocument& document);
 std::string drift_json_text(const DriftDocument& document);
 /// Every reading: channel, unit, minute, value. Lengths as change against the first, in um. Then

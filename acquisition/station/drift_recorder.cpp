@@ -4,16 +4,19 @@
 
 namespace axiscal {
 
-DriftRecorder::DriftRecorder(DriftSetup setup, int laser, std::uint32_t epoch, MonotonicTime begin)
+DriftRecorder::DriftRecorder(DriftSetup setup,
+                             int watched,
+                             std::uint32_t epoch,
+                             MonotonicTime begin)
     : setup_{setup}
-    , laser_{laser}
+    , watched_{watched}
     , epoch_{epoch}
     , begin_{begin}
     , next_due_{begin + setup.interval} {}
 
 std::optional<EnvironmentReading>
-DriftRecorder::mean_of(MonotonicTime now, const SampleHistory& laser, const DriftLimits& limits) {
-    const auto window = laser.between(now - limits.window, now);
+DriftRecorder::mean_of(MonotonicTime now, const SampleHistory& watched, const DriftLimits& limits) {
+    const auto window = watched.between(now - limits.window, now);
     if (window.size() < static_cast<std::size_t>(limits.minimum_samples)) return std::nullopt;
     const auto first = window.front().value();
     if (!first) return std::nullopt;
@@ -23,18 +26,18 @@ DriftRecorder::mean_of(MonotonicTime now, const SampleHistory& laser, const Drif
         if (!value || sample.epoch != epoch_) return std::nullopt;
         sum_m += *value - *first;
     }
-    return EnvironmentReading{laser_, now - limits.window / 2,
+    return EnvironmentReading{watched_, now - limits.window / 2,
                               *first + sum_m / static_cast<double>(window.size())};
 }
 
 std::vector<EnvironmentReading> DriftRecorder::take(MonotonicTime now,
-                                                    const SampleHistory& laser,
+                                                    const SampleHistory& watched,
                                                     std::span<const std::optional<Sample>> latest,
                                                     const DriftLimits& limits) {
     next_due_ += setup_.interval;
-    if (const auto newest = laser.newest(); newest && newest->epoch != epoch_) zero_lost_ = true;
+    if (const auto newest = watched.newest(); newest && newest->epoch != epoch_) zero_lost_ = true;
     std::vector<EnvironmentReading> readings;
-    if (const auto mean = mean_of(now, laser, limits)) {
+    if (const auto mean = mean_of(now, watched, limits)) {
         low_m_ = taken_ == 0 ? mean->value : std::min(low_m_, mean->value);
         high_m_ = taken_ == 0 ? mean->value : std::max(high_m_, mean->value);
         ++taken_;
@@ -45,7 +48,7 @@ std::vector<EnvironmentReading> DriftRecorder::take(MonotonicTime now,
     last_taken_.resize(latest.size(), begin_ - limits.oldest);
     for (std::size_t channel = 0; channel < latest.size(); ++channel) {
         const auto& sample = latest[channel];
-        if (!sample || static_cast<int>(channel) == laser_) continue;
+        if (!sample || static_cast<int>(channel) == watched_) continue;
         const bool fresh = sample->at > last_taken_[channel] && now - sample->at <= limits.oldest;
         if (!fresh || !sample->value()) continue;
         last_taken_[channel] = sample->at;

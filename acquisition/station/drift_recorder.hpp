@@ -13,7 +13,7 @@
 namespace axiscal {
 
 struct DriftLimits {
-    Duration window{}; ///< the laser's reading is the mean over it, as a point's is
+    Duration window{}; ///< the laser's or ballbar's reading is the mean over it, as a point's is
     Duration oldest{}; ///< of another channel: an older reading is no reading
     int minimum_samples = 2;
 };
@@ -21,14 +21,15 @@ struct DriftLimits {
 /// Loop-bound.
 class DriftRecorder {
 public:
-    /// @param laser  the channel whose history is given to take(); `epoch` of its counter now.
-    DriftRecorder(DriftSetup setup, int laser, std::uint32_t epoch, MonotonicTime begin);
+    /// @param watched  the channel whose history is given to take(), of the laser or the ballbar;
+    /// `epoch` of its counter now.
+    DriftRecorder(DriftSetup setup, int watched, std::uint32_t epoch, MonotonicTime begin);
 
-    /// The readings of this instant: the laser's mean over the last window, all of it good and
+    /// The readings of this instant: the watched mean over the last window, all of it good and
     /// under one zero, else the interval is counted as missing; of every other channel what came
     /// since the last time.
     std::vector<EnvironmentReading> take(MonotonicTime now,
-                                         const SampleHistory& laser,
+                                         const SampleHistory& watched,
                                          std::span<const std::optional<Sample>> latest,
                                          const DriftLimits& limits);
 
@@ -42,15 +43,15 @@ public:
     [[nodiscard]] int planned() const {
         return static_cast<int>(setup_.duration / setup_.interval);
     }
-    /// Largest - smallest reading of the laser so far; none before the second.
+    /// Largest - smallest reading of what is watched so far; none before the second.
     [[nodiscard]] std::optional<Length> range() const;
     [[nodiscard]] const DriftSetup& setup() const { return setup_; }
 
 private:
     [[nodiscard]] std::optional<EnvironmentReading>
-    mean_of(MonotonicTime now, const SampleHistory& laser, const DriftLimits& limits);
+    mean_of(MonotonicTime now, const SampleHistory& watched, const DriftLimits& limits);
     DriftSetup setup_;
-    int laser_;
+    int watched_;
     std::uint32_t epoch_;
     MonotonicTime begin_, next_due_;
     std::vector<MonotonicTime> last_taken_; ///< by channel

@@ -293,6 +293,11 @@ const StationChannel& Station::channel_of(int id) const {
     return supervisor_.channels()[static_cast<std::size_t>(id)];
 }
 
+std::string Station::shown_name_of(int id) const {
+    const StationChannel& channel = channel_of(id);
+    return channel.instrument_name + "/" + channel.shown;
+}
+
 bool Station::recording() const {
     return run_ && (machine_ || circular_) && !run_->closing && !run_->closed;
 }

@@ -98,6 +98,7 @@ private:
     struct CurrentDrift {
         std::string run_id, path;
         DriftRecorder recorder;
+        std::optional<SampleHistory> bar; ///< of a test of the ballbar: its last readings
         bool closing = false, closed = false, complete = false;
         std::string reason, certificate;
         std::optional<Error> no_certificate;
@@ -166,7 +167,14 @@ private:
     };
     [[nodiscard]] Result<void> ready_for_circles() const;
     [[nodiscard]] CircularSetup circular_setup() const;
+    /// It did so within the last two seconds; in its range or not.
+    [[nodiscard]] Result<void> ballbar_speaks() const;
     [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
+    /// Of a run that positions nothing: no targets, and no uncertainty of the axis.
+    /// @param name  of what is measured, in the run's id
+    [[nodiscard]] Result<RunRecord> header_without_axis(std::string_view pass,
+                                                        const std::string& name,
+                                                        const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
     void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
@@ -215,6 +223,9 @@ private:
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;
     [[nodiscard]] Result<void> plays_no_tape() const;
     [[nodiscard]] Result<void> ready_to_measure() const;
+    [[nodiscard]] Result<void> disk_takes_records() const;
+    /// Neither run nor drift test is open, and nobody opens one. @errors Fault::busy
+    [[nodiscard]] Result<void> nothing_goes_on() const;
 
     // station_preflight.cpp
     void log_sensor(const Sample& sample);
@@ -262,20 +273,44 @@ private:
     [[nodiscard]] std::vector<InstrumentSerial> answered_serials(const RunRecord& run) const;
     void judge_instruments();
     [[nodiscard]] const StationChannel& channel_of(int id) const;
+    [[nodiscard]] std::string shown_name_of(int id) const; ///< "gauge/axis 1", as in a run file
 
     // station_drift.cpp
-    Task<Result<std::string>> open_drift(DriftRequest request);
+    /// What a drift test begins with; its calibrations come later.
+    struct RestingTest {
+        RunRecord header;
+        DriftSetup setup;
+        int watched = 0; ///< channel of the laser, scale or ballbar
+    };
+    [[nodiscard]] bool drift_is_of_bar(const DriftRequest& request) const;
+    [[nodiscard]] Result<void> ready_for_drift(bool of_bar) const;
+    [[nodiscard]] Result<void> check_spans(const DriftRequest& request) const;
+    [[nodiscard]] Result<void> check_rate_of_bar() const;
+    [[nodiscard]] Result<RestingTest> drift_of_axis(const DriftRequest& request) const;
+    [[nodiscard]] Result<RestingTest> drift_of_bar(const DriftRequest& request) const;
+    Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
     [[nodiscard]] Result<DriftSetup> drift_setup_of(const DriftRequest& request,
                                                     const RunPlan& plan) const;
-    [[nodiscard]] std::vector<ChannelRecord> every_channel() const;
+    [[nodiscard]] std::vector<ChannelRecord>
+    every_channel(int watched, const std::vector<int>& environment) const;
     /// Ends with the test of this id: another one may begin at once.
     Task<void> record_drift(std::string run_id);
     void note_drift();
     Task<void> close_drift(bool complete, std::string reason);
     [[nodiscard]] bool drift_open() const { return drift_ && !drift_->closed; }
     [[nodiscard]] DriftView drift_view() const;
-    /// E_VE of the drift test that the station file points to, if it does.
+
+    // station_eve.cpp
+    struct FoundEve {
+        Length eve; ///< one millimetre for one degree of a rotary axis
+        std::string run_id;
+    };
+    /// @errors those of find_drift(); Fault::refused for a test that left readings out;
+    /// Fault::bad_run_file for one of the other kind.
+    Task<Result<FoundEve>> find_eve(WantedDrift wanted, AxisKind kind);
+    /// E_VE of the drift test that the station file points to, if it does: of the axis, of the bar.
     Task<Result<void>> adopt_eve(RunRecord& header, RunAttachments& attachments);
+    Task<Result<void>> adopt_eve(CircularSetup& setup, RunAttachments& attachments);
 
     // station_align.cpp
     void watch_alignment(const Sample& sample);

@@ -47,13 +47,13 @@ Result<void> Station::plays_no_tape() const {
     return {};
 }
 
-Result<void> Station::ready_to_measure() const {
-    AXISCAL_CHECK(plays_no_tape());
-    if (!roles_.laser && !reads_polygon())
-        return refuse(Fault::bad_request, "pass",
-                      "this station has a ballbar and no laser: 'axiscal arm --pass circular'");
+Result<void> Station::disk_takes_records() const {
     if (waiting_for_disk_)
         return fail(Fault::not_durable, "the disk of the last run does not take records yet");
+    return {};
+}
+
+Result<void> Station::nothing_goes_on() const {
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
@@ -61,6 +61,16 @@ Result<void> Station::ready_to_measure() const {
     if (drift_open())
         return fail(Fault::busy, "drift test " + drift_->run_id +
                                      " is going on; let it end or 'axiscal abort' it first");
+    return {};
+}
+
+Result<void> Station::ready_to_measure() const {
+    AXISCAL_CHECK(plays_no_tape());
+    if (!roles_.laser && !reads_polygon())
+        return refuse(Fault::bad_request, "pass",
+                      "this station has a ballbar and no laser: 'axiscal arm --pass circular'");
+    AXISCAL_CHECK(disk_takes_records());
+    AXISCAL_CHECK(nothing_goes_on());
     const MonotonicTime now = scheduler_.now();
     AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
     if (reads_faces()) return autocollimator_speaks();
@@ -229,9 +239,10 @@ Task<Result<void>> Station::take_over_stored_runs() {
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
     if (contents.attachments.drift) {
-        auto closed = co_await close_left_over(
-            path, "Nobody watched the resting axis while the station was away.", Fault::datum_lost,
-            false);
+        const bool of_bar = contents.run.plan.pass == bar_drift_pass;
+        std::string why = std::string{"Nobody watched the resting "} +
+                          (of_bar ? "ballbar" : "axis") + " while the station was away.";
+        auto closed = co_await close_left_over(path, std::move(why), Fault::datum_lost, false);
         left_over_fault_.reset(); // no CNC waits for it
         co_return closed;
     }

@@ -17,17 +17,14 @@ constexpr Duration bar_limit = std::chrono::seconds{2}; ///< an older reading is
 
 Result<void> Station::ready_for_circles() const {
     AXISCAL_CHECK(plays_no_tape());
-    if (drift_open())
-        return fail(Fault::busy, "drift test " + drift_->run_id +
-                                     " is going on; let it end or 'axiscal abort' it first");
-    if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
-    if (run_open())
-        return fail(Fault::busy, "run " + run_->header.run_id +
-                                     " is open; finish it or 'axiscal abort' it first");
+    AXISCAL_CHECK(nothing_goes_on());
     if (!config_.circular || !roles_.ballbar)
         return refuse(Fault::bad_request, "pass",
                       "'circular' needs the tables [ballbar] and [circular] of the station file");
-    // At rest the bar may be out of its range: that it speaks is enough.
+    return ballbar_speaks(); // at rest it may be out of its range
+}
+
+Result<void> Station::ballbar_speaks() const {
     const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
     if (!reading || scheduler_.now() - reading->at > bar_limit)
         return fail(Fault::link_timeout, "the ballbar (" + config_.ballbar->instrument +
@@ -42,21 +39,27 @@ CircularSetup Station::circular_setup() const {
     return setup;
 }
 
-Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
+Result<RunRecord> Station::header_without_axis(std::string_view pass,
+                                               const std::string& name,
+                                               const ArmRequest& request) const {
     RunPlan plan;
-    plan.pass = circular_pass;
-    plan.remark = "circular test; the table circular holds its plan";
+    plan.pass = pass;
     plan.approaches = 0;
     plan.bidirectional = false;
     const RunHeaderParts parts{
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
-    const CircularPlan& circle = config_.circular->setup.plan;
-    const std::string name{name_of(circle.plane)};
-    header.run_id = run_id_of(config_.station, name + "-circle", parts.opened.utc_ns);
-    header.statements.axis = name;
+    header.run_id = run_id_of(config_.station, name, parts.opened.utc_ns);
     header.uncertainty.reset(); // it speaks of the linear axis
+    return header;
+}
+
+Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
+    const std::string plane{name_of(config_.circular->setup.plan.plane)};
+    AXISCAL_TRY(RunRecord header, header_without_axis(circular_pass, plane + "-circle", request));
+    header.plan.remark = "circular test; the table circular holds its plan";
+    header.statements.axis = plane;
     return header;
 }
 
@@ -73,12 +76,16 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
     AXISCAL_CO_TRY(RunRecord header, circular_header(request));
+    CircularSetup setup = circular_setup();
+    RunAttachments attachments;
+    if (auto adopted = co_await adopt_eve(setup, attachments); !adopted)
+        co_return tl::unexpected<Error>(adopted.error());
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
     RunRecord copy = header;
-    if (auto opened = co_await journal_.open(path, std::move(copy)); !opened)
+    if (auto opened = co_await journal_.open(path, std::move(copy), std::move(attachments));
+        !opened)
         co_return tl::unexpected<Error>(opened.error());
-    const CircularSetup setup = circular_setup();
     const StationChannel& bar = channel_of(*roles_.ballbar);
     StreamSetup stream;
     stream.channel = bar.id;
@@ -115,6 +122,7 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
 /// A reading of the bar, whatever is going on.
 void Station::take_bar(const Sample& sample) {
     bar_rate_.take(sample);
+    if (drift_open() && drift_->bar) drift_->bar->push(sample);
     log_sensor(sample);
     if (!circular_ || !recording()) return;
     if (const auto value = sample.value()) circular_->view.push(*value);

@@ -1,11 +1,10 @@
 // The drift test: every channel against time while the axis rests, without a CNC.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/capture/wording.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -16,28 +15,42 @@ constexpr Duration hear_every = std::chrono::milliseconds{50}; // an abort is he
 constexpr const char* lost_zero = "The counter lost its zero: the readings cannot be "
                                   "compared any more.";
 
-/// E_VE of a sealed test, one millimetre for one degree of a rotary axis. Nothing where the test
-/// was of an axis of the other kind.
-std::optional<Length> eve_of(const nlohmann::json& document, AxisKind kind) {
-    const nlohmann::json::json_pointer place{"/parameters/E_VE/value"};
-    if (!document.is_object() || !document.contains(place) || !document[place].is_number())
-        return std::nullopt;
-    const double value = document[place].get<double>();
-    const bool angle = kind == AxisKind::rotary;
-    const nlohmann::json stated = document.value("unit", nlohmann::json("um"));
-    if (stated != (angle ? "arcsec" : "um") || value < 0) return std::nullopt;
-    constexpr double arcsec_per_degree = 3600;
-    return angle ? mm(value / arcsec_per_degree) : um(value);
-}
-
-/// How many readings of a sealed test became no coordinate: those may have been its extremes.
-/// Tests sealed before this was counted state none.
-int refused_readings_in(const nlohmann::json& document) {
-    const auto stated = document.is_object() ? document.find("refused_readings") : document.end();
-    return stated != document.end() && stated->is_number_integer() ? stated->get<int>() : 0;
-}
-
 } // namespace
+
+/// The axis, unless the ballbar is asked for or is all that the station has.
+bool Station::drift_is_of_bar(const DriftRequest& request) const {
+    return request.of_bar.value_or(!roles_.laser && !reads_polygon());
+}
+
+Result<void> Station::ready_for_drift(bool of_bar) const {
+    if (!of_bar && !roles_.laser && !reads_polygon())
+        return refuse(Fault::bad_request, "of",
+                      "is an axis, and this station has a ballbar alone: 'axiscal drift --of "
+                      "ballbar'");
+    if (!of_bar) return ready_to_measure();
+    AXISCAL_CHECK(plays_no_tape());
+    if (!roles_.ballbar)
+        return refuse(Fault::bad_request, "of",
+                      "is the ballbar, which needs the table [ballbar] of the station file");
+    AXISCAL_CHECK(disk_takes_records());
+    AXISCAL_CHECK(nothing_goes_on());
+    AXISCAL_CHECK(ballbar_speaks());
+    const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+    if (!reading || !reading->value())
+        return fail(Fault::signal_error, "the ballbar (" + config_.ballbar->instrument +
+                                             ") shows no good reading now; mount it so that it "
+                                             "rests within its range");
+    return {};
+}
+
+Result<void> Station::check_spans(const DriftRequest& request) const {
+    if (request.interval <= Duration{} || request.duration < 2 * request.interval)
+        return refuse(Fault::bad_request, "duration", "is shorter than two intervals");
+    if (request.interval < config_.capture.window)
+        return refuse(Fault::bad_request, "interval",
+                      "is shorter than capture.window, over which each reading is a mean");
+    return {};
+}
 
 /// The far end of the travel: the reading rises away from the interferometer. A rotary axis rests
 /// at its datum, where the reflectors are square to the beam.
@@ -49,11 +62,7 @@ Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const Ru
     if (reads_polygon())
         return fail(Fault::refused, "an autocollimator whose readings are typed cannot be recorded "
                                     "against time: state uncertainty.eve by hand");
-    if (request.interval <= Duration{} || request.duration < 2 * request.interval)
-        return refuse(Fault::bad_request, "duration", "is shorter than two intervals");
-    if (request.interval < config_.capture.window)
-        return refuse(Fault::bad_request, "interval",
-                      "is shorter than capture.window, over which each reading is a mean");
+    AXISCAL_CHECK(check_spans(request));
     const Length low = config_.cycle.travel_low, high = config_.cycle.travel_high;
     const Length far = config_.axis.sign > 0 ? high : low;
     const Length usual = plan.axis_kind == AxisKind::rotary ? plan.datum : far;
@@ -63,63 +72,106 @@ Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const Ru
     return DriftSetup{request.duration, request.interval, place};
 }
 
-/// Every channel of the station, the laser that measures the axis first. One that no run uses
-/// stands without a medium: it must not count as air or material of the axis.
-std::vector<ChannelRecord> Station::every_channel() const {
-    const std::vector<int> environment = roles_.environment();
+/// Every channel of the station, the one that is watched first. One that no run of it uses stands
+/// without a medium: it must not count as air or material of the axis.
+std::vector<ChannelRecord> Station::every_channel(int watched,
+                                                  const std::vector<int>& environment) const {
     std::vector<ChannelRecord> records;
     for (const StationChannel& channel : supervisor_.channels()) {
         ChannelRecord record{channel.id,   channel.shown,  channel.instrument_name, channel.place,
                              channel.kind, channel.medium, channel.correction};
-        const bool used = channel.id == roles_.laser ||
+        const bool used = channel.id == watched ||
                           std::ranges::find(environment, channel.id) != environment.end();
         if (!used) record.medium = Medium::none;
         records.push_back(std::move(record));
     }
     // clang 14 does not take the ranges' own.
-    std::stable_partition(records.begin(), records.end(), [this](const ChannelRecord& record) {
-        return record.id == roles_.laser;
-    });
+    std::stable_partition(records.begin(), records.end(),
+                          [watched](const ChannelRecord& record) { return record.id == watched; });
     return records;
 }
 
 Task<Result<std::string>> Station::drift(DriftRequest request) {
-    if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
+    const bool of_bar = drift_is_of_bar(request);
+    if (auto ready = ready_for_drift(of_bar); !ready)
+        co_return tl::unexpected<Error>(ready.error());
     arming_ = true;
-    auto opened = co_await open_drift(std::move(request));
+    auto opened = co_await open_drift(std::move(request), of_bar);
     arming_ = false;
     co_return opened;
 }
 
-Task<Result<std::string>> Station::open_drift(DriftRequest request) {
+Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request) const {
     ArmRequest statements;
     statements.statements = request.statements;
-    AXISCAL_CO_TRY(RunPlan plan, plan_for(statements));
-    AXISCAL_CO_TRY(const DriftSetup setup, drift_setup_of(request, plan));
-    plan.pass = "drift";
+    AXISCAL_TRY(RunPlan plan, plan_for(statements));
+    AXISCAL_TRY(const DriftSetup setup, drift_setup_of(request, plan));
+    plan.pass = axis_drift_pass;
     plan.targets.clear();
     plan.points.clear();
     plan.remark.clear();
     const RunHeaderParts parts{
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
-    AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, statements));
+    AXISCAL_TRY(RunRecord header, make_run_header(parts, statements));
     header.run_id += "-drift";
-    header.channels = every_channel();
-    header.calibrations = calibrations_of(supervisor_, header.channels);
-    const std::string id = header.run_id;
+    header.channels = every_channel(*roles_.laser, roles_.environment());
+    return RestingTest{std::move(header), setup, *roles_.laser};
+}
+
+/// Before its first second nothing is known of it; intervals are counted as missing then.
+Result<void> Station::check_rate_of_bar() const {
+    const double readings = bar_rate_.hz() * seconds_of(config_.capture.window);
+    if (bar_rate_.hz() == 0 || readings >= config_.capture.minimum_samples) return {};
+    return fail(Fault::refused, "the ballbar (" + config_.ballbar->instrument + ") sends " +
+                                    plain_number(bar_rate_.hz(), 1) +
+                                    " readings a second, too few for a mean: within capture.window "
+                                    "there must be capture.minimum_samples, " +
+                                    std::to_string(config_.capture.minimum_samples));
+}
+
+Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) const {
+    AXISCAL_CHECK(check_spans(request));
+    AXISCAL_CHECK(check_rate_of_bar());
+    if (request.place_mm)
+        return refuse(Fault::bad_request, "place_mm",
+                      "is of an axis; a ballbar has no place on it");
+    ArmRequest statements;
+    statements.statements = request.statements;
+    const std::string plane =
+        config_.circular ? std::string{name_of(config_.circular->setup.plan.plane)} : "";
+    const std::string name = (plane.empty() ? plane : plane + "-") + "ballbar-drift";
+    AXISCAL_TRY(RunRecord header, header_without_axis(bar_drift_pass, name, statements));
+    header.statements.axis = plane;
+    header.laser = {};
+    header.laser.instrument = config_.ballbar->instrument;
+    header.rotary.reset();
+    header.scale.reset();
+    header.channels = every_channel(*roles_.ballbar, roles_.of_circles());
+    return RestingTest{
+        std::move(header), {request.duration, request.interval, Length{}}, *roles_.ballbar};
+}
+
+Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar) {
+    AXISCAL_CO_TRY(RestingTest order, of_bar ? drift_of_bar(request) : drift_of_axis(request));
+    order.header.calibrations = calibrations_of(supervisor_, order.header.channels);
+    const std::string id = order.header.run_id;
     std::string path = config_.state_directory + "/runs/" + id + std::string{run_file_ending};
     RunAttachments attachments;
-    attachments.alignment = alignment_for_run();
-    attachments.drift = setup;
-    if (auto opened = co_await journal_.open(path, std::move(header), std::move(attachments));
+    if (!of_bar) attachments.alignment = alignment_for_run();
+    attachments.drift = order.setup;
+    if (auto opened = co_await journal_.open(path, std::move(order.header), std::move(attachments));
         !opened)
         co_return tl::unexpected<Error>(opened.error());
-    const auto newest = history_.newest();
-    DriftRecorder recorder{setup, *roles_.laser, newest ? newest->epoch : 0, scheduler_.now()};
-    drift_.emplace(
-        CurrentDrift{id, std::move(path), std::move(recorder), false, false, false, {}, {}, {}});
-    note("Drift test " + id + " has begun: leave the axis alone.");
+    const auto newest =
+        of_bar ? latest_[static_cast<std::size_t>(order.watched)] : history_.newest();
+    DriftRecorder recorder{order.setup, order.watched, newest ? newest->epoch : 0,
+                           scheduler_.now()};
+    drift_.emplace(CurrentDrift{
+        id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}});
+    if (of_bar) drift_->bar.emplace(SampleHistory::Limits{2 * config_.capture.window});
+    note("Drift test " + id + " has begun: leave " + (of_bar ? "machine and ballbar" : "the axis") +
+         " alone.");
     spawn(scheduler_, record_drift(id));
     co_return id;
 }
@@ -142,7 +194,8 @@ Task<void> Station::record_drift(std::string run_id) {
 void Station::note_drift() {
     const DriftLimits limits{config_.capture.window, config_.axis.air.oldest,
                              config_.capture.minimum_samples};
-    auto readings = drift_->recorder.take(scheduler_.now(), history_, latest_, limits);
+    const SampleHistory& watched = drift_->bar ? *drift_->bar : history_;
+    auto readings = drift_->recorder.take(scheduler_.now(), watched, latest_, limits);
     if (!readings.empty()) journal_.note(std::move(readings));
 }
 
@@ -168,7 +221,8 @@ DriftView Station::drift_view() const {
     view.state = !drift_->closed ? "recording" : drift_->complete ? "complete" : "incomplete";
     view.file = drift_->path;
     view.certificate = drift_->certificate;
-    view.place_mm = recorder.setup().place.in(mm);
+    view.of_bar = drift_->bar.has_value();
+    if (!view.of_bar) view.place_mm = recorder.setup().place.in(mm);
     view.taken = recorder.taken();
     view.missing = recorder.missing();
     view.planned = recorder.planned();
@@ -177,28 +231,6 @@ DriftView Station::drift_view() const {
         view.seconds_left = std::max(0.0, seconds_of(recorder.end() - scheduler_.now()));
     view.sentence = drift_->no_certificate ? describe(*drift_->no_certificate) : drift_->reason;
     return view;
-}
-
-Task<Result<void>> Station::adopt_eve(RunRecord& header, RunAttachments& attachments) {
-    if (config_.eve_run.empty()) co_return Result<void>{};
-    const auto found = co_await journal_.find_drift(config_.state_directory + "/runs",
-                                                    config_.eve_run, header.statements.axis);
-    if (!found) co_return tl::unexpected<Error>(found.error());
-    const auto document = nlohmann::json::parse(found->document, nullptr, false);
-    if (const int refused = refused_readings_in(document); refused > 0)
-        co_return fail(Fault::refused,
-                       "the drift test " + found->run_id + " could not evaluate " +
-                           std::to_string(refused) +
-                           " of its readings, so that its E_VE may be too small: make another by "
-                           "'axiscal drift', or name a good one in uncertainty.eve_run");
-    const std::optional<Length> eve = eve_of(document, header.plan.axis_kind);
-    if (!eve)
-        co_return fail(Fault::bad_run_file, "the drift test " + found->run_id +
-                                                " states no E_VE in the unit of this axis");
-    if (!header.uncertainty) header.uncertainty.emplace();
-    header.uncertainty->eve = *eve;
-    attachments.eve_source = found->run_id;
-    co_return Result<void>{};
 }
 
 } // namespace axiscal

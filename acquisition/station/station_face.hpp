@@ -66,8 +66,9 @@ struct RunStatus {
 struct DriftView {
     std::string run_id, state; ///< recording | complete | incomplete
     std::string file, certificate;
-    double place_mm = 0;
-    int taken = 0, missing = 0, planned = 0; ///< readings of the laser
+    bool of_bar = false;                     ///< of the ballbar, else of the axis
+    std::optional<double> place_mm;          ///< a ballbar has none
+    int taken = 0, missing = 0, planned = 0; ///< readings of the laser, or of the ballbar
     std::optional<double> range_um;          ///< so far, of the bare readings
     std::optional<double> seconds_left;
     std::string sentence; ///< empty when all is well
@@ -139,8 +140,10 @@ struct AlignmentOrder {
     std::optional<double> spot_offset_mm; ///< with `keep`: walk of the return spot, as seen
 };
 
-/// A drift test: the axis rests at `place_mm`, every channel is read at the interval.
+/// A drift test: the axis rests at `place_mm`, or the ballbar where it is, and every channel is
+/// read at the interval.
 struct DriftRequest {
+    std::optional<bool> of_bar; ///< default: only where the station measures no axis
     Duration duration = std::chrono::minutes{30}, interval = std::chrono::seconds{1};
     std::optional<double> place_mm; ///< default: the end of the travel far from the interferometer
     std::map<std::string, std::string> statements;

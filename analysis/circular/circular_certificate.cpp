@@ -104,6 +104,12 @@ Result<void> evaluate_repeats(CircularCertificate& certificate) {
     return {};
 }
 
+void name_source_of_eve(CircularBudget& budget, const std::string& drift_test) {
+    const auto term =
+        std::ranges::find(budget.contributions, "environment", &CircularContribution::term);
+    if (term != budget.contributions.end()) term->source = drift_test;
+}
+
 Result<void> evaluate_uncertainty(CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
     if (measured.stated) {
@@ -113,6 +119,7 @@ Result<void> evaluate_uncertainty(CircularCertificate& certificate) {
         AXISCAL_TRY(certificate.budget,
                     circular_budget(measured.test, measured.f_centre, measured.expansion, stated,
                                     measured.trials));
+        name_source_of_eve(*certificate.budget, measured.run.eve_source);
     }
     certificate.missing = missing_terms_of(certificate);
     certificate.preliminary = !certificate.missing.empty();

@@ -59,6 +59,7 @@ struct CircularRun {
     CircularTemperature bar_temperature, machine_temperature, air_temperature;
     std::optional<double> machine_alpha_per_K;
     CircularUncertaintyStatement uncertainty;
+    std::string eve_source; ///< drift test that its E_VE is of; empty: somebody stated it
     std::uint64_t gaps = 0, missing = 0; ///< of the whole stream
     std::uint64_t dropped_blocks = 0;    ///< lost because the disk did not keep up
     std::vector<CircleCapture> circles;  ///< in the order driven, warm-up included

@@ -113,7 +113,7 @@ private:
             out_.not_stated.emplace_back(term);
             return 0;
         }
-        out_.contributions.push_back({term, *stated * factor, formula, status});
+        out_.contributions.push_back({term, *stated * factor, formula, status, {}});
         return out_.contributions.back().u_mm;
     }
     void warmth(double u) { warmth_squared_ += u * u; }

@@ -31,6 +31,7 @@ struct CircularContribution {
     double u_mm = 0;     ///< standard uncertainty
     std::string formula; ///< in words and symbols
     std::string status;  ///< "S": stated by the source; "R": reconstructed
+    std::string source;  ///< of "environment": id of the drift test that E_VE is of; empty: stated
 };
 
 struct CircularFigureUncertainty {

@@ -8,6 +8,10 @@
 
 namespace axiscal {
 
+bool watches_bar(const RunRecord& run) {
+    return run.plan.pass == bar_drift_pass;
+}
+
 RestingAxis::RestingAxis(const RunRecord& run, const DriftSetup& setup)
     : run_{run}
     , environment_{run}
@@ -16,6 +20,7 @@ RestingAxis::RestingAxis(const RunRecord& run, const DriftSetup& setup)
     , cosine_{cosine_factor_of(run.laser)} {}
 
 Result<Length> RestingAxis::coordinate(const EnvironmentReading& reading) {
+    if (watches_bar(run_)) return metre(reading.value);
     if (run_.rotary) return by_table(*run_.rotary, reading);
     AXISCAL_TRY(const Temperature material, environment_.material_at(reading.at, "drift"));
     AXISCAL_TRY(const Length length, run_.scale ? by_scale(reading) : by_laser(reading));

@@ -1,5 +1,5 @@
 #pragma once
-// The coordinate of an axis that rests, from what measures it. Pure.
+// The coordinate of an axis that rests, or the reading of a ballbar, from what measures it. Pure.
 
 #include "analysis/environment_history.hpp"
 #include "analysis/run_attachments.hpp"
@@ -9,8 +9,12 @@
 
 namespace axiscal {
 
+/// The drift test is one of the ballbar, not of an axis.
+bool watches_bar(const RunRecord& run);
+
 /// Carries the readings of one drift test to what a run would give: of a linear axis to 20 degC, of
-/// a rotary one to an angle. The record outlives it.
+/// a rotary one to an angle; those of a ballbar, which a circle takes as they are, stay so. The
+/// record outlives it.
 class RestingAxis {
 public:
     RestingAxis(const RunRecord& run, const DriftSetup& setup);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double seconds_a_minute = 60, minutes_an_hour = 60;
 
-/// The channel that measures the axis: the displacement of the run's laser.
+/// The channel that measures the axis: the displacement of the run's laser, scale or ballbar. Of an
+/// instrument with several it stands first.
 const ChannelRecord* laser_channel_of(const RunRecord& run) {
     const auto found = std::ranges::find_if(run.channels, [&](const ChannelRecord& channel) {
         return channel.kind == ChannelKind::displacement &&
@@ -108,9 +109,9 @@ void follow_axis(const RunRecord& run,
 
 /// Too few readings are left, and why.
 tl::unexpected<Error> too_few(const RunRecord& run, const RunDrift& drift) {
+    const std::string watched{drift.of_bar ? "ballbar" : reference_word_of(run)};
     std::string words = "the drift test has " + std::to_string(drift.axis.times.size()) +
-                        " usable readings of the " + std::string{reference_word_of(run)} +
-                        "; it needs two";
+                        " usable readings of the " + watched + "; it needs two";
     if (drift.without_air > 0)
         words += "; " + std::to_string(drift.without_air) + " have no fresh " +
                  (run.scale ? "temperature of scale and material" : "air or material") +
@@ -143,7 +144,8 @@ Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
                         (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
     AXISCAL_CHECK(check_angle(run));
     if (!laser_channel_of(run))
-        return fail(Fault::bad_run_file, "the drift test holds no channel of its laser or scale");
+        return fail(Fault::bad_run_file, std::string{"the drift test holds no channel of its "} +
+                                             (watches_bar(run) ? "ballbar" : "laser or scale"));
     if (setup.interval <= Duration{} || setup.duration < setup.interval)
         return fail(Fault::bad_run_file, "the interval of the drift test cannot be");
     return {};
@@ -159,6 +161,7 @@ Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
     AXISCAL_CHECK(check_test(run, setup));
     RunDrift drift;
     drift.setup = setup;
+    drift.of_bar = watches_bar(run);
     if (run.rotary) drift.unit = "arcsec";
     const ChannelRecord& laser = *laser_channel_of(run);
     const auto readings = readings_of(run, laser.id);

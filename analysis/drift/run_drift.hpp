@@ -1,5 +1,5 @@
 #pragma once
-// A recorded drift test: what the measuring system shows of an axis that rests. Pure.
+// A recorded drift test: what the measuring system shows of an axis or a ballbar that rests. Pure.
 
 #include "analysis/drift/drift.hpp"
 #include "analysis/run_attachments.hpp"
@@ -38,6 +38,7 @@ struct RefusedReadings {
 /// Of a rotary axis every figure of the axis is in seconds of arc, of a linear one in um.
 struct RunDrift {
     DriftSetup setup;
+    bool of_bar = false;     ///< of the ballbar: `axis` is its reading, as it is, and so is `bare`
     double window_min = 60;  ///< the shift of interest, one hour (ISO 230-3)
     std::string unit = "um"; ///< of what follows, up to end_change: "um" | "arcsec"
     /// Change of the axis coordinate as a run would give it: in air, at 20 degC.
@@ -70,7 +71,9 @@ struct RunDrift {
 /// drift = asin(V* / (n S)) - beta_0 (rotary_position.hpp); nothing expands, and what the table
 /// itself is wrong by stays where it is.
 /// Air and material are the channels that bear that medium; every other one is told and acts on
-/// nothing. A reading without fresh surroundings is counted in `without_air`, one that the formulas
+/// nothing. The reading of a ballbar is taken as it is, as in a circular test: neither air nor the
+/// bar's own expansion is taken out, for what the surroundings do to it is what is asked.
+/// A reading without fresh surroundings is counted in `without_air`, one that the formulas
 /// refuse for another reason (an angle beyond the range of the interferometer, air that cannot be)
 /// in `refused`; no figure knows either.
 /// @errors Fault::incomplete_run for a test that was not closed as complete, or with fewer than

@@ -201,6 +201,7 @@ def some_air(reference, count=12):
 def circular(reference):
     """Two circles recorded in two streams, eight blocks of four samples each."""
     rows = header_without_plan(reference, "linear", "circular")
+    rows.append(("eve_source", ["ballbar-20261120T100000Z-XY-ballbar-drift"]))
     air = some_air(reference)
     rows += [("event", ["armed", 10**9, 10**18, "Armed.", "none", 0]),
              ("circular", ["XY", 40.0, 100.0, "ccw cw", 1, 0, 0.0, 360.0, 180.0, 0.5, 0, 0.0, 0.0, 0.0, "T1",

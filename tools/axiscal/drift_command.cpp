@@ -63,12 +63,13 @@ int command_drift(const StationClient& client, const DriftOrder& order, bool jso
     if (!put_span(body, "duration_s", order.duration, "--duration") ||
         !put_span(body, "interval_s", order.interval, "--interval"))
         return exit_usage;
+    if (!order.of.empty()) body["of"] = order.of;
     if (order.place_mm) body["place_mm"] = *order.place_mm;
     const auto reply = client.post("/v1/drift", body.dump());
     if (!order.wait)
         return show_reply(reply, json, [](const Json& begun) {
             return "Drift test " + begun.at("run").get<std::string>() +
-                   " has begun: leave the axis alone. 'axiscal status' shows it.\n";
+                   " has begun: leave the machine alone. 'axiscal status' shows it.\n";
         });
     if (!reply) return tell_no_contact(reply.error());
     if (reply->status >= 300) return tell_refusal(*reply);

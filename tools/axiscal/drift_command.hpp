@@ -1,5 +1,5 @@
 #pragma once
-// `axiscal drift`: every channel against time while the axis rests.
+// `axiscal drift`: every channel against time while the axis, or a ballbar, rests.
 
 #include "tools/axiscal/station_client.hpp"
 
@@ -11,6 +11,7 @@ namespace axiscal {
 
 struct DriftOrder {
     std::string duration = "30 min", interval = "1 s"; ///< with their units
+    std::string of; ///< "axis" | "ballbar"; empty: the axis where there is one
     std::optional<double> place_mm;
     bool wait = false; ///< until the test has ended and its certificate is written
     std::map<std::string, std::string> statements;

@@ -97,6 +97,7 @@ std::string drift_text(const Json& drift) {
     std::string text =
         "Drift        " + drift.at("id").get<std::string>() + ", " +
         drift.at("state").get<std::string>() +
+        (drift.value("of", "axis") == "ballbar" ? ", of the ballbar" : "") +
         format(", %d of %d readings", drift.at("taken").get<int>(), drift.at("planned").get<int>());
     if (drift.at("missing") != 0) text += format(", %d missing", drift.at("missing").get<int>());
     text += ", range as read " + number_or_dashes(drift.at("range_um"), "%.2f", "µm");

@@ -47,6 +47,9 @@ void draw_terms(Sheet& sheet, const CircularCertificate& certificate) {
                  {"Counts in", "", Align::left},
                  {"Mark", "", Align::left}},
                 rows, 7);
+    for (const CircularContribution& known : budget.contributions)
+        if (!known.source.empty())
+            sheet.text("E_VE is the range of the drift test " + known.source + ".", note_style);
 }
 
 void draw_figure_uncertainties(Sheet& sheet, const CircularCertificate& certificate) {

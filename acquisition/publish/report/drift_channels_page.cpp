@@ -46,9 +46,11 @@ void draw_channel_table(Sheet& sheet, const RunDrift& drift) {
                  {"Correction", "included"},
                  {"Readings", ""}},
                 rows, 7);
-    sheet.text("The first line is what measures the axis, as counted. The range of a length is its "
-               "E_VE, u = E_VE / (2 √3). Slope: of the least-squares line. A channel without a "
-               "reading stayed silent. All of this table is informative.",
+    sheet.text(std::string{drift.of_bar ? "The first line is the ballbar."
+                                        : "The first line is what measures the axis, as counted."} +
+                   " The range of a length is its E_VE, u = E_VE / (2 √3). Slope: of the "
+                   "least-squares line. A channel without a reading stayed silent. All of this "
+                   "table is informative.",
                note_style);
 }
 

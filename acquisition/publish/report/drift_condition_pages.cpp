@@ -3,6 +3,7 @@
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/drift_pages.hpp"
 #include "analysis/certificate_expiry.hpp"
+#include "analysis/drift/resting_axis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,7 @@ std::array<StatedField, 3> fields_of_reference(const RunRecord& run) {
 }
 
 std::string carried_words(const RunRecord& run) {
+    if (watches_bar(run)) return " and is taken as it is, as in a circular test. ";
     if (run.rotary)
         return " and becomes an angle as every point of a run does, with the reflectors taken as "
                "square to the beam while the axis stands at its datum. An angle does not expand. ";
@@ -65,37 +67,61 @@ std::string drift_datum_words(const RunRecord& run) {
     return fixed(run.plan.datum.in(mm), 4) + (run.rotary ? "°" : " mm");
 }
 
-void draw_setup(Sheet& sheet, const DriftDocument& document) {
+std::string readings_of_planned(const RunDrift& drift) {
+    return std::to_string(drift.axis.times.size()) + " of " +
+           std::to_string(drift.setup.duration / drift.setup.interval);
+}
+
+std::vector<StatedField> fields_of_bar_test(const DriftDocument& document) {
+    const Statements& said = document.run.statements;
+    const RunDrift& drift = document.drift;
+    return {{"Ballbar", full_name_of(drift.reading)},
+            {"Plane", stated(said.axis)},
+            {"Duration", duration_words(drift.setup.duration)},
+            {"Interval", duration_words(drift.setup.interval)},
+            {"Readings of the length", readings_of_planned(drift)},
+            {"Compensation", "none: as read"},
+            {"Warm-up", stated(said.warm_up)},
+            {"Positions of idle axes", stated(said.idle_axes)},
+            {"Note on the sensors", stated(said.sensor_note)},
+            {"Station", stated(document.run.station)}};
+}
+
+std::vector<StatedField> fields_of_axis_test(const DriftDocument& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
     const RunDrift& drift = document.drift;
     const auto reference = fields_of_reference(run);
     const auto material = fields_of_material(run);
+    return {{"Place of rest", drift_place_words(document)},
+            {"Duration", duration_words(drift.setup.duration)},
+            {"Interval", duration_words(drift.setup.interval)},
+            {"Readings of the length", readings_of_planned(drift)},
+            reference[0],
+            reference[1],
+            material[0],
+            material[1],
+            reference[2],
+            {"Axis datum", drift_datum_words(run)},
+            {"Warm-up", stated(said.warm_up)},
+            {"Positions of idle axes", stated(said.idle_axes)},
+            {"Offsets of the measuring line", stated(said.offsets)},
+            {"Note on the sensors", stated(said.sensor_note)},
+            {"Station", stated(run.station)},
+            {"Alignment of the beam",
+             document.attachments.alignment ? "recorded: see below" : "not recorded"}};
+}
+
+void draw_setup(Sheet& sheet, const DriftDocument& document) {
+    const RunRecord& run = document.run;
+    const bool of_bar = document.drift.of_bar;
     sheet.heading("Test and conditions");
-    sheet.fields({{"Place of rest", drift_place_words(document)},
-                  {"Duration", duration_words(drift.setup.duration)},
-                  {"Interval", duration_words(drift.setup.interval)},
-                  {"Readings of the length",
-                   std::to_string(drift.axis.times.size()) + " of " +
-                       std::to_string(drift.setup.duration / drift.setup.interval)},
-                  reference[0],
-                  reference[1],
-                  material[0],
-                  material[1],
-                  reference[2],
-                  {"Axis datum", drift_datum_words(run)},
-                  {"Warm-up", stated(said.warm_up)},
-                  {"Positions of idle axes", stated(said.idle_axes)},
-                  {"Offsets of the measuring line", stated(said.offsets)},
-                  {"Note on the sensors", stated(said.sensor_note)},
-                  {"Station", stated(run.station)},
-                  {"Alignment of the beam",
-                   document.attachments.alignment ? "recorded: see below" : "not recorded"}},
-                 2);
+    sheet.fields(of_bar ? fields_of_bar_test(document) : fields_of_axis_test(document), 2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    sheet.text("Each reading of the " + std::string{reference_word_of(run)} +
-                   " is a mean over the capture window of the station file" + carried_words(run) +
-                   "Other channels are as last read in each interval.",
+    const std::string_view watched = of_bar ? "ballbar" : reference_word_of(run);
+    sheet.text("Each reading of the " + std::string{watched} +
+                   " is a mean over the capture window" + (of_bar ? "" : " of the station file") +
+                   carried_words(run) + "Other channels are as last read in each interval.",
                note_style);
 }
 

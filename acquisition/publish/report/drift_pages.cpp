@@ -12,10 +12,16 @@ namespace {
 std::vector<StatedField> draw_identity(Sheet& sheet, const DriftDocument& document) {
     const RunRecord& run = document.run;
     auto fields = identity_fields(run.statements, dates_of_test(run));
-    fields.push_back(
-        {"Axis", stated(run.statements.axis) + ", at rest at " + drift_place_words(document)});
-    fields.push_back({"Reference temperature", run.rotary ? "none: an angle does not expand"
-                                                          : "20 °C; E_VE and ETVE hold there"});
+    if (document.drift.of_bar) {
+        fields.push_back({"Ballbar", full_name_of(document.drift.reading) + ", at rest; plane " +
+                                         stated(run.statements.axis)});
+        fields.push_back({"Reference temperature", "none: taken as read"});
+    } else {
+        fields.push_back(
+            {"Axis", stated(run.statements.axis) + ", at rest at " + drift_place_words(document)});
+        fields.push_back({"Reference temperature", run.rotary ? "none: an angle does not expand"
+                                                              : "20 °C; E_VE and ETVE hold there"});
+    }
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
@@ -29,16 +35,17 @@ void draw_figures(Sheet& sheet, const RunDrift& drift) {
                         minute(found.last)};
     };
     const std::string hour = fixed(drift.window_min, 0) + " min";
-    const std::vector<TableRow> rows{
+    std::vector<TableRow> rows{
         row("E_VE", "Environmental variation: range over the whole test", drift.eve),
         {"u(E_VE)", "Standard uncertainty from it, E_VE / (2 √3)",
          fixed_up(drift.eve.u_eve, decimals), "", ""},
         row("ETVE", "Largest range within any " + hour, drift.window),
         {"", "Last reading against the first", fixed(drift.end_change, decimals), "", ""},
         {"", "Slope of the straight line through all readings, in an hour",
-         drift.slope_per_h ? fixed(*drift.slope_per_h, decimals) : "–", "", ""},
-        {"", "Range as read, without any compensation", fixed(drift.as_read.range, decimals), "",
-         ""}};
+         drift.slope_per_h ? fixed(*drift.slope_per_h, decimals) : "–", "", ""}};
+    if (!drift.of_bar)
+        rows.push_back({"", "Range as read, without any compensation",
+                        fixed(drift.as_read.range, decimals), "", ""});
     sheet.advance(3);
     sheet.table({{"", "", Align::left},
                  {"Figure", "", Align::left},
@@ -76,9 +83,25 @@ std::string gaps_words(const DriftDocument& document) {
     return words;
 }
 
+/// @param by  of the paper that the budget follows
+std::string budget_words(const RunDrift& drift, const char* of_what, const std::string& by) {
+    const char* rest = " of this test is informative.";
+    if (!drift.refused.empty()) return std::string{"Every figure and channel"} + rest;
+    return std::string{"The budget of later "} + of_what + " takes E_VE (" + by +
+           "); every other figure and channel" + rest;
+}
+
+std::string bar_rule_words(const DriftDocument& document) {
+    return "E_VE: largest minus smallest reading of the ballbar at rest. ETVE: the same within an "
+           "hour. Positive changes: the reading rises. It is taken as it is, as in a circular "
+           "test; neither air nor expansion is taken out. All of it is the environment's share: "
+           "machine, bar and set-up together. " +
+           budget_words(document.drift, "circular tests", drift_budget_by(document));
+}
+
 std::string rule_words(const DriftDocument& document) {
+    if (document.drift.of_bar) return bar_rule_words(document);
     const bool rotary = document.run.rotary.has_value();
-    const bool taken = document.drift.refused.empty();
     return std::string{"E_VE: largest minus smallest coordinate of the resting axis"} +
            (rotary ? "" : " at 20 °C") +
            ", as a run would have given it. ETVE: the same within an hour. Positive changes go "
@@ -86,10 +109,8 @@ std::string rule_words(const DriftDocument& document) {
            (rotary ? "What is left after the air is taken out"
                    : "What is left after the compensation") +
            " is the environment's share: machine, set-up and sensors together. " +
-           (taken ? "The budget of later runs takes E_VE (ISO 230-2, annex " +
-                        std::string{rotary ? "B" : "A"} + "); every other figure and channel"
-                  : std::string{"Every figure and channel"}) +
-           " of this test is informative.";
+           budget_words(document.drift, "runs",
+                        std::string{"ISO 230-2, annex "} + (rotary ? "B" : "A"));
 }
 
 void draw_rule(Sheet& sheet, const DriftDocument& document) {
@@ -115,6 +136,12 @@ std::string duration_words(Duration duration) {
     return fixed(seconds_of(duration), 3) + " s";
 }
 
+std::string drift_subject_words(const DriftDocument& document) {
+    const std::string axis = stated(document.run.statements.axis);
+    if (!document.drift.of_bar) return "axis " + axis;
+    return "ballbar, plane " + axis;
+}
+
 std::string drift_place_words(const DriftDocument& document) {
     return fixed(document.drift.setup.place.in(mm), 3) + (document.run.rotary ? "°" : " mm");
 }
@@ -122,9 +149,11 @@ std::string drift_place_words(const DriftDocument& document) {
 std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument& document) {
     const RunRecord& run = document.run;
     const RunDrift& drift = document.drift;
+    const std::string rested = drift.of_bar ? "(ISO/TR 230-9) and ETVE (ISO 230-3) of a ballbar"
+                               : run.rotary ? "(ISO 230-2) and ETVE (ISO 230-3) of a rotary axis"
+                                            : "(ISO 230-2) and ETVE (ISO 230-3) of a linear axis";
     draw_front_title(sheet, {"Drift test", run.statements.state,
-                             "Environmental variation E_VE (ISO 230-2) and ETVE (ISO 230-3) of a " +
-                                 std::string{run.rotary ? "rotary" : "linear"} + " axis at rest, " +
+                             "Environmental variation E_VE " + rested + " at rest, " +
                                  duration_words(drift.setup.duration) + ", a reading each " +
                                  duration_words(drift.setup.interval)});
     auto shortened = draw_identity(sheet, document);

@@ -22,6 +22,9 @@ void draw_drift_conditions(Sheet& sheet,
                            const DriftDocument& document,
                            const std::vector<StatedField>& shortened);
 
+/// What rested: "axis X", "ballbar, plane XY". Pure.
+std::string drift_subject_words(const DriftDocument& document);
+
 /// Where the axis rests: "900.000 mm", of a rotary axis "-2.000°". Pure.
 std::string drift_place_words(const DriftDocument& document);
 

@@ -19,6 +19,7 @@ std::string drift_figure(const RunDrift& drift, double range) {
 }
 
 std::string resting_axis_words(const RunDrift& drift) {
+    if (drift.of_bar) return "Ballbar at rest, change of its reading";
     return std::string{"Axis at rest, change of its coordinate"} +
            (drift.unit == "um" ? " at 20 °C" : "");
 }
@@ -108,14 +109,16 @@ std::vector<EnvironmentTrace> drift_axis_traces_of(const RunDrift& drift) {
     const auto trace = [](const char* name, const DriftSeries& series) {
         return trace_of(name, ChannelKind::displacement, Medium::none, series);
     };
+    if (drift.of_bar) return {trace("as read", drift.bare)};
     return {trace(drift.unit == "um" ? "at 20 °C" : "in air", drift.axis),
             trace("as read", drift.bare)};
 }
 
 EnvironmentPanel drift_axis_panel_of(const RunDrift& drift,
                                      const std::vector<EnvironmentTrace>& traces) {
-    EnvironmentPanel panel{{"Axis at rest, change", drift_unit_on_paper(drift), 1,
-                            length_decimals(drift.eve.range), least_span_um},
+    EnvironmentPanel panel{{drift.of_bar ? "Ballbar at rest, change" : "Axis at rest, change",
+                            drift_unit_on_paper(drift), 1, length_decimals(drift.eve.range),
+                            least_span_um},
                            {}};
     for (const EnvironmentTrace& drawn : traces)
         panel.traces.push_back(&drawn);

@@ -16,8 +16,8 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift);
 /// reading are left out.
 std::vector<EnvironmentTrace> drift_traces_of(const RunDrift& drift);
 
-/// The resting axis as a run would give it, and as read: the uppermost panel of the channels. Its
-/// pointers live as long as the traces.
+/// The resting axis as a run would give it, and as read; of a ballbar its reading: the uppermost
+/// panel of the channels. Its pointers live as long as the traces.
 std::vector<EnvironmentTrace> drift_axis_traces_of(const RunDrift& drift);
 EnvironmentPanel drift_axis_panel_of(const RunDrift& drift,
                                      const std::vector<EnvironmentTrace>& traces);

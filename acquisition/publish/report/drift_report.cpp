@@ -7,21 +7,21 @@
 namespace axiscal {
 namespace {
 
-std::string title_of(const RunRecord& run) {
-    return "Drift test " + stated(run.statements.certificate_number) + ", axis " +
-           stated(run.statements.axis);
+std::string title_of(const DriftDocument& document) {
+    return "Drift test " + stated(document.run.statements.certificate_number) + ", " +
+           drift_subject_words(document);
 }
 
 PageFrame frame_of(const DriftDocument& document) {
     PageFrame frame = page_frame_of(document.run, document.run_file_sha256);
-    frame.subject += ", axis " + stated(document.run.statements.axis) + ", drift test";
+    frame.subject += ", " + drift_subject_words(document) + ", drift test";
     return frame;
 }
 
 } // namespace
 
 Result<std::string> render_drift_pdf(const DriftDocument& document) {
-    return render_pages({title_of(document.run), "ISO 230-2 E_VE, ISO 230-3 ETVE",
+    return render_pages({title_of(document), drift_standards(document.drift),
                          iso8601_utc(document.run.closed.utc_ns)},
                         frame_of(document), [&](Sheet& sheet) {
                             const auto shortened = draw_drift_front_page(sheet, document);

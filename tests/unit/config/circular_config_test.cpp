@@ -56,7 +56,8 @@ TEST(CircularConfig, EveryKeyArrivesInItsUnit) {
                       "averaged = 4\ncentre = [\"1 mm\", \"2 mm\", \"-3 mm\"]\n");
     EXPECT_EQ(reading.told, "");
     ASSERT_TRUE(reading.config.circular);
-    const auto& [setup, bar_temperature] = *reading.config.circular;
+    const auto& [setup, bar_temperature, eve_run] = *reading.config.circular;
+    EXPECT_EQ(eve_run, "");
     EXPECT_EQ(setup.bar_sign, -1);
     EXPECT_NEAR(setup.bar_length_mm, 150.0123, 1e-9);
     EXPECT_NEAR(*setup.uncertainty.calibration_U_um, 0.5, 1e-12);
@@ -75,6 +76,33 @@ TEST(CircularConfig, EveryKeyArrivesInItsUnit) {
     EXPECT_EQ(*setup.capture.low_pass_hz, 40);
     EXPECT_EQ(setup.capture.averaged, 4);
     EXPECT_NEAR(setup.plan.centre_mm[2], -3, 1e-12);
+}
+
+/// The example with lines below [circular.uncertainty] of a circle that is driven.
+Reading read_with_budget(const std::string& lines) {
+    std::string text = example_text();
+    for (const auto& [table, more] : {std::pair{"[ballbar]\n", sensor},
+                                      {"[circular]\n", radius + feed},
+                                      {"[circular.uncertainty]\n", lines}}) {
+        const std::string header = table;
+        text.insert(text.find("\n" + header) + 1 + header.size(), more);
+    }
+    return read_text(text);
+}
+
+TEST(CircularConfig, TheDriftMayBeStatedOrPointToATest) {
+    const Reading stated = read_with_budget("eve = \"0.4 um\"\n");
+    EXPECT_EQ(stated.told, "");
+    EXPECT_EQ(stated.config.circular->eve_run, "");
+    EXPECT_NEAR(stated.config.circular->setup.uncertainty.eve_um.value_or(0), 0.4, 1e-12);
+    const Reading latest = read_with_budget("eve_run = \"latest\"\n");
+    EXPECT_EQ(latest.told, "");
+    EXPECT_EQ(latest.config.circular->eve_run, "latest");
+    EXPECT_FALSE(latest.config.circular->setup.uncertainty.eve_um);
+    EXPECT_EQ(latest.config.eve_run, "") << "that of the axis is another";
+    const Reading both = read_with_budget("eve = \"0.4 um\"\neve_run = \"latest\"\n");
+    EXPECT_NE(both.told.find("circular.uncertainty.eve_run: stands beside eve"), std::string::npos)
+        << both.told;
 }
 
 TEST(CircularConfig, TheStartMayComeFromTheTriggerWhereItsNumberIsTheWord) {

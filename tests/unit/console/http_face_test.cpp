@@ -371,8 +371,15 @@ TEST_F(HttpDoor, BeginsADriftTestByItsOrder) {
     EXPECT_EQ(station.drifted->statements.at("operator"), "Shift 2");
     EXPECT_TRUE(over_socket("POST", "/v1/drift").starts_with("HTTP/1.1 201"));
     EXPECT_EQ(station.drifted->duration, std::chrono::minutes{30});
-    for (const char* body : {R"({"duration_s":"1 h"})", R"({"interval_s":0})", R"({"place":1})",
-                             R"({"statements":{"colour":"red"}})", "[]"})
+    EXPECT_FALSE(station.drifted->of_bar) << "the station knows what it has";
+    EXPECT_TRUE(
+        over_socket("POST", "/v1/drift", R"({"of":"ballbar"})").starts_with("HTTP/1.1 201"));
+    EXPECT_EQ(station.drifted->of_bar, true);
+    EXPECT_TRUE(over_socket("POST", "/v1/drift", R"({"of":"axis"})").starts_with("HTTP/1.1 201"));
+    EXPECT_EQ(station.drifted->of_bar, false);
+    for (const char* body :
+         {R"({"of":"spindle"})", R"({"of":true})", R"({"duration_s":"1 h"})", R"({"interval_s":0})",
+          R"({"place":1})", R"({"statements":{"colour":"red"}})", "[]"})
         EXPECT_TRUE(over_socket("POST", "/v1/drift", body).starts_with("HTTP/1.1 400")) << body;
 }
 

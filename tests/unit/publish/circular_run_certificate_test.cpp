@@ -5,7 +5,10 @@
 #include "acquisition/publish/run_verify.hpp"
 #include "written_circle.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 namespace axiscal::circular_run_certificate_test {
 namespace {
@@ -14,13 +17,15 @@ using testing::ScratchFolder;
 
 class CircularRunCertificate : public ::testing::Test {
 protected:
-    std::string written(bool close = true) {
+    std::string written(bool close = true, const std::string& eve_source = "") {
         test::DrivenBar bar = test::bar_of_the_shop();
         bar.setup.uncertainty.device_width_um = 0.5;
         bar.setup.uncertainty.repeatability_um = 0.3;
         bar.setup.uncertainty.eve_um = 0.4;
         truth_ = bar.truth;
-        return test::write_circles(folder_, bar, bar.drive(), close);
+        RunAttachments beside;
+        beside.eve_source = eve_source;
+        return test::write_circles(folder_, bar, bar.drive(), close, beside);
     }
     ScratchFolder folder_;
     test::CircleTruth truth_;
@@ -58,6 +63,26 @@ TEST_F(CircularRunCertificate, OfAnOpenRunIsRefused) {
     const auto certificate = circular_certificate_of_run_file(written(false));
     ASSERT_FALSE(certificate);
     EXPECT_EQ(certificate.error().fault, Fault::incomplete_run);
+}
+
+TEST_F(CircularRunCertificate, SaysWhichDriftTestItsEveIsOf) {
+    const auto sources_in = [](const std::string& path) {
+        const auto certificate = circular_certificate_of_run_file(path);
+        EXPECT_TRUE(certificate) << describe(certificate.error());
+        std::vector<std::string> sources;
+        const auto document = circular_certificate_to_json(*certificate);
+        for (const auto& term : document.at("budget").at("contributions"))
+            if (term.contains("source"))
+                sources.push_back(term["term"].get<std::string>() + " of " +
+                                  term["source"].get<std::string>());
+        return sources;
+    };
+    const std::string path = written(true, "bay3-XY-ballbar-drift");
+    EXPECT_EQ(sources_in(path), std::vector<std::string>{"environment of bay3-XY-ballbar-drift"});
+    ASSERT_TRUE(seal_result(path));
+    EXPECT_TRUE(verify_run(path)->intact());
+    ASSERT_TRUE(std::filesystem::remove(path));
+    EXPECT_TRUE(sources_in(written()).empty()) << "of an E_VE that somebody stated";
 }
 
 TEST_F(CircularRunCertificate, IsVerifiedAgainstItsRunFile) {

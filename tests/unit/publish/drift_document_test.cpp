@@ -2,6 +2,11 @@
 // axis that creeps by 1 um a minute, a bed that warms up by 0.1 K a minute, a gauge, a silent one.
 #include "acquisition/publish/drift_document.hpp"
 
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/document_parts.hpp"
+#include "acquisition/publish/run_verify.hpp"
+#include "tests/support/scratch_folder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,6 +144,67 @@ TEST(DriftDocument, TellsChannelsOfOneNameApartByTheirInstruments) {
     EXPECT_NE(csv.find("\n\"laser/axis 1\",um,0,0\r\n"), std::string::npos);
     EXPECT_NE(csv.find("\n\"second laser/axis 1\",um,0,0\r\n"), std::string::npos);
     EXPECT_NE(csv.find("\n# range,\"second laser/axis 1\",um,"), std::string::npos);
+}
+
+/// What the record holds of the bar: the gauge, which falls by 0.2 um a minute.
+RunRecord of_the_bar() {
+    RunRecord run = made_run();
+    run.plan.pass = bar_drift_pass;
+    run.laser = {};
+    run.laser.instrument = "gauge";
+    run.statements.axis = "ZX";
+    return run;
+}
+
+TEST(DriftDocument, OfABallbarNamesItAndItsPlaneAndNoPlaceOfAnAxis) {
+    const auto document = made_document(of_the_bar());
+    const auto json = drift_to_json(document);
+    EXPECT_EQ(json["standard"], "ISO/TR 230-9 E_VE, ISO 230-3 ETVE");
+    EXPECT_NEAR(json["parameters"]["E_VE"]["value"].get<double>(), 2, 1e-6);
+    EXPECT_NEAR(json["parameters"]["E_VE"]["u"].get<double>(), 2 / std::sqrt(12.0), 1e-6);
+    EXPECT_NEAR(json["parameters"]["end_change"]["value"].get<double>(), -2, 1e-6);
+    EXPECT_FALSE(json["parameters"].contains("E_VE_as_read")) << "it is E_VE";
+    EXPECT_EQ(json["budget"]["takes"], "E_VE");
+    EXPECT_EQ(json["budget"]["by"], "ISO/TR 230-9");
+    EXPECT_EQ(json["run"]["reference"], "ballbar");
+    EXPECT_EQ(json["run"]["ballbar"], "gauge/gauge \"A\"");
+    EXPECT_EQ(json["run"]["plane"], "ZX");
+    EXPECT_FALSE(json["run"]["statements"].contains("axis"));
+    EXPECT_FALSE(json["run"].contains("datum_mm"));
+    EXPECT_FALSE(json["test"].contains("place_mm"));
+    EXPECT_EQ(json["channels"][0]["instrument"], "gauge");
+    const std::string csv = drift_csv(document);
+    EXPECT_TRUE(csv.starts_with("channel,unit,minute,value\r\n\"ballbar\",um,0,0\r\n")) << csv;
+    EXPECT_NE(csv.find("\n# E_VE,\"ballbar\",um,"), std::string::npos);
+}
+
+/// Sealed and read back as `axiscal analyze` and `axiscal verify` do.
+TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
+    const testing::ScratchFolder folder;
+    const std::string path = folder.file("bar.axiscal");
+    RunRecord run = of_the_bar();
+    RunAttachments beside;
+    beside.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}};
+    auto writer = RunFileWriter::create(path, run, beside).value();
+    ASSERT_TRUE(writer.append_environment(run.environment));
+    ASSERT_TRUE(writer.close(true, "The test is over.", {}));
+    EXPECT_EQ(summarize_run_file(path)->bar, "gauge/gauge \"A\"");
+    ASSERT_TRUE(seal_drift(path));
+    const auto sealed = drift_of_run_file(path);
+    ASSERT_TRUE(sealed) << describe(sealed.error());
+    EXPECT_TRUE(sealed->drift.of_bar);
+    EXPECT_EQ(read_stored_result(path)->digest, sealed->result_digest);
+    auto certificate = drift_to_json(*sealed);
+    const auto verify = [&] {
+        const std::string paper = folder.file("certificate.json");
+        testing::write_bytes(paper, document_text(certificate));
+        return verify_run(path, paper);
+    };
+    const auto told = verify();
+    ASSERT_TRUE(told) << describe(told.error());
+    EXPECT_TRUE(told->intact());
+    certificate["parameters"]["E_VE"]["value"] = 1.9;
+    EXPECT_FALSE(verify()->intact());
 }
 
 TEST(DriftDocument, OfARotaryAxisIsInSecondsOfArc) {

@@ -53,9 +53,10 @@ inline DrivenBar bar_of_the_shop() {
 inline std::string write_circles(const testing::ScratchFolder& scratch,
                                  const DrivenBar& bar,
                                  const StreamSamples& of,
-                                 bool close = true) {
+                                 bool close = true,
+                                 const RunAttachments& beside = {}) {
     const std::string path = scratch.file("circle.axiscal");
-    auto writer = RunFileWriter::create(path, circular_header()).value();
+    auto writer = RunFileWriter::create(path, circular_header(), beside).value();
     RunBatch first;
     first.circular = bar.setup;
     first.streams.push_back({0, 4, "ballbar", "m", 1000});

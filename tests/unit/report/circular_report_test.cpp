@@ -304,6 +304,17 @@ TEST_F(CircularReport, ShowsTheRepeatsAndEveryCircleDriven) {
     EXPECT_THAT(page, HasSubstr("feed-in step"));
 }
 
+TEST_F(CircularReport, SaysWhichDriftTestItsEveIsOf) {
+    CircularRun run = test::circular_run();
+    run.uncertainty.eve_um = 0.4;
+    EXPECT_EQ(occurrences(text(circular_certificate(run)), "drift test"), 0);
+    run.eve_source = "bay3-20261121T100000Z-XY-ballbar-drift";
+    const std::string pdf = render(circular_certificate(std::move(run)));
+    EXPECT_THAT(test::text_of(pdf), HasSubstr("E_VE is the range of the drift test "
+                                              "bay3-20261121T100000Z-XY-ballbar-drift."));
+    EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
+}
+
 TEST_F(CircularReport, PrintsTheCertificatesOfChannels) {
     CircularRun run = test::circular_run();
     run.channels.push_back({5, "table", "t", "", ChannelKind::temperature, Medium::material});

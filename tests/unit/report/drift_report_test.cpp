@@ -234,6 +234,39 @@ TEST_F(DriftReport, OfARotaryAxisIsInSecondsOfArc) {
     EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
 }
 
+/// The gauge becomes a bar that rises steadily by 2.5 um in two hours; the laser is silent.
+RunRecord of_the_bar() {
+    RunRecord run = creeping([](double) { return 0; });
+    run.plan.pass = bar_drift_pass;
+    run.laser = {};
+    run.laser.instrument = "gauge";
+    run.statements.axis = "ZX";
+    std::erase_if(run.channels, [](const ChannelRecord& channel) { return channel.id == 7; });
+    std::erase_if(run.environment, [](const EnvironmentReading& one) { return one.channel == 7; });
+    return run;
+}
+
+TEST_F(DriftReport, OfABallbarNamesItWithItsPlaneWhereAnAxisWouldStand) {
+    const std::string pdf = render(document_of(of_the_bar()));
+    const std::string text = test::text_of(pdf), line = in_one_line(text);
+    // 2.5 um from the begin; 719 of 720 intervals lie between the first reading and the last
+    for (const char* row : {"E_VE +Environmental variation: range over the whole test +2\\.50 ",
+                            "ETVE +Largest range within any 60 min +1\\.25 "})
+        EXPECT_THAT(text, ContainsRegex(row));
+    for (const char* words :
+         {"of a ballbar at rest", "gauge/tool gauge, at rest; plane ZX", "none: taken as read",
+          "Ballbar at rest, change of its reading, µm", "Ballbar at rest, change, µm",
+          "The first line is the ballbar.", "none: as read", "ballbar, plane ZX, drift test",
+          "The budget of later circular tests takes E_VE (ISO/TR 230-9)",
+          "Each reading of the ballbar is a mean over the capture window and is taken as it is"})
+        EXPECT_THAT(line, HasSubstr(words));
+    for (const char* words : {"20 °C", "Dead path", "Axis datum", "Place of rest", "Range as read"})
+        EXPECT_THAT(line, Not(HasSubstr(words)));
+    EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
+    for (int page = 1; page <= test::pages_of(pdf); ++page)
+        EXPECT_EQ(test::image_of(pdf, page).ink_outside(least_margin), 0) << page;
+}
+
 TEST_F(DriftReport, OfAShortTestSaysThatItSawNoHour) {
     const auto creep = [](double s) { return s / 600; };
     const std::string text = test::text_of(render(document_of(creeping(creep, 600), 10min)));

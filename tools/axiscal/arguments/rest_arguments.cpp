@@ -38,11 +38,19 @@ constexpr const char* drift_footer =
 Let the axis stand where it will be measured longest from the interferometer, servo on, as for the run, and
 leave it alone. Every channel of the station is recorded; no CNC takes part. The range of the axis, at 20 degC,
 is E_VE: point [uncertainty] eve_run of the station file to the test, and later runs carry it in their budget.
+Of a standing ballbar (--of ballbar, on a station without [axis] always) its readings are taken as they are, and
+[circular.uncertainty] eve_run carries E_VE to later circular tests.
 'axiscal abort' ends the test early.)";
 
 void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
     auto* drift = app.add_subcommand(
-        "drift", "Record every channel while the axis rests: E_VE, ETVE, temperatures");
+        "drift",
+        "Record every channel while the axis or the ballbar rests: E_VE, ETVE, temperatures");
+    drift
+        ->add_option("--of", options.drift.of,
+                     "what rests: axis, or ballbar (as the station file names it); default: the "
+                     "axis where there is one")
+        ->check(CLI::IsMember({"axis", "ballbar"}));
     drift->add_option("--duration", options.drift.duration, "as long as a run takes, or hours")
         ->capture_default_str();
     drift->add_option("--interval", options.drift.interval, "between two readings")
