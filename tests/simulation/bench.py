@@ -313,9 +313,9 @@ class Bench:
 
     def channels_are_good(self):
         """Whether every channel that the station file names for the axis has a value: its laser or
-        scale, and of material and air what it names."""
+        scale, and of material and air what it names; without an axis the ballbar."""
         shown = {f"{c['instrument']}/{c['channel']}": c["value"] for c in self.status()["channels"]}
-        axis = self.station["axis"]
+        axis = self.station.get("axis") or {"laser": self.station["ballbar"]["sensor"]}
         scale = axis.get("scale")
         wanted = [scale["channel"], *scale["temperature"]] if scale else [axis["laser"]]
         wanted += axis.get("material", {}).get("temperature", [])

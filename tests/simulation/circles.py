@@ -51,8 +51,9 @@ def checks(b):
         door.close()
 
 
-def measure(b, meanwhile=lambda b: None):
-    """Drives every circle of the plan, `meanwhile` happening after arming; gives back the certificate."""
+def measure(b, meanwhile=lambda b: None, before=lambda b: None):
+    """Drives every circle of the plan, `before` happening with the machine at rest beside the first, `meanwhile`
+    after arming; gives back the certificate."""
     b.start()
     wait_until("the ballbar speaks", lambda: b.instrument("ballbar")["state"] == "available", 30)
     shown = json.loads(b.axiscal("program", "--json", "--config", b.folder / "station.toml",
@@ -63,6 +64,7 @@ def measure(b, meanwhile=lambda b: None):
     wait_until("the machine waits at rest",
                lambda: lines[b.sim("status")["line"] - 1].startswith("M66"), 30)
     wait_until("every check holds", lambda: all(one["passed"] for one in checks(b)), 30)
+    before(b)
     b.axiscal("arm", "--pass", "circular")
     meanwhile(b)
 
@@ -215,6 +217,40 @@ def glass_scale(b):
     del bar["wavelength"], bar["fold"]
     bar["resolution"] = "0.1 um"
     expect_hidden(measure(b))
+
+
+@sentence("DriftTestOfABallbarAloneFeedsTheBudgetOfItsCircles")
+def drift_of_the_bar(b):
+    """A station without an axis. The bar stands beside the circle and nothing moves: 0.1 um of noise a sample,
+    500 in a reading, 4.5 nm of each; the range of twelve is some three times that, at most eight, and the counter's
+    fraction adds 3 nm to a reading."""
+    with_ballbar(b, overshoot="90 deg", uncertainty={
+        "device_width": "0.5 um", "repeatability": "0.2 um", "eve_run": "latest"})
+    for table in ("axis", "cycle", "capture"):
+        del b.station[table]
+    b.station["circular"].update(machine_temperature=["material/contact 1"], air_temperature="air/air temperature")
+    told = {}
+
+    def stand(b):
+        b.axiscal("arm", "--pass", "circular", code=4)
+        expect("axiscal drift --of ballbar" in b.complaint, b.complaint)
+        told.update(json.loads(b.axiscal("drift", "--duration", "6 s", "--interval", "0.5 s", "--wait", "--json")))
+        expect(told["state"] == "complete" and told["of"] == "ballbar" and told["missing"] == 0, f"{told}")
+        with open(os.path.join(told["certificate"], "certificate.json"), encoding="utf-8") as file:
+            told["found"] = json.load(file)
+        expect(told["found"]["run"]["ballbar"].startswith("ballbar/"), f"{told['found']['run']}")
+        checked = json.loads(b.axiscal("verify", told["file"], "--certificate",
+                                       os.path.join(told["certificate"], "certificate.json"), "--json"))
+        expect(checked["findings"] == [] and checked["certificate_findings"] == [], f"{checked}")
+
+    answer = measure(b, before=stand)
+    expect_hidden(answer)
+    eve_um = told["found"]["parameters"]["E_VE"]["value"]
+    expect(0 < eve_um < 0.05, f"E_VE {eve_um} um of a bar at rest")
+    expect(told["found"]["test"]["readings"] == 12, f"{told['found']['test']}")
+    term = next(one for one in answer["budget"]["contributions"] if one["term"] == "environment")
+    expect(term["source"] == told["id"], f"{term}")
+    expect(abs(term["u_mm"] * 1e3 - eve_um / (2 * 3 ** 0.5)) < 1e-9, f"{term}, E_VE {eve_um} um")
 
 
 LASER_HZ, LEFT_OUT = 50_000, 50
