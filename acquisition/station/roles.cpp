@@ -141,8 +141,16 @@ Result<StationRoles> resolve_roles(const AxisConfig& axis,
 }
 
 Result<int> resolve_ballbar(const RoleConfig& ballbar,
+                            const StationRoles& axis,
                             const std::vector<StationChannel>& channels) {
-    return find(ballbar, {"ballbar.sensor", ChannelKind::displacement, Medium::none}, channels);
+    AXISCAL_TRY(
+        const int id,
+        find(ballbar, {"ballbar.sensor", ChannelKind::displacement, Medium::none}, channels));
+    if (id != axis.laser) return id;
+    return fail(Fault::bad_configuration,
+                "ballbar.sensor = \"" + ballbar.instrument + "/" + ballbar.channel +
+                    "\" measures the axis, too: a reading goes one way; use a station file "
+                    "without [axis] for the circles");
 }
 
 Result<int> resolve_bar_temperature(const RoleConfig& sensor,

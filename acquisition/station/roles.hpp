@@ -32,8 +32,11 @@ struct StationRoles {
 Result<StationRoles> resolve_roles(const AxisConfig& axis,
                                    const std::vector<StationChannel>& channels);
 
-/// The channel of `[ballbar] sensor`, a length. @errors as resolve_roles.
-Result<int> resolve_ballbar(const RoleConfig& ballbar, const std::vector<StationChannel>& channels);
+/// The channel of `[ballbar] sensor`, a length, and none of the channels that measure the axis.
+/// @errors as resolve_roles.
+Result<int> resolve_ballbar(const RoleConfig& ballbar,
+                            const StationRoles& axis,
+                            const std::vector<StationChannel>& channels);
 /// The channel of `[ballbar] temperature`, of medium "material". @errors as resolve_roles.
 Result<int> resolve_bar_temperature(const RoleConfig& sensor,
                                     const std::vector<StationChannel>& channels);

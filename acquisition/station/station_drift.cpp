@@ -12,6 +12,9 @@ namespace axiscal {
 namespace {
 
 constexpr Duration hear_every = std::chrono::milliseconds{50}; // an abort is heard within it
+/// capture.minimum_samples speaks of a laser's points; a gauge that is asked for each reading gives
+/// few, and each of them is steady.
+constexpr int fewest_of_bar = 2;
 constexpr const char* lost_zero = "The counter lost its zero: the readings cannot be "
                                   "compared any more.";
 
@@ -122,12 +125,12 @@ Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request)
 /// Before its first second nothing is known of it; intervals are counted as missing then.
 Result<void> Station::check_rate_of_bar() const {
     const double readings = bar_rate_.hz() * seconds_of(config_.capture.window);
-    if (bar_rate_.hz() == 0 || readings >= config_.capture.minimum_samples) return {};
+    if (bar_rate_.hz() == 0 || readings >= fewest_of_bar) return {};
     return fail(Fault::refused, "the ballbar (" + config_.ballbar->instrument + ") sends " +
                                     plain_number(bar_rate_.hz(), 1) +
-                                    " readings a second, too few for a mean: within capture.window "
-                                    "there must be capture.minimum_samples, " +
-                                    std::to_string(config_.capture.minimum_samples));
+                                    " readings a second: let it send at least two within each " +
+                                    plain_number(seconds_of(config_.capture.window), 3) +
+                                    " s, over which each reading is a mean");
 }
 
 Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) const {
@@ -193,7 +196,7 @@ Task<void> Station::record_drift(std::string run_id) {
 
 void Station::note_drift() {
     const DriftLimits limits{config_.capture.window, config_.axis.air.oldest,
-                             config_.capture.minimum_samples};
+                             drift_->bar ? fewest_of_bar : config_.capture.minimum_samples};
     const SampleHistory& watched = drift_->bar ? *drift_->bar : history_;
     auto readings = drift_->recorder.take(scheduler_.now(), watched, latest_, limits);
     if (!readings.empty()) journal_.note(std::move(readings));

@@ -108,7 +108,7 @@ void check_together(LoadedStation& station, Settings root) {
     } else
         root.refuse("axis", describe(roles.error()));
     if (station.config.ballbar) {
-        if (const auto ballbar = resolve_ballbar(*station.config.ballbar, channels))
+        if (const auto ballbar = resolve_ballbar(*station.config.ballbar, station.roles, channels))
             station.roles.ballbar = *ballbar;
         else
             root.refuse("ballbar", describe(ballbar.error()));

@@ -83,11 +83,22 @@ TEST_F(Roles, AScaleNeedsItsOwnTemperatureAndNoAir) {
 
 TEST_F(Roles, TheBallbarIsAnyChannelOfALength) {
     add("bar", "ballbar", ChannelKind::displacement, Medium::none);
-    EXPECT_EQ(resolve_ballbar({"bar", "ballbar"}, channels).value(), 6);
-    const auto absent = resolve_ballbar({"bar", "length"}, channels);
+    EXPECT_EQ(resolve_ballbar({"bar", "ballbar"}, {}, channels).value(), 6);
+    const auto absent = resolve_ballbar({"bar", "length"}, {}, channels);
     ASSERT_FALSE(absent);
     EXPECT_NE(absent.error().detail.find("ballbar.sensor"), std::string::npos);
-    EXPECT_FALSE(resolve_ballbar({"air", "pressure"}, channels));
+    EXPECT_FALSE(resolve_ballbar({"air", "pressure"}, {}, channels));
+}
+
+/// Each reading is the axis' or the bar's: the circles would wait for it for ever.
+TEST_F(Roles, TheLaserOfTheAxisIsRefusedAsBallbar) {
+    const auto roles = resolve_roles(axis, channels);
+    ASSERT_TRUE(roles);
+    const auto bar = resolve_ballbar({"laser", "axis 1"}, *roles, channels);
+    ASSERT_FALSE(bar);
+    EXPECT_EQ(bar.error().fault, Fault::bad_configuration);
+    EXPECT_NE(bar.error().detail.find("\"laser/axis 1\" measures the axis, too"), std::string::npos)
+        << bar.error().detail;
 }
 
 TEST_F(Roles, ALaserWithCorrectionsIsRefused) {

@@ -504,7 +504,7 @@ private:
                 channels.push_back(std::move(channel));
         made.roles = *resolve_roles(made.config.axis, channels);
         if (made.config.ballbar)
-            made.roles.ballbar = *resolve_ballbar(*made.config.ballbar, channels);
+            made.roles.ballbar = *resolve_ballbar(*made.config.ballbar, made.roles, channels);
         return made;
     }
 };
