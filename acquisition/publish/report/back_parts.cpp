@@ -35,18 +35,13 @@ void draw_instruments(Sheet& sheet,
 void draw_remarks(Sheet& sheet,
                   const std::vector<std::string>& remarks,
                   const std::vector<StatedField>& shortened) {
+    std::vector<std::string> lines = remarks;
+    for (const StatedField& field : shortened)
+        if (!field.value.empty()) lines.push_back(field.key + " in full: " + field.value);
+    if (lines.empty()) return sheet.text("Remarks: none.", {7.5}); // no page for one word
     sheet.heading("Remarks", 30);
-    bool any = false;
-    for (const std::string& remark : remarks) {
-        sheet.text("• " + remark, {7.5});
-        any = true;
-    }
-    for (const StatedField& field : shortened) {
-        if (field.value.empty()) continue;
-        sheet.text("• " + field.key + " in full: " + field.value, {7.5});
-        any = true;
-    }
-    if (!any) sheet.text("None.", {7.5});
+    for (const std::string& line : lines)
+        sheet.text("• " + line, {7.5});
 }
 
 void draw_events(Sheet& sheet, const std::vector<EventRecord>& events, const ClockTie& opened) {
