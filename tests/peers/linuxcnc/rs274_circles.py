@@ -38,8 +38,14 @@ def station(source, scratch, case):
     lengths = ", ".join(f'"{one} mm"' for one in case["centre"])
     senses = ", ".join(f'"{one}"' for one in case["senses"])
     return text + f"""
+[[instrument]]
+name = "ballbar"
+driver = "labjack-u6"
+link = "usb:470012345"
+scale_length = "1 mm"
+
 [ballbar]
-sensor = "laser/axis 1"
+sensor = "ballbar/ballbar"
 
 [circular]
 plane = "{case['plane']}"
