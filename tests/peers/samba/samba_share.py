@@ -222,15 +222,19 @@ def held_open(site, path):
         holder.wait()
 
 
+def somebody_took_run_1(site):
+    """Somebody else's file under the name of a result's, which must stay as it is."""
+    theirs = site.folder / "theirs"
+    theirs.write_bytes(b"somebody else's")
+    site.samba.client(f"mkdir run-1; put {theirs} run-1/certificate.json")
+    site.foreign = site.on_share()
+
+
 @sentence("ANameThatSomebodyHoldsOpenIsNeverReplaced")
 def name_held():
     with Site(PROGRAM) as site:
         site.samba.start()
-        # Somebody else's file under our name, and open over SMB while we come.
-        theirs = site.folder / "theirs"
-        theirs.write_bytes(b"somebody else's")
-        site.samba.client(f"mkdir run-1; put {theirs} run-1/certificate.json")
-        site.foreign = site.on_share()
+        somebody_took_run_1(site)
         with held_open(site, "run-1/certificate.json"):
             site.stage("run-1")
             site.publish()
@@ -277,10 +281,7 @@ def dfs():
         site.samba.more = "  host msdfs = yes\n  msdfs root = yes"
         site.samba.configure()
         site.samba.start()
-        theirs = site.folder / "theirs"
-        theirs.write_bytes(b"somebody else's")
-        site.samba.client(f"mkdir run-1; put {theirs} run-1/certificate.json")
-        site.foreign = site.on_share()
+        somebody_took_run_1(site)
         for run_id in ("run-1", "run-2"):
             site.stage(run_id)
         site.publish()

@@ -86,10 +86,7 @@ inline std::optional<Result<std::string>> test_drift(Life& life) {
     DriftRequest request;
     request.duration = 20s;
     request.interval = 1s;
-    const auto answer = std::make_shared<std::optional<Result<std::string>>>();
-    boost::asio::co_spawn(
-        life.scheduler.loop(), life.station->drift(request),
-        [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
+    const auto answer = life.begin_drift(request);
     life.run(25s);
     return *answer;
 }

@@ -41,12 +41,7 @@ protected:
     }
     std::shared_ptr<std::optional<Result<std::string>>> begin(Life& life, DriftRequest request) {
         began = life.scheduler.now();
-        auto answer = std::make_shared<std::optional<Result<std::string>>>();
-        boost::asio::co_spawn(
-            life.scheduler.loop(), life.station->drift(std::move(request)),
-            [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
-        life.run(100ms);
-        return answer;
+        return life.begin_drift(std::move(request));
     }
     static DriftRequest a_minute(std::optional<bool> of_bar = {}) {
         DriftRequest request;

@@ -386,6 +386,15 @@ public:
             [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
         return answer;
     }
+    /// The answer stands there once the test has begun, or was refused.
+    std::shared_ptr<std::optional<Result<std::string>>> begin_drift(DriftRequest request) {
+        auto answer = std::make_shared<std::optional<Result<std::string>>>();
+        boost::asio::co_spawn(
+            scheduler.loop(), station->drift(std::move(request)),
+            [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
+        run(100ms);
+        return answer;
+    }
     /// To the point from its side, then rest.
     void drive_to(const PlannedPoint& point) {
         const RunPlan plan = shop.plan();

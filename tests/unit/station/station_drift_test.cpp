@@ -9,15 +9,6 @@ namespace {
 class StationDrifts : public ::testing::Test {
 protected:
     void SetUp() override { shop.shorten(); }
-    static std::shared_ptr<std::optional<Result<std::string>>> begin(Life& life,
-                                                                     DriftRequest request) {
-        auto answer = std::make_shared<std::optional<Result<std::string>>>();
-        boost::asio::co_spawn(
-            life.scheduler.loop(), life.station->drift(std::move(request)),
-            [answer](std::exception_ptr, Result<std::string> r) { *answer = std::move(r); });
-        life.run(100ms);
-        return answer;
-    }
     static DriftRequest short_test() {
         DriftRequest request;
         request.duration = 60s;
@@ -39,7 +30,7 @@ TEST_F(StationDrifts, RecordsEveryChannelWithoutACnc) {
     DriftRequest request = short_test();
     request.place_mm = 900;
     request.statements["operator"] = "Shift 2";
-    const auto id = begin(life, request);
+    const auto id = life.begin_drift(request);
     ASSERT_TRUE(*id && **id);
     EXPECT_TRUE((**id)->ends_with("-drift"));
     EXPECT_EQ(life.status().drift->state, "recording");
@@ -78,7 +69,7 @@ void measure_by_scale_beside_a_ballbar(Shop& shop) {
 TEST_F(StationDrifts, RecordsWhatNoRunUsesWithoutAMedium) {
     measure_by_scale_beside_a_ballbar(shop);
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(70s);
     const RunFileContents file = contents();
     ASSERT_EQ(file.run.channels.size(), 7U);
@@ -99,7 +90,7 @@ TEST_F(StationDrifts, RecordsWhatNoRunUsesWithoutAMedium) {
 TEST_F(StationDrifts, AChannelThatStaysSilentIsTold) {
     Life life{shop};
     life.air->silent = life.material->silent = true;
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(70s);
     const RunFileContents file = contents();
     EXPECT_EQ(file.run.channels.size(), 6U);
@@ -116,7 +107,7 @@ TEST_F(StationDrifts, SeesTheAxisCreep) {
     shop.axis.go(900, life.scheduler.now()); // it rests: the speed is of the next move
     shop.axis.speed_mm_per_s = 1e-4;         // 0.1 um/s
     shop.axis.go(901, life.scheduler.now());
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(70s);
     const RunFileContents file = contents();
     const auto drift = evaluate_drift(file.run, *file.attachments.drift);
@@ -129,7 +120,7 @@ TEST_F(StationDrifts, SeesTheAxisCreep) {
 
 TEST_F(StationDrifts, StandsAtTheFarEndUnlessSaidOtherwise) {
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     EXPECT_EQ(life.status().drift->place_mm, 1000);
     ASSERT_TRUE(life.station->abort("enough"));
     life.run(1s);
@@ -140,35 +131,35 @@ TEST_F(StationDrifts, StandsAtTheFarEndUnlessSaidOtherwise) {
 
 TEST_F(StationDrifts, RunsAndAlignmentsWaitForItsEnd) {
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     EXPECT_EQ(life.arm().error().fault, Fault::busy);
     EXPECT_EQ(life.station->align({AlignmentAction::begin, {}}).error().fault, Fault::busy);
-    EXPECT_EQ((**begin(life, short_test())).error().fault, Fault::busy);
+    EXPECT_EQ((**life.begin_drift(short_test())).error().fault, Fault::busy);
     life.run(70s);
     EXPECT_TRUE(life.arm());
-    EXPECT_EQ((**begin(life, short_test())).error().fault, Fault::busy);
+    EXPECT_EQ((**life.begin_drift(short_test())).error().fault, Fault::busy);
 }
 
 TEST_F(StationDrifts, RefusesWhatCannotBeATest) {
     Life life{shop};
     DriftRequest request = short_test();
     request.interval = 100ms; // shorter than the window of a reading
-    EXPECT_EQ((**begin(life, request)).error().field, "interval");
+    EXPECT_EQ((**life.begin_drift(request)).error().field, "interval");
     request = short_test();
     request.duration = 1500ms;
-    EXPECT_EQ((**begin(life, request)).error().field, "duration");
+    EXPECT_EQ((**life.begin_drift(request)).error().field, "duration");
     request = short_test();
     request.place_mm = 1001;
-    EXPECT_EQ((**begin(life, request)).error().field, "place_mm");
+    EXPECT_EQ((**life.begin_drift(request)).error().field, "place_mm");
     request = short_test();
     request.statements["colour"] = "red";
-    EXPECT_EQ((**begin(life, request)).error().fault, Fault::bad_request);
+    EXPECT_EQ((**life.begin_drift(request)).error().fault, Fault::bad_request);
     EXPECT_TRUE(shop.run_files().empty());
 }
 
 TEST_F(StationDrifts, ALostZeroEndsItAndSaysSo) {
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(10s);
     ++life.laser->epoch;
     life.run(5s);
@@ -178,7 +169,7 @@ TEST_F(StationDrifts, ALostZeroEndsItAndSaysSo) {
 
 TEST_F(StationDrifts, ASilentLaserLeavesGapsThatAreCounted) {
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(10s);
     life.laser->silent = true;
     life.run(10s);
@@ -193,7 +184,7 @@ TEST_F(StationDrifts, ASilentLaserLeavesGapsThatAreCounted) {
 TEST_F(StationDrifts, ADaemonThatWentAwayClosesItAsIncomplete) {
     {
         Life life{shop};
-        begin(life, short_test());
+        life.begin_drift(short_test());
         life.run(10s);
     }
     Life again{shop};
@@ -219,7 +210,7 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::not_found);
     EXPECT_NE(refused.error().detail.find("axiscal drift"), std::string::npos);
-    const auto id = begin(life, short_test());
+    const auto id = life.begin_drift(short_test());
     life.run(70s);
     EXPECT_FALSE(life.arm()) << "complete, but not evaluated yet";
     store_eve(shop.run_files().at(0), 1.25);
@@ -236,7 +227,7 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
 TEST_F(StationDrifts, ThatLeftReadingsOutFeedsNothingAndSaysWhy) {
     shop.config.eve_run = "latest";
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(70s);
     const std::string document =
         R"({"unit":"um","parameters":{"E_VE":{"value":1}},"refused_readings":3})";
@@ -250,7 +241,7 @@ TEST_F(StationDrifts, ThatLeftReadingsOutFeedsNothingAndSaysWhy) {
 TEST_F(StationDrifts, OfAnAxisOfTheOtherKindFeedsNothing) {
     shop.config.eve_run = "latest";
     Life life{shop};
-    begin(life, short_test());
+    life.begin_drift(short_test());
     life.run(70s);
     const std::string document = R"({"unit":"arcsec","parameters":{"E_VE":{"value":1}}})";
     ASSERT_TRUE(store_result(shop.run_files().at(0), {sha256_hex(document), document}));
@@ -261,7 +252,7 @@ TEST_F(StationDrifts, OfAnotherAxisIsNotTheRunsOwn) {
     shop.config.eve_run = "latest";
     {
         Life life{shop};
-        begin(life, short_test());
+        life.begin_drift(short_test());
         life.run(70s);
         store_eve(shop.run_files().at(0), 1.25);
     }

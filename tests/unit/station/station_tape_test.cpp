@@ -150,17 +150,13 @@ TEST_F(StationWithATape, ArmsNothingWhateverReasonIsGiven) {
 TEST_F(StationWithATape, BeginsNoDriftTest) {
     Life life{shop};
     life.run(4s);
-    std::optional<Result<std::string>> answer;
     DriftRequest request;
     request.duration = 60s;
     request.interval = 1s;
-    boost::asio::co_spawn(
-        life.scheduler.loop(), life.station->drift(request),
-        [&answer](std::exception_ptr, Result<std::string> r) { answer = std::move(r); });
-    life.run(1s);
-    ASSERT_TRUE(answer);
-    ASSERT_FALSE(*answer);
-    EXPECT_EQ(answer->error().fault, Fault::refused);
+    const auto answer = life.begin_drift(request);
+    ASSERT_TRUE(*answer);
+    ASSERT_FALSE(**answer);
+    EXPECT_EQ((**answer).error().fault, Fault::refused);
     EXPECT_TRUE(shop.run_files().empty());
 }
 
