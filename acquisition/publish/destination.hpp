@@ -31,6 +31,9 @@ public:
 
     /// The root as a person knows it: "/mnt/quality", "smb://server/share/folder".
     [[nodiscard]] virtual std::string place() const = 0;
+    /// Makes ready what needs no word to the other side.
+    /// @returns whether none was said yet: a process forked now may use it as its own.
+    virtual bool prepare() { return true; }
     /// The root is there. It is never made: that could fill an unmounted mount point.
     virtual Result<void> check() = 0;
     /// true: made by this call, hence empty; false: something of that name is there already.

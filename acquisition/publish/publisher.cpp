@@ -8,48 +8,53 @@ namespace axiscal {
 
 std::size_t Publisher::pass() {
     const auto run_ids = entry_names(settings_.outbox);
-    if (run_ids.empty() || !destination_ready()) return run_ids.size();
-    auto [own, others] = shared_out(run_ids);
-    const auto wait_for_second_hand = others.empty() ? nullptr : settings_.second_hand(others);
-    const bool may_go_on = publish_all(own);
-    if (wait_for_second_hand) wait_for_second_hand();
+    if (run_ids.empty() || !is_due("")) return run_ids.size();
+    const auto hand = second_hand_for(run_ids);
+    if (!destination_ready()) return run_ids.size();
+    mark_ = mark_of(settings_.outbox);
+    const bool may_go_on = !hand || publish_beside(*hand, run_ids);
     // What the second hand left is done here, where its trouble is remembered and told.
-    const auto still_there = entry_names(settings_.outbox);
-    std::erase_if(others, [&](const std::string& run_id) {
-        return !std::ranges::binary_search(still_there, run_id);
-    });
-    if (may_go_on) publish_all(others);
+    if (may_go_on) publish_all(hand ? entry_names(settings_.outbox) : run_ids);
     const auto left = entry_names(settings_.outbox);
     // Moves that a power cut undoes are made again: the receipts are on disk.
     if (left != run_ids) static_cast<void>(sync_outbox(settings_.outbox));
     return left.size();
 }
 
-/// Every other entry is for the second hand, where one is worth its session and nothing is wrong.
-Publisher::Shares Publisher::shared_out(const std::vector<std::string>& run_ids) const {
+/// Where there is enough for a session of its own and nothing is wrong.
+std::unique_ptr<Helper> Publisher::second_hand_for(const std::vector<std::string>& run_ids) const {
     constexpr std::size_t worth_a_session = 16;
-    if (!settings_.second_hand || !troubles_.empty() || run_ids.size() < worth_a_session)
-        return {run_ids, {}};
-    Shares shares;
-    for (const std::string& run_id : run_ids)
-        (shares.own.size() > shares.others.size() ? shares.others : shares.own).push_back(run_id);
-    return shares;
+    if (!settings_.second_hand || !troubles_.empty() || run_ids.size() < worth_a_session) return {};
+    return settings_.second_hand(run_ids);
+}
+
+bool Publisher::publish_beside(Helper& hand, const std::vector<std::string>& run_ids) {
+    bool may_go_on = true;
+    while (may_go_on) {
+        const auto index = hand.claim();
+        if (!index) break;
+        may_go_on = attend_to(run_ids.at(*index));
+    }
+    hand.wait();
+    return may_go_on;
 }
 
 bool Publisher::publish_all(const std::vector<std::string>& run_ids) {
-    for (const auto& run_id : run_ids) {
-        if (!listener_.go_on()) return false;
-        if (!is_due(run_id)) continue;
-        const auto done = publish(run_id);
-        if (done) {
-            troubles_.erase(run_id);
-            continue;
-        }
-        const bool lost = is_share_lost(done.error());
-        remember(lost ? "" : run_id, done.error());
-        if (lost) return false;
+    return std::ranges::all_of(run_ids,
+                               [&](const std::string& run_id) { return attend_to(run_id); });
+}
+
+bool Publisher::attend_to(const std::string& run_id) {
+    if (!listener_.go_on()) return false;
+    if (!is_due(run_id)) return true;
+    const auto done = publish(run_id);
+    if (done) {
+        troubles_.erase(run_id);
+        return true;
     }
-    return true;
+    const bool lost = is_share_lost(done.error());
+    remember(lost ? "" : run_id, done.error());
+    return !lost;
 }
 
 std::optional<MonotonicTime> Publisher::next_due() const {
@@ -59,7 +64,6 @@ std::optional<MonotonicTime> Publisher::next_due() const {
 }
 
 bool Publisher::destination_ready() {
-    if (!is_due("")) return false;
     if (auto ready = destination_.check(); !ready) {
         remember("", ready.error());
         return false;
@@ -76,8 +80,8 @@ bool Publisher::is_due(const std::string& run_id) const {
 // ended in between) only needs to be moved.
 Result<void> Publisher::publish(const std::string& run_id) {
     AXISCAL_TRY(auto entry, read_entry(settings_.outbox, run_id));
-    const Progress progress = [this] { listener_.progress(); };
-    AXISCAL_TRY(const auto receipt, deliver_entry(entry, destination_, clock_.utc_ns(), progress));
+    const Delivery delivery{destination_, mark_, [this] { listener_.progress(); }};
+    AXISCAL_TRY(const auto receipt, deliver_entry(entry, delivery, clock_.utc_ns()));
     if (receipt) {
         // Only what arrived proves that the destination is back: a full disk passes its check.
         if (troubles_.erase("") > 0) listener_.destination_back();

@@ -7,17 +7,30 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace axiscal {
 
+/// Publishes entries of a list beside its owner (SecondHand); may leave any as it was.
+class Helper {
+public:
+    Helper() = default;
+    virtual ~Helper() = default;
+    Helper(const Helper&) = delete;
+    Helper& operator=(const Helper&) = delete;
+    /// Index of an entry that is the owner's from now on; empty when each has somebody.
+    virtual std::optional<std::size_t> claim() = 0;
+    /// Until it has done what it claimed.
+    virtual void wait() = 0;
+};
+
 struct PublisherSettings {
     std::string outbox;
     Duration retry = std::chrono::seconds{5}; ///< first pause; doubles up to sixteen times that
-    /// Begins with these entries beside the caller and answers how to wait for its end
-    /// (SecondHand). It may leave any entry as it was.
-    using Beginner = std::function<std::function<void()>(const std::vector<std::string>&)>;
+    /// May answer null. Called before anything is said to the destination in that pass.
+    using Beginner = std::function<std::unique_ptr<Helper>(const std::vector<std::string>&)>;
     Beginner second_hand = nullptr; ///< null: one hand does all
 };
 
@@ -66,13 +79,14 @@ private:
         Duration pause{};
         MonotonicTime due{};
     };
-    struct Shares {
-        std::vector<std::string> own, others;
-    };
     bool destination_ready();
-    [[nodiscard]] Shares shared_out(const std::vector<std::string>& run_ids) const;
-    /// @returns false when the pass ends here: the destination is lost, or the listener says stop.
+    [[nodiscard]] std::unique_ptr<Helper>
+    second_hand_for(const std::vector<std::string>& run_ids) const;
+    // Each returns false when the pass ends here: the destination is lost, or the listener says
+    // stop.
+    bool publish_beside(Helper& hand, const std::vector<std::string>& run_ids);
     bool publish_all(const std::vector<std::string>& run_ids);
+    bool attend_to(const std::string& run_id);
     [[nodiscard]] bool is_due(const std::string& run_id) const;
     Result<void> publish(const std::string& run_id);
     void remember(const std::string& run_id, const Error& why);
@@ -81,6 +95,7 @@ private:
     PublisherClock clock_;
     Destination& destination_;
     PublisherListener& listener_;
+    std::string mark_;                        ///< of the outbox, as this pass found it
     std::map<std::string, Trouble> troubles_; ///< by run id; "" is the destination
 };
 

@@ -22,10 +22,8 @@ constexpr std::size_t mark_digits = 8;
 /// One entry on its way.
 struct Journey {
     const OutboxEntry& entry;
-    Destination& destination;
-    const Progress& progress;
+    const Delivery& delivery;
     std::vector<PublishedFile> files;
-    std::string mark;
 };
 
 Result<std::vector<PublishedFile>> describe_files(const OutboxEntry& entry,
@@ -55,9 +53,10 @@ bool same_name(const std::string& one, const std::string& other) {
 Result<void>
 sweep(const Journey& journey, const std::string& folder, const std::vector<std::string>& names) {
     for (const auto& file : journey.files) {
-        const auto part = part_name(file.name, journey.mark);
+        const auto part = part_name(file.name, journey.delivery.mark);
         if (std::ranges::find(names, part) != names.end())
-            AXISCAL_CHECK(journey.destination.remove_file((fs::path{folder} / part).string()));
+            AXISCAL_CHECK(
+                journey.delivery.destination.remove_file((fs::path{folder} / part).string()));
     }
     return {};
 }
@@ -66,7 +65,7 @@ sweep(const Journey& journey, const std::string& folder, const std::vector<std::
 using Missing = std::optional<std::vector<PublishedFile>>;
 
 Result<Missing> missing_in(const Journey& journey, const std::string& folder) {
-    auto names = journey.destination.names_in(folder);
+    auto names = journey.delivery.destination.names_in(folder);
     if (!names && names.error().fault == Fault::refused) return Missing{};
     if (!names) return tl::unexpected<Error>(names.error());
     AXISCAL_CHECK(sweep(journey, folder, *names));
@@ -79,7 +78,8 @@ Result<Missing> missing_in(const Journey& journey, const std::string& folder) {
             continue;
         }
         if (*there != file.name) return Missing{};
-        const auto hash = journey.destination.sha256_of(folder + "/" + file.name, journey.progress);
+        const auto hash = journey.delivery.destination.sha256_of(folder + "/" + file.name,
+                                                                 journey.delivery.progress);
         if (!hash && hash.error().fault != Fault::refused)
             return tl::unexpected<Error>(hash.error());
         if (!hash || *hash != file.sha256) return Missing{};
@@ -97,26 +97,26 @@ Result<Place> choose_folder(const Journey& journey) {
     for (int copy = 1; copy <= most_folders; ++copy) {
         auto folder = journey.entry.run_id;
         if (copy > 1) folder += "-" + std::to_string(copy);
-        AXISCAL_TRY(const bool made, journey.destination.make_folder(folder));
+        AXISCAL_TRY(const bool made, journey.delivery.destination.make_folder(folder));
         if (made) return Place{std::move(folder), journey.files};
         AXISCAL_TRY(auto missing, missing_in(journey, folder));
         if (missing) return Place{std::move(folder), *std::move(missing)};
     }
-    return fail(Fault::refused, journey.destination.place() + " is full of other runs named " +
-                                    journey.entry.run_id);
+    return fail(Fault::refused, journey.delivery.destination.place() +
+                                    " is full of other runs named " + journey.entry.run_id);
 }
 
 // Read back under the temporary name, so that no wrong byte ever bears the final one.
 Result<void>
 copy_file(const Journey& journey, const PublishedFile& file, const std::string& folder) {
-    const auto part = folder + "/" + part_name(file.name, journey.mark);
+    const auto part = folder + "/" + part_name(file.name, journey.delivery.mark);
     AXISCAL_TRY(const auto read_back,
-                journey.destination.write_and_read_back(journey.entry.folder + "/" + file.name,
-                                                        part, journey.progress));
+                journey.delivery.destination.write_and_read_back(
+                    journey.entry.folder + "/" + file.name, part, journey.delivery.progress));
     if (read_back != file.sha256)
-        return fail(Fault::checksum, journey.destination.place() + "/" + part +
+        return fail(Fault::checksum, journey.delivery.destination.place() + "/" + part +
                                          " came back from the share with other content");
-    return journey.destination.move_to_free_name(part, folder + "/" + file.name);
+    return journey.delivery.destination.move_to_free_name(part, folder + "/" + file.name);
 }
 
 Result<void> copy_missing(const Journey& journey, const Place& place) {
@@ -140,26 +140,21 @@ Result<std::string> fill_folder(const Journey& journey) {
 
 } // namespace
 
-Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
-                                  Destination& destination,
-                                  std::int64_t utc_ns,
-                                  const Progress& progress) {
-    AXISCAL_TRY(auto files, describe_files(entry, progress));
-    Journey journey{entry, destination, progress, std::move(files),
-                    mark_of(folder_of(entry.folder))};
+Result<PublishReceipt>
+copy_entry(const OutboxEntry& entry, const Delivery& delivery, std::int64_t utc_ns) {
+    AXISCAL_TRY(auto files, describe_files(entry, delivery.progress));
+    Journey journey{entry, delivery, std::move(files)};
     AXISCAL_TRY(const auto folder, fill_folder(journey));
-    AXISCAL_CHECK(destination.sync_folder(folder));
-    AXISCAL_CHECK(destination.sync_folder(""));
-    return PublishReceipt{entry.run_id, destination.place() + "/" + folder, iso8601_utc(utc_ns),
-                          std::move(journey.files)};
+    AXISCAL_CHECK(delivery.destination.sync_folder(folder));
+    AXISCAL_CHECK(delivery.destination.sync_folder(""));
+    return PublishReceipt{entry.run_id, delivery.destination.place() + "/" + folder,
+                          iso8601_utc(utc_ns), std::move(journey.files)};
 }
 
-Result<std::optional<PublishReceipt>> deliver_entry(OutboxEntry& entry,
-                                                    Destination& destination,
-                                                    std::int64_t utc_ns,
-                                                    const Progress& progress) {
+Result<std::optional<PublishReceipt>>
+deliver_entry(OutboxEntry& entry, const Delivery& delivery, std::int64_t utc_ns) {
     if (entry.has_receipt) return std::nullopt;
-    AXISCAL_TRY(auto receipt, copy_entry(entry, destination, utc_ns, progress));
+    AXISCAL_TRY(auto receipt, copy_entry(entry, delivery, utc_ns));
     AXISCAL_CHECK(write_receipt(entry, receipt));
     entry.has_receipt = true;
     return std::optional{std::move(receipt)};

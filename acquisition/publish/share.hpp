@@ -24,6 +24,13 @@ struct PublishReceipt {
     std::vector<PublishedFile> files;
 };
 
+/// How entries of one outbox travel.
+struct Delivery {
+    Destination& destination;
+    std::string mark; ///< mark_of() that outbox
+    Progress progress = {};
+};
+
 /// Every file of the entry is at the destination under its final name, written once, flushed, read
 /// back and equal by SHA-256. A file appears only whole (before: .<name>.<mark>.part, the mark
 /// being this station's own: nobody else's is touched, and a stale one is swept). What lies there
@@ -32,17 +39,13 @@ struct PublishReceipt {
 /// the other content came while we wrote. Calling again after any interruption goes on.
 /// @errors share_lost() when nothing can be published now; Fault::io with the path and what to
 /// do; Fault::checksum when the share gives back other bytes.
-Result<PublishReceipt> copy_entry(const OutboxEntry& entry,
-                                  Destination& destination,
-                                  std::int64_t utc_ns,
-                                  const Progress& progress = {});
+Result<PublishReceipt>
+copy_entry(const OutboxEntry& entry, const Delivery& delivery, std::int64_t utc_ns);
 
 /// Copies an entry that has no receipt and writes it into the entry; then it may be archived.
 /// Returns the receipt; none where one lay there already. @errors of both.
-Result<std::optional<PublishReceipt>> deliver_entry(OutboxEntry& entry,
-                                                    Destination& destination,
-                                                    std::int64_t utc_ns,
-                                                    const Progress& progress = {});
+Result<std::optional<PublishReceipt>>
+deliver_entry(OutboxEntry& entry, const Delivery& delivery, std::int64_t utc_ns);
 
 /// Writes receipt.json into the entry, synced.
 Result<void> write_receipt(const OutboxEntry& entry, const PublishReceipt& receipt);

@@ -120,6 +120,7 @@ Result<void> SmbDestination::open_session() {
     auto session = std::make_unique<Session>(*std::move(account), settings_);
     if (!*session) return fail_io("cannot begin with", smb_library_name());
     session_ = std::move(session);
+    session_used_ = false;
     forbid_readable_frames(settings_.require_encryption);
     return {};
 }
@@ -136,11 +137,16 @@ SmbDestination::refused(const std::string& what, const std::string& path, int er
     return fail_io(what, place() + "/" + path, error);
 }
 
+// Where the account cannot be read check() tells it.
+bool SmbDestination::prepare() {
+    return open_session() && !session_used_;
+}
+
 // A session that was open may have died unseen: one call more tells a dead session from a dead
 // server.
 Result<void> SmbDestination::check() {
-    const bool had_session = session_ != nullptr;
     AXISCAL_CHECK(open_session());
+    const bool used_before = std::exchange(session_used_, true);
     struct stat status {};
     SMBCCTX* const context = session_->context();
     const WireCount before = smb_frames();
@@ -152,7 +158,7 @@ Result<void> SmbDestination::check() {
         return lost(EPROTO); // whatever that was, it was not seen to be encrypted
     if (there && S_ISDIR(status.st_mode)) return {};
     const int error = there ? ENOENT : held_back ? EPROTO : answer;
-    if (!had_session) return lost(error);
+    if (!used_before) return lost(error);
     session_.reset();
     return check();
 }

@@ -31,6 +31,7 @@ public:
     SmbDestination(const SmbDestination&) = delete;
     SmbDestination& operator=(const SmbDestination&) = delete;
     [[nodiscard]] std::string place() const override;
+    bool prepare() override;
     Result<void> check() override;
     Result<bool> make_folder(const std::string& path) override;
     Result<std::vector<std::string>> names_in(const std::string& folder) override;
@@ -39,8 +40,9 @@ public:
     Result<std::string> write_and_read_back(const std::string& source,
                                             const std::string& path,
                                             const Progress& progress) override;
-    /// By the server's own rename, which refuses a name that is taken. On a share of a DFS namespace
-    /// by a look before it: what is made between the two, of the order of a millisecond, is not seen.
+    /// By the server's own rename, which refuses a name that is taken. On a share of a DFS
+    /// namespace by a look before it: what is made between the two, of the order of a millisecond,
+    /// is not seen.
     Result<void> move_to_free_name(const std::string& from, const std::string& to) override;
     Result<void> remove_file(const std::string& path) override;
     Result<void> sync_folder(const std::string& path) override;
@@ -61,6 +63,7 @@ private:
     SmbSettings settings_;
     std::string root_url_;
     std::unique_ptr<Session> session_;
+    bool session_used_ = false; ///< something was said to the server in it
     bool session_lost_ = false;
     bool looks_before_renames_ = false; ///< seen: this share asks more than a rename
 };

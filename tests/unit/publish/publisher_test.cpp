@@ -61,23 +61,50 @@ private:
     FolderDestination folder_;
 };
 
+/// What second hands did: claims every other entry, and ends when it is waited for.
+struct SecondsWork {
+    class Hand final : public Helper {
+    public:
+        Hand(SecondsWork& work, std::vector<std::string> run_ids)
+            : work_{work}
+            , run_ids_{std::move(run_ids)} {}
+        ~Hand() override { ++work_.ended; }
+        std::optional<std::size_t> claim() override {
+            if (next_ % 2 == 1) claim_of_the_second();
+            return next_ < run_ids_.size() ? std::optional{next_++} : std::nullopt;
+        }
+        void wait() override {
+            ++work_.waited_for;
+            for (const std::string& run_id : work_.claimed)
+                if (work_.does) work_.does(run_id);
+        }
+
+    private:
+        void claim_of_the_second() {
+            if (next_ < run_ids_.size()) work_.claimed.push_back(run_ids_[next_++]);
+        }
+        SecondsWork& work_;
+        std::vector<std::string> run_ids_;
+        std::size_t next_ = 0;
+    };
+    std::unique_ptr<Helper> begin(const std::vector<std::string>& run_ids) {
+        ++begun;
+        return std::make_unique<Hand>(*this, run_ids);
+    }
+    int begun = 0, waited_for = 0, ended = 0;
+    std::vector<std::string> claimed;
+    std::function<void(const std::string&)> does; ///< with each of them
+};
+
 struct Post {
     ScratchFolder scratch;
     std::string outbox = scratch.file("outbox"), destination = scratch.file("share");
     Heard heard;
     int second = 0;
     ShakyDestination share{destination};
-    std::vector<std::string> handed;                     ///< to the second hand
-    std::function<void(const std::string&)> second_does; ///< with each of them
-    std::function<void()> begin_second(const std::vector<std::string>& run_ids) {
-        handed = run_ids;
-        return [this] {
-            for (const std::string& run_id : handed)
-                if (second_does) second_does(run_id);
-        };
-    }
+    SecondsWork second_hand;
     Publisher publisher{{outbox, std::chrono::seconds{1},
-                         [this](const auto& run_ids) { return begin_second(run_ids); }},
+                         [this](const auto& run_ids) { return second_hand.begin(run_ids); }},
                         {[this] { return MonotonicTime{std::chrono::seconds{second}}; },
                          [] { return std::int64_t{0}; }},
                         share,
@@ -171,36 +198,54 @@ Lines many(Post& post, int count) {
     return run_ids;
 }
 
-TEST(Publisher, HandsEveryOtherOfManyEntriesToASecondHand) {
+TEST(Publisher, LeavesASecondHandWhatItClaims) {
     Post post;
     const Lines all = many(post, 17);
-    Lines own;
-    post.second_does = [&](const std::string& run_id) {
+    post.second_hand.does = [&](const std::string& run_id) {
         std::filesystem::remove_all(post.outbox + "/" + run_id);
     };
     EXPECT_EQ(post.pass_at(0), 0U);
-    ASSERT_EQ(post.handed.size(), 8U);
-    for (std::size_t i = 0; i < 8; ++i)
-        EXPECT_EQ(post.handed[i], all[2 * i + 1]);
-    for (std::size_t i = 0; i < 17; i += 2)
-        own.push_back("published " + all[i]);
+    Lines own, claimed;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        (i % 2 == 0 ? own : claimed).push_back((i % 2 == 0 ? "published " : "") + all[i]);
+    EXPECT_EQ(post.second_hand.claimed, claimed);
     EXPECT_EQ(post.heard.lines, own);
+    EXPECT_EQ(post.second_hand.waited_for, 1);
 }
 
 TEST(Publisher, DoesItselfWhatTheSecondHandLeaves) {
     Post post;
     many(post, 16);
     EXPECT_EQ(post.pass_at(0), 0U);
-    EXPECT_EQ(post.handed.size(), 8U);
+    EXPECT_EQ(post.second_hand.claimed.size(), 8U);
     EXPECT_EQ(post.heard.lines.size(), 16U);
     EXPECT_EQ(post.heard.lines.back(), "published run-115");
+}
+
+TEST(Publisher, ClaimsNoMoreOnceTheShareIsLostButWaitsForTheSecondHand) {
+    Post post;
+    many(post, 20);
+    post.share.answer = share_lost("frozen").value();
+    EXPECT_EQ(post.pass_at(0), 20U);
+    EXPECT_EQ(post.share.writes, 1);
+    EXPECT_EQ(post.second_hand.waited_for, 1);
+}
+
+TEST(Publisher, EndsTheSecondHandWhereTheDestinationIsNotThere) {
+    Post post;
+    many(post, 16);
+    std::filesystem::remove_all(post.destination);
+    EXPECT_EQ(post.pass_at(0), 16U);
+    EXPECT_EQ(post.second_hand.begun, 1);
+    EXPECT_EQ(post.second_hand.ended, 1);
+    EXPECT_EQ(post.second_hand.waited_for, 0);
 }
 
 TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
     Post few;
     many(few, 15);
     EXPECT_EQ(few.pass_at(0), 0U);
-    EXPECT_TRUE(few.handed.empty());
+    EXPECT_EQ(few.second_hand.begun, 0);
     Post troubled;
     std::filesystem::create_directories(troubled.outbox + "/empty");
     many(troubled, 4);
@@ -208,7 +253,7 @@ TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
     for (int run = 200; run < 230; ++run)
         ASSERT_TRUE(stage_entry(troubled.outbox, "run-" + std::to_string(run), {{"a", "x"}}));
     EXPECT_EQ(troubled.pass_at(1), 1U);
-    EXPECT_TRUE(troubled.handed.empty());
+    EXPECT_EQ(troubled.second_hand.begun, 0);
 }
 
 } // namespace

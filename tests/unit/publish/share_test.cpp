@@ -40,7 +40,7 @@ struct Share {
     }
     [[nodiscard]] Result<PublishReceipt> copy(const OutboxEntry& entry) const {
         FolderDestination folder{destination};
-        return copy_entry(entry, folder, published_at);
+        return copy_entry(entry, {folder, mark_of(outbox)}, published_at);
     }
     [[nodiscard]] std::string at(const std::string& name) const { return destination + "/" + name; }
 };
@@ -131,10 +131,11 @@ Result<PublishReceipt> copy_beside_somebody(const Share& share,
                                             const std::string& there,
                                             const std::string& path) {
     FolderDestination folder{share.destination};
-    return copy_entry(entry, folder, published_at, [&] {
+    const Progress somebody = [&] {
         if (std::filesystem::exists(there) && !std::filesystem::exists(path))
             write_bytes(path, "theirs");
-    });
+    };
+    return copy_entry(entry, {folder, mark_of(share.outbox), somebody}, published_at);
 }
 
 TEST(Share, GoesAroundANameThatIsTakenWhileItWrites) {
@@ -195,7 +196,8 @@ private:
 TEST(Share, GivesNoFinalNameToBytesThatCameBackWrong) {
     const Share share;
     ForgetfulDestination forgetful{"other bytes"};
-    const auto copied = copy_entry(share.entry({{"a", "ours"}}), forgetful, published_at);
+    const auto copied =
+        copy_entry(share.entry({{"a", "ours"}}), {forgetful, mark_of(share.outbox)}, published_at);
     EXPECT_EQ(copied.error().fault, Fault::checksum);
     EXPECT_TRUE(forgetful.renamed.empty());
 }
@@ -204,7 +206,8 @@ TEST(Share, TellsOfANameThatIsTakenEachTimeInsteadOfWritingForEver) {
     const Share share;
     ForgetfulDestination forgetful{"ours"};
     forgetful.every_name_is_taken = true;
-    const auto copied = copy_entry(share.entry({{"a", "ours"}}), forgetful, published_at);
+    const auto copied =
+        copy_entry(share.entry({{"a", "ours"}}), {forgetful, mark_of(share.outbox)}, published_at);
     EXPECT_EQ(copied.error().fault, Fault::refused);
     EXPECT_EQ(copied.error().detail, "run-1/a exists already");
     EXPECT_EQ(forgetful.renamed.size(), 3U);
@@ -216,9 +219,11 @@ bool killed_while_copying(const Share& share, const OutboxEntry& entry, int kill
     if (pid == 0) {
         int calls = 0;
         FolderDestination folder{share.destination};
-        const auto copied = copy_entry(entry, folder, published_at, [&] {
+        const Progress killer = [&] {
             if (++calls == kill_at) ::kill(::getpid(), SIGKILL);
-        });
+        };
+        const auto copied =
+            copy_entry(entry, {folder, mark_of(share.outbox), killer}, published_at);
         ::_exit(copied ? 0 : 1);
     }
     int status = 0;
