@@ -78,6 +78,9 @@ public:
         ::kill(pid_, SIGKILL); // nobody waited for it: the destination is lost
         reap();
     }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
     std::optional<std::size_t> claim() override { return claims_.next(); }
     void wait() override {
         while (hears_from(*line_))
