@@ -60,6 +60,22 @@ def wrong_password():
         site.expect_all_published()
 
 
+@sentence("AWrongPasswordIsTriedOnceByEachHand")
+def wrong_password_of_two_hands():
+    """A server counts tries, and locks the account after some."""
+    for results, most in ((1, 1), (20, 2)):
+        with Site(PROGRAM) as site:
+            site.samba.start()
+            site.give_account("guessed")
+            for number in range(results):
+                site.stage(f"run-{number:02}")
+            words = [PROGRAM, "--outbox", site.outbox, "--to", site.samba.url, "--credentials", site.account, "--once"]
+            done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=90, check=False)
+            expect(done.returncode == 1 and len(site.waiting()) == results, f"{done.returncode}: {done.stderr}")
+            tries = (site.samba.home / "smbd.log").read_text(errors="replace").count("FAILED with error NT_STATUS_WRONG_PASSWORD")
+            expect(1 <= tries <= most, f"{results} results: {tries} tries of a wrong password")
+
+
 @sentence("AnAccountThatOthersMayReadIsRefused")
 def wide_account():
     with Site(PROGRAM) as site:
