@@ -2,15 +2,19 @@
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_face.hpp"
 #include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/signing_key.hpp"
 #include "acquisition/station/certificate_writer.hpp"
 #include "acquisition/station/station.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "config/version.hpp"
 #include "drivers/asio_scheduler.hpp"
+#include "drivers/boot_id.hpp"
 #include "drivers/cnc/trigger_ports.hpp"
 #include "drivers/link/line_writer.hpp"
 #include "drivers/link/link_opener.hpp"
 #include "drivers/link/service_manager.hpp"
 #include "drivers/spawn.hpp"
+#include "tools/describe/describe.hpp"
 
 #include <CLI/CLI.hpp>
 #include <boost/asio/as_tuple.hpp>
@@ -25,7 +29,6 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -36,13 +39,6 @@ namespace axiscal {
 namespace {
 
 enum ExitCode : int { exit_ok = 0, exit_failed = 1, exit_usage = 2, exit_refused = 3 };
-
-std::string boot_id() {
-    std::ifstream file{"/proc/sys/kernel/random/boot_id"};
-    std::string id;
-    std::getline(file, id);
-    return id;
-}
 
 /// Only one daemon may own a state directory. The lock goes with the process, however it ends.
 Result<int> lock_state(const std::string& folder) {
@@ -73,11 +69,14 @@ Task<void> feed_watchdog(Scheduler& scheduler) {
 }
 
 struct Daemon {
-    Daemon(LoadedStation loaded, std::unique_ptr<TriggerPort> port, std::string token)
-        : station{scheduler, links, parts_of(std::move(loaded), std::move(port))}
+    Daemon(LoadedStation loaded,
+           std::unique_ptr<TriggerPort> port,
+           std::string token,
+           StationKey key)
+        : station{scheduler, links, parts_of(std::move(loaded), std::move(port), std::move(key))}
         , console{scheduler, station, console_config, std::move(token)} {}
 
-    StationParts parts_of(LoadedStation loaded, std::unique_ptr<TriggerPort> port) {
+    StationParts parts_of(LoadedStation loaded, std::unique_ptr<TriggerPort> port, StationKey key) {
         StationParts parts;
         console_config = loaded.config.console;
         parts.config_hash = sha256_hex(loaded.config.text);
@@ -86,7 +85,9 @@ struct Daemon {
         parts.instruments = std::move(loaded.instruments);
         parts.tapes = std::move(loaded.tapes);
         parts.port = std::move(port);
-        parts.boot_id = boot_id();
+        parts.boot_id = read_boot_id();
+        parts.key = std::move(key);
+        parts.inhibit_program = "systemd-inhibit";
         parts.report_program = sibling_program("axiscal-report");
         return parts;
     }
@@ -170,7 +171,8 @@ int run(int argc, char** argv) {
     std::string config = "/etc/axiscal/station.toml";
     app.add_option("--config", config, "station file; 'axiscal check-config' reads it the same way")
         ->capture_default_str();
-    app.set_version_flag("--version", AXISCAL_VERSION);
+    app.set_version_flag("--version", software_version());
+    describe_on_request(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -188,12 +190,14 @@ int run(int argc, char** argv) {
     const Result<int> lock = lock_state(loaded->config.state_directory);
     auto token = lock ? load_or_make_token(loaded->config.state_directory + "/token")
                       : tl::unexpected<Error>(lock.error());
-    if (!token) {
-        spdlog::critical("{}", describe(token.error()));
+    auto key = token ? open_station_key(loaded->config.state_directory, read_machine_id())
+                     : tl::unexpected<Error>(token.error());
+    if (!key) {
+        spdlog::critical("{}", describe(key.error()));
         return exit_failed;
     }
     auto port = make_trigger_port(loaded->config.trigger);
-    Daemon daemon{*std::move(loaded), std::move(port), *std::move(token)};
+    Daemon daemon{*std::move(loaded), std::move(port), *std::move(token), *std::move(key)};
     return daemon.serve();
 }
 

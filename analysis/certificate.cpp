@@ -109,10 +109,8 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
     return remarks;
 }
 
-std::string place_of(const PlannedPoint& point) {
-    return "P" + std::to_string(point.target_index + 1) +
-           (point.direction == Direction::positive ? " ↑ " : " ↓ ") +
-           std::to_string(point.approach + 1);
+std::string approach_in_words(const PlannedPoint& point) {
+    return place_of(point.target_index, point.direction) + " " + std::to_string(point.approach + 1);
 }
 
 /// "3 readings were replaced ... (P2 ↑ 1, P3 ↑ 1: reason; ...)".
@@ -126,7 +124,7 @@ std::string listed(const std::vector<SetAside>& set_aside, bool superseded) {
         if (reading.superseded != superseded) continue;
         if (reading.reason != reason) flush();
         reason = reading.reason;
-        places += (places.empty() ? "" : ", ") + place_of(reading.planned);
+        places += (places.empty() ? "" : ", ") + approach_in_words(reading.planned);
     }
     flush();
     return text;
@@ -143,6 +141,13 @@ int fewest_readings(const RunAt20C& deviations) {
         for (const auto& row : *side)
             fewest = std::min(fewest, row.size());
     return static_cast<int>(fewest);
+}
+
+bool rows_are_equal(const RunAt20C& deviations) {
+    const auto n = static_cast<std::size_t>(fewest_readings(deviations));
+    const auto has_n = [n](const std::vector<double>& row) { return row.size() == n; };
+    return std::ranges::all_of(deviations.forward(), has_n) &&
+           std::ranges::all_of(deviations.backward(), has_n);
 }
 
 /// Axes above 2000 mm, or one turn, take one approach in each direction (ISO 230-2:2014, 4.3.4).
@@ -225,6 +230,20 @@ void fill_dates(Certificate& certificate) {
                                                            : run.statements.next_due;
 }
 
+/// Of a run that is still open: it ends, as far as anybody knows, with its last reading.
+ClockTie tie_of_last_point(const RunRecord& run) {
+    const auto last = std::ranges::max_element(run.points, {}, &PointRecord::window_end);
+    const MonotonicTime at = last->window_end;
+    return {at, tie_of_points(run.opened, run.events).utc_ns_at(at), at};
+}
+
+/// What a certificate alone may bear.
+void forgo_number(Certificate& certificate) {
+    certificate.run.statements.certificate_number.clear();
+    certificate.next_due.clear();
+    if (certificate.run.uncertainty) certificate.run.uncertainty->targets.clear();
+}
+
 /// Appends figures in the form of canonical_bytes(). Pure.
 class CanonicalWriter {
 public:
@@ -256,14 +275,13 @@ Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256)
 
 Result<Certificate>
 make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256) {
-    if (!run.complete)
-        return fail(Fault::incomplete_run,
-                    "the run was not closed as complete" +
-                        (run.closing_reason.empty() ? std::string{} : ": " + run.closing_reason));
     AXISCAL_TRY(Compensated compensated, compensate_to_20C(run, revisions));
+    if (!run.complete && run.closed.utc_ns == 0) run.closed = tie_of_last_point(run);
     const Duration clock_off =
         tell_times_by_one_clock(run.opened, run.events, revisions.retakes, run.closed);
+    tell_orders_by_one_clock(run.opened, run.events, revisions.orders);
     PositioningResult result = evaluate_positioning(compensated.deviations);
+    withhold_from_partial(result, compensated.deviations, run.plan, compensated.completeness);
     Certificate certificate{std::move(run),
                             std::move(result),
                             std::move(compensated.deviations),
@@ -281,21 +299,27 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
                             {},
                             std::move(revisions),
                             std::move(compensated.set_aside),
+                            std::move(compensated.completeness),
+                            std::move(compensated.targets),
                             {}};
     fill_environment(certificate);
     fill_dates(certificate);
-    certificate.remarks = remarks_on(certificate.run, certificate.compensation);
+    if (certificate.completeness.partial()) forgo_number(certificate);
+    certificate.remarks = remarks_on_completeness(certificate.run, certificate.completeness);
+    for (std::string& remark : remarks_on(certificate.run, certificate.compensation))
+        certificate.remarks.push_back(std::move(remark));
     if (std::string remark = remark_on_clock(clock_off); !remark.empty())
         certificate.remarks.push_back(std::move(remark));
     remark_on_revisions(certificate, certificate.remarks);
     remark_on_number_of_readings(certificate, certificate.remarks);
     remark_on_preflight(certificate.revisions.preflight, certificate.remarks);
     remark_on_calibrations(certificate.run, certificate.remarks);
-    certificate.uncertainty = uncertainty_of(certificate.run, certificate.result.cover_factor,
-                                             fewest_readings(certificate.deviations));
-    if (excluded_readings(certificate.set_aside) == 0) // the simulation draws n of each
+    certificate.uncertainty =
+        uncertainty_of(certificate.run, certificate.result.cover_factor,
+                       {fewest_readings(certificate.deviations), certificate.completeness.targets});
+    if (excluded_readings(certificate.set_aside) == 0 && rows_are_equal(certificate.deviations))
         simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
-                     certificate.result);
+                     certificate.result); // draws the same n of each
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);

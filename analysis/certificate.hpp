@@ -2,6 +2,7 @@
 // Everything a certificate prints, computed once from a closed run. Rendering only formats it.
 // Pure.
 
+#include "analysis/completeness.hpp"
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
@@ -52,12 +53,19 @@ struct Certificate {
     RunUncertainty uncertainty;
     RunRevisions revisions;
     std::vector<SetAside> set_aside; ///< drawn, listed and counted; in no figure
+    /// Partial: the statements then bear no certificate number, nothing falls due, no target of U
+    /// is judged.
+    Completeness completeness;
+    std::vector<double> planned_targets; ///< all of the plan, also those in no figure: mm or deg
     RunAttachments attachments;      ///< of the same file; left empty by make_certificate()
+    /// The certificate that this one replaces; left empty by make_certificate(), and for the first.
+    std::string replaces = {};
 };
 
-/// The whole road from a closed run to its certificate.
-/// @errors Fault::incomplete_run (also when the run was not closed as complete), and those of
-/// compensate_to_20C().
+/// The whole road from a run to its certificate. Of a run that was not closed as complete
+/// (RunRecord::complete) to its partial result: each target and direction counts with the n
+/// readings it has.
+/// @errors those of compensate_to_20C(): Fault::incomplete_run where no figure can be made.
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256);
 Result<Certificate>
 make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256);

@@ -45,6 +45,11 @@ bool begins_another_boot(const EventRecord& event) {
            event.text.find(computer_restarted) != std::string::npos;
 }
 
+std::string restart_in_words(const BootId& earlier, const BootId& later) {
+    const bool certain = earlier.known() && later.known();
+    return std::string{certain ? "" : "nobody can tell whether "}.append(computer_restarted);
+}
+
 Duration tell_times_by_one_clock(const ClockTie& opened,
                                  std::vector<EventRecord>& events,
                                  std::vector<RetakeRecord>& retakes,
@@ -60,6 +65,18 @@ Duration tell_times_by_one_clock(const ClockTie& opened,
         put_on(of_points, retake.at, retake.utc_ns, farthest);
     put_on(tie, closed.before, closed.utc_ns, farthest);
     return farthest;
+}
+
+void tell_orders_by_one_clock(const ClockTie& opened,
+                              const std::vector<EventRecord>& events,
+                              std::vector<OrderRecord>& orders) {
+    const ClockTie of_points = tie_of_points(opened, events);
+    Duration ignored{}; // the events tell how far the clock was off
+    for (OrderRecord& order : orders) {
+        const bool at_the_opening =
+            order.kind == "arm" || order.kind == "override" || order.kind == "drift";
+        put_on(at_the_opening ? opened : of_points, order.at, order.utc_ns, ignored);
+    }
 }
 
 ClockTie tie_of_points(const ClockTie& opened, const std::vector<EventRecord>& events) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a run file holds, as plain values: the only input of the analysis. Pure data.
 
+#include "analysis/quantity/boot_id.hpp"
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
@@ -256,7 +257,7 @@ struct RunRecord {
     std::string software_version;
     std::string station, station_config; ///< name; the station file's text, whole
     std::string config_hash;             ///< SHA-256 of station_config
-    std::string boot_id;
+    BootId boot_id;                      ///< of the computer when the run was opened
     ClockTie opened, closed;
     bool complete = false; ///< closed with every planned point
     std::string closing_reason;

@@ -5,6 +5,7 @@
 #include "analysis/run_record.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,12 +42,33 @@ struct ExclusionRecord {
     std::string reason;
 };
 
+/// Who asked for something: what the door of the daemon knows of him, and the name that he gave.
+struct Orderer {
+    std::string door;                ///< "socket", "token"; empty: not known
+    std::optional<std::int64_t> uid; ///< of the process at the other end of the socket
+    std::string user;                ///< its name on this computer, where it has one there
+    std::string name;                ///< as given; nobody proves it
+};
+
+/// An order of a person that decides about a run.
+struct OrderRecord {
+    std::string kind;  ///< "arm", "override", "retake", "exclude", "abort", "drift"
+    std::string about; ///< the check that was overridden, the number of the retake; often empty
+    MonotonicTime at;
+    std::int64_t utc_ns = 0;
+    Orderer by;
+};
+
+/// "Jo Miller (user jo, uid 1000)", "user jo, uid 1000", "Jo Miller (token)", "not known".
+std::string in_words(const Orderer& by);
+
 struct RunRevisions {
     std::vector<PreflightRecord> preflight;
     std::vector<RetakeRecord> retakes;
     std::vector<ExclusionRecord> exclusions;
     std::vector<PointRecord> superseded; ///< replaced by RunRecord::points; by planned step, oldest
                                          ///< first
+    std::vector<OrderRecord> orders;     ///< as they were given
     int closings = 0;                    ///< a run that was added to is closed again
 };
 

@@ -1,13 +1,13 @@
 #include "analysis/thermal_compensation.hpp"
 
 #include "analysis/air_refraction.hpp"
+#include "analysis/completeness.hpp"
 #include "analysis/environment_history.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "analysis/run_at_20C_maker.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
@@ -242,15 +242,12 @@ void add_to_summary(CompensationSummary& summary, const CompensatedPoint& point,
         std::max(summary.largest_material_correction, material_mm);
 }
 
-DeviationTable empty_table_of(const RunPlan& plan) {
-    DeviationTable table;
-    if (plan.axis_kind == AxisKind::rotary) table.unit = "deg";
+std::vector<double> targets_as_given(const RunPlan& plan) {
+    std::vector<double> targets;
+    targets.reserve(plan.targets.size());
     for (const Length target : plan.targets)
-        table.targets.push_back(millimetres_as_given(target));
-    const std::vector<double> row(static_cast<std::size_t>(plan.approaches));
-    table.forward.assign(plan.targets.size(), row);
-    if (plan.bidirectional) table.backward.assign(plan.targets.size(), row);
-    return table;
+        targets.push_back(millimetres_as_given(target));
+    return targets;
 }
 
 /// Every cell of the table is planned exactly once, and nothing else is.
@@ -279,7 +276,8 @@ Result<void> check_cells(const RunPlan& plan) {
 
 /// The datum of a run that may be compensated.
 Result<const DatumRecord*> checked_datum_of(const RunRecord& run) {
-    for (const auto& check : {check_complete(run), check_setup(run), check_cells(run.plan)})
+    const auto points = run.complete ? check_complete(run) : check_points(run);
+    for (const auto& check : {points, check_setup(run), check_cells(run.plan)})
         if (!check) return tl::unexpected(check.error());
     const std::string& id = run.points.front().datum_id;
     const auto datum = std::ranges::find(run.datums, id, &DatumRecord::id);
@@ -288,16 +286,6 @@ Result<const DatumRecord*> checked_datum_of(const RunRecord& run) {
     if (!std::isfinite(datum->reading.si()) || !std::isfinite(datum->coordinate.si()))
         return fail(Fault::bad_run_file, "the datum '" + id + "' is not a number");
     return &*datum;
-}
-
-void place(DeviationTable& table, const PlannedPoint& planned, double deviation) {
-    auto& rows = planned.direction == Direction::positive ? table.forward : table.backward;
-    rows[static_cast<std::size_t>(planned.target_index)]
-        [static_cast<std::size_t>(planned.approach)] = deviation;
-}
-
-std::vector<std::vector<double>>& side_of(DeviationTable& table, Direction direction) {
-    return direction == Direction::positive ? table.forward : table.backward;
 }
 
 /// Why a reading was replaced: the first retake after it that names its point.
@@ -319,23 +307,6 @@ std::string reason_of_replacement(const RunRevisions& revisions, const PointReco
     const ExclusionRecord* exclusion = exclusion_of(revisions, point);
     return reason_of_retake(revisions, point) +
            (exclusion != nullptr ? " (excluded before: " + exclusion->reason + ")" : "");
-}
-
-/// Takes excluded readings out of their rows, the last approach of a row first.
-Result<void> leave_out(DeviationTable& table, const std::vector<SetAside>& set_aside) {
-    std::vector<PlannedPoint> excluded;
-    for (const SetAside& reading : set_aside)
-        if (!reading.superseded) excluded.push_back(reading.planned);
-    std::ranges::sort(excluded, std::greater{}, &PlannedPoint::approach);
-    for (const PlannedPoint& point : excluded) {
-        auto& row = side_of(table, point.direction)[static_cast<std::size_t>(point.target_index)];
-        row.erase(row.begin() + point.approach);
-        if (row.empty())
-            return fail(Fault::incomplete_run,
-                        "every reading of target " + std::to_string(point.target_index + 1) + ", " +
-                            std::string{name_of(point.direction)} + " direction, is excluded");
-    }
-    return {};
 }
 
 } // namespace
@@ -375,13 +346,11 @@ Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& 
     Compensation compensation{run, *datum};
     if (auto tied = compensation.tie_datum(); !tied) return tl::unexpected(tied.error());
     CompensationSummary summary = summary_of_setup(run);
-    DeviationTable table = empty_table_of(run.plan);
     std::vector<SetAside> set_aside;
     for (const PointRecord& point : run.points) {
         AXISCAL_TRY(const CompensatedPoint compensated, compensation.apply(point));
         const auto index = static_cast<std::size_t>(point.planned.target_index);
         add_to_summary(summary, compensated, run.plan.targets[index]);
-        place(table, point.planned, summary.after.back());
         if (const ExclusionRecord* exclusion = exclusion_of(revisions, point))
             set_aside.push_back(
                 {point.planned, point.step, summary.after.back(), false, exclusion->reason});
@@ -395,13 +364,15 @@ Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& 
     }
     std::ranges::stable_sort(set_aside, {},
                              [](const SetAside& reading) { return reading.planned.step; });
-    AXISCAL_CHECK(leave_out(table, set_aside));
+    std::vector<double> targets = targets_as_given(run.plan);
+    AXISCAL_TRY(UsableReadings usable,
+                usable_readings(run, revisions, summary.after, targets, run.rotary ? "deg" : "mm"));
     for (const std::string& remark : compensation.remarks())
         summary.remarks.push_back(remark);
     const std::string provenance =
         run.rotary ? "none_needed: an angle does not expand" : "compensated_to_20C";
-    return Compensated{RunAt20CMaker::make(std::move(table), provenance), std::move(summary),
-                       std::move(set_aside)};
+    return Compensated{RunAt20CMaker::make(std::move(usable.table), provenance), std::move(summary),
+                       std::move(set_aside), std::move(usable.completeness), std::move(targets)};
 }
 
 } // namespace axiscal

@@ -2,6 +2,7 @@
 // From readings in vacuum wavelengths, or of a linear scale, to deviations at 20 degC: the only
 // road from a run to metrics. Pure.
 
+#include "analysis/completeness.hpp"
 #include "analysis/positioning_accuracy.hpp"
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/result.hpp"
@@ -66,6 +67,8 @@ struct Compensated {
     RunAt20C deviations; ///< mm
     CompensationSummary summary;
     std::vector<SetAside> set_aside; ///< superseded and excluded readings, by plan order
+    Completeness completeness;
+    std::vector<double> targets; ///< of the whole plan, as they were given: mm or deg
 };
 
 /// Position = datum coordinate + sign * displacement at 20 degC since the datum; deviation =
@@ -84,8 +87,8 @@ struct Compensated {
 /// point's time and the artefact at the position of its target; nothing expands, unit "deg".
 Result<Compensated> compensate_to_20C(const RunRecord& run);
 /// Excluded readings enter no row: rows then hold the readings that remain, in the order of their
-/// approaches. @errors also Fault::incomplete_run when no reading of a target and direction
-/// remains.
+/// approaches. A run that was not closed as complete gives what its readings allow: see
+/// usable_readings(). @errors also Fault::incomplete_run of usable_readings() and check_points().
 Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& revisions);
 
 } // namespace axiscal

@@ -70,6 +70,11 @@ Result<AddressRange> parse_address_range(const std::string& text) {
     return range;
 }
 
+bool any_covers(const std::vector<AddressRange>& ranges, const std::string& address) {
+    return std::ranges::any_of(
+        ranges, [&address](const AddressRange& range) { return range.covers(address); });
+}
+
 bool is_loopback(const std::string& address) {
     constexpr int first_byte = ipv4_offset_bits + 8;
     const auto parsed = parse_address(address);

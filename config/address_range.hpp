@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
@@ -21,6 +22,9 @@ struct AddressRange {
 /// @errors Fault::bad_configuration naming what is wrong: no address, a prefix that is too long, or
 /// bits set behind the prefix (a slip: "192.168.10.20/24").
 Result<AddressRange> parse_address_range(const std::string& text);
+
+/// Whether one of `ranges` covers `address`; of no ranges none does.
+bool any_covers(const std::vector<AddressRange>& ranges, const std::string& address);
 
 /// 127.0.0.0/8 and ::1.
 bool is_loopback(const std::string& address);

@@ -62,5 +62,7 @@ std::size_t edit_distance(std::string_view word, std::string_view other);
 /// The candidate that a slip of the finger explains (at most a third of its letters, or the rest
 /// left out); else empty.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+/// The end of a refusal: "; did you mean \"step\"?", or empty when no candidate is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace axiscal

@@ -1,5 +1,7 @@
 #include "config/settings_state.hpp"
 
+#include "analysis/quantity/valid_text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -63,7 +65,7 @@ std::string Settings::text(std::string_view key, const std::optional<std::string
     const TomlNode* value = impl_->ask(key);
     if (!value && !fallback) impl_->refuse_missing(key, "\"...\"");
     if (!value) return fallback.value_or("");
-    if (const auto* text = std::get_if<std::string>(&value->value)) return *text;
+    if (const auto* text = std::get_if<std::string>(&value->value)) return valid_text(*text);
     impl_->refuse_kind(key, *value, "a text", "\"...\"");
     return fallback.value_or("");
 }
@@ -81,7 +83,7 @@ std::string Settings::choice(std::string_view key,
     const std::string near = nearest_word(*text, allowed);
     impl_->refuse(key, quoted(*text) + " is not one of " + joined(allowed) +
                            (near.empty() ? "" : "; did you mean " + quoted(near) + "?"));
-    return first;
+    return near.empty() ? first : near; // what follows from it is judged by what was meant
 }
 
 std::int64_t Settings::integer(std::string_view key,
@@ -152,7 +154,8 @@ std::vector<std::string> Settings::texts(std::string_view key,
     const auto* items = std::get_if<TomlArray>(&value->value);
     std::vector<std::string> list;
     for (std::size_t i = 0; items && i < items->size(); ++i)
-        if (const auto* text = std::get_if<std::string>(&(*items)[i].value)) list.push_back(*text);
+        if (const auto* text = std::get_if<std::string>(&(*items)[i].value))
+            list.push_back(valid_text(*text));
     if (!items || list.size() != items->size())
         impl_->refuse_kind(key, *value, "a list of texts", example);
     return list;
@@ -186,6 +189,7 @@ std::vector<Settings> Settings::tables(std::string_view key) {
         sound = sound && std::holds_alternative<TomlTable>(item.value);
         const std::string path = joined_path(impl_->path, key) + "[" + std::to_string(i) + "]";
         impl_->state->asked.try_emplace(path);
+        impl_->state->entitle(path, key, item);
         tables.push_back(
             Settings{std::make_shared<Impl>(Impl{impl_->state, &item, path, item.line})});
     }

@@ -21,7 +21,7 @@ namespace axiscal {
 struct Refusal {
     std::string file;
     int line = 0;
-    std::string key;                            ///< "instrument[1].wavelength"
+    std::string key;                            ///< `instrument "laser".wavelength`
     std::string reason;                         ///< what is wrong and what would be right
     [[nodiscard]] std::string describe() const; ///< "file:line: key: reason"
 };
@@ -47,6 +47,7 @@ struct ChannelUncertainty {
 /// list.
 class Settings {
 public:
+    /// One line: an escaped control character becomes a space (valid_text).
     std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
     /// One of `allowed`; a near match is offered.
     std::string choice(std::string_view key,

@@ -65,7 +65,30 @@ std::string joined_path(std::string_view path, std::string_view key) {
 
 void SettingsDocument::State::refuse(std::string key, int line, std::string reason) {
     refused.insert(key);
-    refusals.push_back({name, line, std::move(key), std::move(reason)});
+    refusals.push_back({name, line, shown_key(key), std::move(reason)});
+}
+
+void SettingsDocument::State::entitle(const std::string& path,
+                                      std::string_view key,
+                                      const TomlNode& node) {
+    const TomlNode* said = find_entry(node, key == "channel" ? "channel" : "name");
+    const auto* words = said ? std::get_if<std::string>(&said->value) : nullptr;
+    if (words && !words->empty()) titles[path] = std::string{key} + " " + quoted(*words);
+}
+
+std::string SettingsDocument::State::shown_key(const std::string& key) const {
+    std::string shown, told;                   // the part of the key that `shown` stands for
+    for (const auto& [path, title] : titles) { // "a[0]" comes before "a[0].b[1]"
+        const bool holds = key == path || key.starts_with(path + ".");
+        if (!holds || !path.starts_with(told)) continue;
+        const auto last = path.rfind('.');
+        const std::string before = last == std::string::npos ? "" : path.substr(0, last);
+        const std::string above =
+            told.empty() ? before : shown + before.substr(std::min(told.size(), before.size()));
+        shown = joined_path(above, title);
+        told = path;
+    }
+    return shown + key.substr(told.size());
 }
 
 void SettingsDocument::State::refuse_unread(const TomlNode& table, const std::string& path) {

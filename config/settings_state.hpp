@@ -15,10 +15,15 @@ struct SettingsDocument::State {
     TomlNode root;
     std::vector<Refusal> refusals;
     std::map<std::string, std::set<std::string>> asked; ///< keys asked for, by path of the table
-    std::set<std::string> refused;                      ///< full keys
-    std::set<std::string> accepted;                     ///< tables whose unread keys are no refusal
+    std::map<std::string, std::string> titles; ///< of tables in lists, by path: instrument "air"
+    std::set<std::string> refused;             ///< full keys
+    std::set<std::string> accepted;            ///< tables whose unread keys are no refusal
 
     void refuse(std::string key, int line, std::string reason);
+    /// Remembers what people call the table `node`, which is one of a list.
+    void entitle(const std::string& path, std::string_view key, const TomlNode& node);
+    /// The key with the title in the place of each number whose table has one.
+    [[nodiscard]] std::string shown_key(const std::string& key) const;
     /// Refuses what nobody asked for in `table` and below.
     void refuse_unread(const TomlNode& table, const std::string& path);
 };

@@ -19,6 +19,8 @@ ConsoleConfig read_console(Settings console) {
     config.host = read_address(console, "host", usual.host);
     config.port = static_cast<int>(console.integer("port", 0, 65535, usual.port));
     config.allowed_hosts = console.texts("allowed_hosts", usual.allowed_hosts);
+    config.allowed_clients = read_allowed_clients(console);
+    if (config.port != 0) refuse_open_door(console, config.host, config.allowed_clients);
     return config;
 }
 
@@ -103,6 +105,27 @@ read_address(Settings& table, std::string_view key, const std::optional<std::str
     return host;
 }
 
+std::vector<AddressRange> read_allowed_clients(Settings& door) {
+    std::vector<AddressRange> allowed;
+    for (const std::string& client : door.texts("allowed_clients", std::vector<std::string>{})) {
+        if (auto range = parse_address_range(client))
+            allowed.push_back(*range);
+        else
+            door.refuse("allowed_clients", range.error().detail);
+    }
+    return allowed;
+}
+
+void refuse_open_door(Settings& door,
+                      const std::string& host,
+                      const std::vector<AddressRange>& allowed) {
+    const bool judged = door.refused("host") || door.refused("allowed_clients");
+    if (judged || is_loopback(host) || !allowed.empty()) return;
+    door.refuse("host", "\"" + host +
+                            "\" is heard by other computers: name those that may connect, as in "
+                            "allowed_clients = [\"192.168.10.20\"]");
+}
+
 std::string read_absolute_path(Settings& table,
                                std::string_view key,
                                const std::optional<std::string>& fallback) {
@@ -153,7 +176,8 @@ StationConfig read_station(SettingsDocument& document) {
     }
     config.preflight = read_preflight(root.table("preflight"));
     config.environment = read_environment(root.table("environment"));
-    read_trigger(root.table("trigger"), units, config.cycle, config.trigger);
+    read_trigger(root.table("trigger"), units, config.cycle, config.capture.timeout,
+                 config.trigger);
     if (config.cycle.axis_kind == AxisKind::rotary && config.trigger.shape == TriggerShape::dwell)
         root.table("trigger").refuse("shape", "\"dwell\" does not see when the indexing table or "
                                               "the polygon is at its place: a rotary axis needs a "

@@ -24,6 +24,18 @@ enum class TriggerTransport : std::uint8_t {
     tcp_client
 }; ///< client: the CNC is the server (mirrored)
 
+/// A capture that ends without a word is refused so long after its time-out.
+inline constexpr Duration capture_answer_grace = std::chrono::seconds{2};
+/// The CNC waits longer than the station: it then hears why, and is not gone when the point comes.
+/// Beside the grace a second for the way to the disk and over the wire.
+constexpr Duration least_cnc_timeout(Duration capture_timeout) {
+    return capture_timeout + capture_answer_grace + std::chrono::seconds{1};
+}
+/// With the default of 10 s longer than the watchdog needs to bring the daemon back (12 s).
+constexpr Duration usual_cnc_timeout(Duration capture_timeout) {
+    return capture_timeout + std::chrono::seconds{5};
+}
+
 struct TriggerConfig {
     TriggerShape shape = TriggerShape::sequence_block;
     TriggerTransport transport = TriggerTransport::tcp_server;
@@ -40,6 +52,8 @@ struct TriggerConfig {
     /// Clients that may connect; empty only where the listener hears this PC alone.
     std::vector<AddressRange> allowed_clients;
     Duration poll_interval = std::chrono::milliseconds{75};
+    /// How long the CNC's program waits for an answer.
+    Duration cnc_timeout = usual_cnc_timeout(std::chrono::seconds{10});
     bool watch_heartbeat = false; ///< CNC_HEARTBEAT frozen > 2 s is a fault
     /// coil-and-index: how long a rising coil with the previous index waits for the index to be
     /// rewritten; longer than one pass of the client.
@@ -133,6 +147,7 @@ struct ConsoleConfig {
     std::string host = "127.0.0.1";
     int port = 8470;                        ///< 0: no TCP
     std::vector<std::string> allowed_hosts; ///< Host headers known besides host:port and localhost
+    std::vector<AddressRange> allowed_clients; ///< who may connect over TCP; empty: everybody
 };
 
 struct PublishConfig {

@@ -18,6 +18,7 @@ void refuse_a_slip(Settings& table, const ChannelCorrection& correction) {
 std::optional<Medium> read_medium(Settings& channel) {
     if (!channel.has("medium")) return std::nullopt;
     const std::string medium = channel.choice("medium", {"air", "material"});
+    if (channel.refused("medium")) return std::nullopt; // no part it plays can be judged by it
     return medium == "air" ? Medium::air : Medium::material;
 }
 

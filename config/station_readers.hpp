@@ -77,12 +77,19 @@ EnvironmentLimits read_environment(Settings environment);
 void read_trigger(Settings trigger,
                   AxisUnits units,
                   const CycleConfig& cycle,
+                  Duration capture_timeout,
                   TriggerConfig& config);
 /// Nothing without the table. `eve_run`: StationConfig::eve_run.
 std::optional<UncertaintySetup>
 read_uncertainty(Settings root, AxisKind kind, std::string& eve_run);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
+/// Addresses and networks that may connect, as in ["192.168.10.20", "192.168.20.0/24"].
+std::vector<AddressRange> read_allowed_clients(Settings& door);
+/// A door that other computers hear needs its list of clients.
+void refuse_open_door(Settings& door,
+                      const std::string& host,
+                      const std::vector<AddressRange>& allowed);
 /// A numeric IPv4 or IPv6 address, as a listener needs it; refuses a name.
 std::string read_address(Settings& table,
                          std::string_view key,

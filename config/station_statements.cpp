@@ -1,3 +1,4 @@
+#include "config/number_pattern.hpp"
 #include "config/station_readers.hpp"
 
 namespace axiscal {
@@ -5,6 +6,8 @@ namespace {
 
 void read_people(Settings& certificate, Statements& stated) {
     stated.certificate_number = certificate.text("number", "");
+    if (std::string mistake = mistake_in_number(stated.certificate_number); !mistake.empty())
+        certificate.refuse("number", std::move(mistake));
     stated.laboratory = certificate.text("laboratory", "");
     stated.customer = certificate.text("customer", "");
     stated.place = certificate.text("place", "");

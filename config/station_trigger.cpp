@@ -67,24 +67,6 @@ void refuse_unused(Settings& trigger, bool used, Keys keys, const std::string& o
             trigger.refuse(key, "belongs to " + owner + " and says nothing here: remove it");
 }
 
-void read_allowed_clients(Settings& trigger, TriggerConfig& config) {
-    for (const std::string& client : trigger.texts("allowed_clients", std::vector<std::string>{})) {
-        if (auto range = parse_address_range(client))
-            config.allowed_clients.push_back(*range);
-        else
-            trigger.refuse("allowed_clients", range.error().detail);
-    }
-}
-
-/// Modbus has no password: who may reach the door may write to it.
-void refuse_open_door(Settings& trigger, const TriggerConfig& config) {
-    const bool judged = trigger.refused("host") || trigger.refused("allowed_clients");
-    if (judged || is_loopback(config.host) || !config.allowed_clients.empty()) return;
-    trigger.refuse("host", "\"" + config.host +
-                               "\" is heard by other computers: name those that may connect, as in "
-                               "allowed_clients = [\"192.168.10.20\"]");
-}
-
 void read_port(Settings& trigger, TriggerConfig& config) {
     config.port = static_cast<int>(trigger.integer("port", 1, 65535));
 }
@@ -92,7 +74,7 @@ void read_port(Settings& trigger, TriggerConfig& config) {
 void read_clients(Settings& trigger, TriggerConfig& config) {
     config.client_limit =
         static_cast<int>(trigger.integer("client_limit", 1, 100, config.client_limit));
-    read_allowed_clients(trigger, config);
+    config.allowed_clients = read_allowed_clients(trigger);
 }
 
 void read_polling(Settings& trigger, TriggerConfig& config) {
@@ -109,7 +91,7 @@ void read_tcp(Settings& trigger, TriggerConfig& config) {
     if (server) {
         config.host = read_address(trigger, "host", config.host);
         read_clients(trigger, config);
-        refuse_open_door(trigger, config);
+        refuse_open_door(trigger, config.host, config.allowed_clients); // Modbus has no password
     }
     if (client) {
         config.host = trigger.text("host");
@@ -215,6 +197,18 @@ void read_dwell(Settings& trigger,
         refuse_unseen_overrun(trigger, units, cycle, config);
 }
 
+/// A CNC that gives up first never hears why, and leaves before its point is durable.
+void read_cnc_timeout(Settings& trigger, Duration capture_timeout, TriggerConfig& config) {
+    config.cnc_timeout =
+        trigger.duration("cnc_timeout", 1s, 1h, usual_cnc_timeout(capture_timeout));
+    const Duration least = least_cnc_timeout(capture_timeout);
+    if (trigger.refused("cnc_timeout") || config.cnc_timeout >= least) return;
+    trigger.refuse("cnc_timeout",
+                   "ends before the station's own: with capture.timeout it must be at least " +
+                       std::to_string(std::chrono::ceil<std::chrono::seconds>(least).count()) +
+                       " s, so that the program hears why a point is refused");
+}
+
 /// As judge_wire_keys(), of the keys that belong to one shape or another.
 void judge_shape_keys(Settings& trigger, AxisUnits units) {
     TriggerConfig unused;
@@ -229,7 +223,9 @@ void judge_shape_keys(Settings& trigger, AxisUnits units) {
 void read_trigger(Settings trigger,
                   AxisUnits units,
                   const CycleConfig& cycle,
+                  Duration capture_timeout,
                   TriggerConfig& config) {
+    read_cnc_timeout(trigger, capture_timeout, config);
     const TriggerWords words = read_words(trigger, config);
     if (words.transport) {
         read_tcp(trigger, config);

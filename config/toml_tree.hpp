@@ -40,7 +40,8 @@ std::string_view kind_of(const TomlNode& node);
 /// nullptr when absent or when `node` is no table.
 const TomlNode* find_entry(const TomlNode& node, std::string_view key);
 
-/// @errors Fault::bad_configuration "name:line:column: what the parser says".
+/// @errors Fault::bad_configuration "name:line:column: what the parser says", the line itself and
+/// the way out; "name:line: ..." for a file that is no UTF-8.
 Result<TomlNode> parse_toml(std::string_view text, const std::string& name);
 
 } // namespace axiscal

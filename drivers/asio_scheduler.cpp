@@ -5,6 +5,7 @@
 #include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include <algorithm>
 #include <ctime>
 
 namespace axiscal {
@@ -19,7 +20,13 @@ std::int64_t clock_ns(clockid_t clock) {
 } // namespace
 
 MonotonicTime monotonic_now() {
-    return monotonic_from_ns(clock_ns(CLOCK_MONOTONIC));
+    return monotonic_from_ns(clock_ns(CLOCK_BOOTTIME));
+}
+
+/// Boot time first: what the thread waits between the two readings makes it too small, never more.
+Duration AsioScheduler::asleep() const {
+    const std::int64_t with_sleep = clock_ns(CLOCK_BOOTTIME);
+    return std::max(Duration{}, Duration{with_sleep - clock_ns(CLOCK_MONOTONIC)});
 }
 
 MonotonicTime AsioScheduler::now() const {

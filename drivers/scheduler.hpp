@@ -16,6 +16,8 @@ class Scheduler {
 public:
     virtual ~Scheduler() = default;
     [[nodiscard]] virtual MonotonicTime now() const = 0;
+    /// For how long the computer has been suspended since its boot; now() went on meanwhile.
+    [[nodiscard]] virtual Duration asleep() const { return {}; }
     /// Mono-real-mono, read at once.
     [[nodiscard]] virtual ClockTie clock_tie() const = 0;
     /// Returns at `when`, or early with the coroutine's cancellation.

@@ -11,10 +11,22 @@
 
 namespace axiscal {
 
-/// 65535 is followed by 1: 0 stays the idle number.
+/// Requests run from 1 to this; 0 is the idle number.
+inline constexpr std::uint16_t last_sequence = 65534;
+/// What `done` shows while no run takes requests: before the first `arm`, and after a run that was
+/// not completed. It is no number of a request, so no program goes on with it.
+inline constexpr std::uint16_t no_run_sequence = 65535;
+
+/// The last number is followed by 1.
 constexpr std::uint16_t next_sequence(std::uint16_t sequence) {
-    return sequence == 65535 ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
+    return sequence >= last_sequence ? std::uint16_t{1} : static_cast<std::uint16_t>(sequence + 1);
 }
+
+/// When `done` becomes no_run_sequence.
+enum class RunEnd : std::uint8_t {
+    at_once,
+    once_answered ///< the CNC ended the run itself: its answer stands until it writes another number
+};
 
 enum class TriggerCommand : std::uint8_t { prepare, capture, skip, abort, end };
 
@@ -60,6 +72,9 @@ struct PortStatus {
     std::optional<int> next_target;
     std::optional<double> air_degC, pressure_Pa, humidity_percent, material_degC;
     bool may_move = true, feed_hold = false, run_complete = false;
+    /// The run was closed as incomplete, and not by the CNC's own request: a program that stands at
+    /// a request is to hold.
+    bool run_broken_off = false;
     AxisKind axis_kind = AxisKind::linear;
 };
 
@@ -90,6 +105,10 @@ public:
     virtual void publish_armed() = 0;
     /// done = the receipt's sequence.
     virtual void acknowledge(const JournalReceipt& receipt) = 0;
+    /// The same of a skip: where the shape has a RESULT, it says that there is no point.
+    virtual void acknowledge_skip(const JournalReceipt& receipt) { acknowledge(receipt); }
+    /// No run takes requests: done = no_run_sequence.
+    virtual void publish_no_run(RunEnd end);
     /// done stays; sequence-block shows RESULT and FAULT_SEQ, other shapes hold until their
     /// time-out.
     virtual void refuse(std::uint16_t sequence, Fault fault) = 0;
@@ -101,6 +120,7 @@ public:
     describe() const = 0; ///< "sequence-block, Modbus TCP 127.0.0.1:1502"
 };
 
+inline void TriggerPort::publish_no_run(RunEnd /*end*/) {}
 inline void TriggerPort::position(MonotonicTime /*at*/, double /*position_mm*/) {}
 
 } // namespace axiscal

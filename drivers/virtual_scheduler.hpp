@@ -19,6 +19,7 @@ namespace axiscal {
 class VirtualScheduler final : public Scheduler {
 public:
     [[nodiscard]] MonotonicTime now() const override { return now_; }
+    [[nodiscard]] Duration asleep() const override { return asleep_; }
     [[nodiscard]] ClockTie clock_tie() const override {
         return ClockTie{now_, utc_at_zero_ns + nanoseconds_of(now_), now_};
     }
@@ -41,6 +42,11 @@ public:
         now_ = std::max(now_, end);
     }
     void run_for(Duration span) { run_until(now_ + span); }
+    /// The computer is suspended so long: nothing runs, and every clock goes on.
+    void suspend(Duration span) {
+        now_ += span;
+        asleep_ += span;
+    }
     boost::asio::io_context& loop() { return loop_; }
     /// How many sleepers time has woken.
     [[nodiscard]] std::uint64_t wakeups() const { return wakeups_; }
@@ -63,6 +69,7 @@ private:
 
     boost::asio::io_context loop_{1};
     MonotonicTime now_ = monotonic_from_ns(1'000'000'000);
+    Duration asleep_{};
     std::multimap<MonotonicTime, boost::asio::steady_timer*> sleepers_;
     std::uint64_t wakeups_ = 0;
 };

@@ -24,4 +24,7 @@ endforeach()
 file(INSTALL "${source_dir}/axiscal.sysusers" DESTINATION "${sysusersdir}" RENAME axiscal.conf)
 file(INSTALL "${source_dir}/axiscal.tmpfiles" DESTINATION "${tmpfilesdir}" RENAME axiscal.conf)
 file(INSTALL "${source_dir}/70-axiscal.rules" DESTINATION "${udevdir}/rules.d")
+# Debian's polkit looks below /usr alone: under another prefix it is to be copied to /etc/polkit-1/rules.d.
+file(INSTALL "${source_dir}/axiscal.polkit.rules" DESTINATION "${CMAKE_INSTALL_PREFIX}/share/polkit-1/rules.d"
+    RENAME axiscal.rules)
 file(INSTALL "${source_dir}/axiscal.modules-load" DESTINATION "${modulesloaddir}" RENAME axiscal.conf)

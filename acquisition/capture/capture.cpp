@@ -27,32 +27,74 @@ bool misses_samples(const Sample& earlier, const Sample& later, Duration gap) {
     return later.at - earlier.at > gap;
 }
 
-/// Backwards from the rest. `along` grows towards the target from the claimed side.
+/// The way to the rest, taken from its end backwards. `along` grows towards the target from the
+/// claimed side.
+class WayBack {
+public:
+    WayBack(const StillWindow& window, const ApproachClaim& claim, Duration gap, Sample rest)
+        : toward_{static_cast<double>(static_cast<int>(claim.direction) * claim.sign)}
+        , mean_m_{window.statistics.mean.si()}
+        , tolerance_{turning_tolerance(window, claim.overrun)}
+        , gap_{gap}
+        , later_{rest} {}
+
+    /// @returns what ends the way at this sample, if anything.
+    std::optional<PathEnd> take(const Sample& sample) {
+        const auto reading = sample.value();
+        if (!reading || misses_samples(sample, later_, gap_)) return PathEnd::samples_missing;
+        later_ = sample;
+        if (along(*reading) > farthest_ + tolerance_) return PathEnd::turned;
+        farthest_ = std::min(farthest_, along(*reading));
+        return std::nullopt;
+    }
+    /// Nothing in these samples ends the way: they are taken at once.
+    bool take_whole(std::span<const Sample> samples, const SampleSummary& found) {
+        const double turn_m = toward_ > 0 ? found.fall_m : found.rise_m;
+        const Length low = along(toward_ > 0 ? found.low_m : found.high_m);
+        const Length high = along(toward_ > 0 ? found.high_m : found.low_m);
+        if (found.good < found.n || found.longest_gap > gap_ || metre(turn_m) > tolerance_ ||
+            high > farthest_ + tolerance_ || misses_samples(samples.back(), later_, gap_))
+            return false;
+        later_ = samples.front();
+        farthest_ = std::min(farthest_, low);
+        return true;
+    }
+    [[nodiscard]] Length travel() const { return -farthest_; }
+    [[nodiscard]] MonotonicTime reached() const { return later_.at; }
+
+private:
+    [[nodiscard]] Length along(double reading_m) const {
+        return metre(toward_ * (reading_m - mean_m_));
+    }
+
+    double toward_, mean_m_;
+    Length tolerance_, farthest_{};
+    Duration gap_;
+    Sample later_;
+};
+
+/// Backwards from the rest, over whole blocks where nothing ends the way.
 Path follow_back(const SampleHistory& history,
                  const StillWindow& window,
                  const ApproachClaim& claim,
                  Duration gap) {
-    const double toward = static_cast<int>(claim.direction) * claim.sign;
-    const auto along = [&](double reading_m) {
-        return metre(toward * (reading_m - window.statistics.mean.si()));
-    };
-    const auto tolerance = turning_tolerance(window, claim.overrun);
-    const auto samples = history.between(claim.since, window.begin);
+    auto samples = history.between(claim.since, window.begin);
     const auto rest = history.between(window.begin, window.end);
-    Length farthest{};
-    Sample later = rest.empty() ? Sample{} : rest.front();
-    later.at = window.begin;
-    for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample) {
-        const auto reading = sample->value();
-        if (!reading || misses_samples(*sample, later, gap))
-            return {-farthest, PathEnd::samples_missing};
-        later = *sample;
-        const auto place = along(*reading);
-        if (place > farthest + tolerance) return {-farthest, PathEnd::turned};
-        farthest = std::min(farthest, place);
+    Sample first = rest.empty() ? Sample{} : rest.front();
+    first.at = window.begin;
+    WayBack way{window, claim, gap, first};
+    for (std::size_t levels = SummaryLevels::count; !samples.empty();) {
+        const auto [block, level] = history.last_block_of(samples, levels);
+        const std::size_t taken = block ? block->n : 1;
+        const bool at_once = block && way.take_whole(samples.last(taken), *block);
+        levels = at_once || level == 0 ? SummaryLevels::count : level;
+        if (levels == level) continue; // a smaller block
+        for (std::size_t i = 1; i <= taken && !at_once; ++i)
+            if (const auto end = way.take(samples[samples.size() - i])) return {way.travel(), *end};
+        samples = samples.first(samples.size() - taken);
     }
-    const bool whole = history.reaches_back_to(claim.since) && later.at - claim.since <= gap;
-    return {-farthest, whole ? PathEnd::reached_start : PathEnd::samples_missing};
+    const bool whole = history.reaches_back_to(claim.since) && way.reached() - claim.since <= gap;
+    return {way.travel(), whole ? PathEnd::reached_start : PathEnd::samples_missing};
 }
 
 /// The largest u(t) of the window: its samples were placed by one fit, so their errors do not
@@ -98,7 +140,7 @@ Result<Capture> make_capture(const SampleHistory& history,
                              const std::optional<ApproachClaim>& claim,
                              const CaptureConfig& config) {
     const auto since = claim ? std::min(claim->since, window.begin) : window.begin;
-    if (auto lost = find_lost_count(history.between(since, window.end), config.fastest))
+    if (auto lost = find_lost_count(history, history.between(since, window.end), config.fastest))
         return tl::unexpected<Error>(*std::move(lost));
     const auto samples = history.between(window.begin, window.end);
     if (samples.empty() || std::ssize(samples) < window.statistics.n)
@@ -116,6 +158,7 @@ Result<Capture> make_capture(const SampleHistory& history,
         synchronisation_of(found.slope_um_per_s, time_uncertainty_of(samples));
     capture.epoch = samples.back().epoch;
     capture.device_count = samples.back().device_count;
+    capture.samples.reserve(samples.size());
     for (const auto& sample : samples)
         if (const auto reading = sample.value())
             capture.samples.push_back({sample.at, *reading, sample.device_count});

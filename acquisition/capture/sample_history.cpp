@@ -18,6 +18,7 @@ void SampleHistory::push(const Sample& sample) {
     }
     if (!began_at_) began_at_ = sample.at;
     samples_.push(sample);
+    summaries_.push(sample);
     forget_old(sample.at - limits_.depth);
 }
 
@@ -28,6 +29,7 @@ void SampleHistory::forget_old(MonotonicTime oldest_wanted) {
         if (wanted || samples_.size() == 1) return;
         newest_forgotten_ = oldest;
         samples_.pop();
+        summaries_.forget_before(++forgotten_);
     }
 }
 
@@ -40,6 +42,30 @@ std::span<const Sample> SampleHistory::between(MonotonicTime begin, MonotonicTim
     return {low, high};
 }
 
+std::size_t SampleHistory::number_of(std::span<const Sample> part) const {
+    return forgotten_ + static_cast<std::size_t>(part.data() - all().data());
+}
+
+SampleSummary SampleHistory::summary_of(std::span<const Sample> part) const {
+    SampleSummary whole;
+    if (part.empty()) return whole;
+    const std::size_t begin = number_of(part);
+    for (std::size_t i = 0; i < part.size();) {
+        const auto block = summaries_.beginning_at(begin + i, begin + part.size());
+        const SampleSummary next = block.summary ? *block.summary : SampleSummary{part[i]};
+        whole.append(next);
+        i += next.n;
+    }
+    return whole;
+}
+
+SummaryLevels::Block SampleHistory::last_block_of(std::span<const Sample> part,
+                                                  std::size_t levels) const {
+    if (part.empty()) return {};
+    const std::size_t begin = number_of(part);
+    return summaries_.ending_at(begin, begin + part.size(), levels);
+}
+
 std::optional<Sample> SampleHistory::newest() const {
     return samples_.size() == 0 ? std::nullopt : std::optional{all().back()};
 }
@@ -49,14 +75,10 @@ bool SampleHistory::reaches_back_to(MonotonicTime instant) const {
     return !newest_forgotten_ || *newest_forgotten_ < instant;
 }
 
-Duration longest_silence(std::span<const Sample> samples, MonotonicTime begin, MonotonicTime end) {
-    auto previous = begin;
-    Duration longest{};
-    for (const auto& sample : samples) {
-        longest = std::max(longest, Duration{sample.at - previous});
-        previous = sample.at;
-    }
-    return std::max(longest, Duration{end - previous});
+Duration longest_silence(const SampleSummary& samples, MonotonicTime begin, MonotonicTime end) {
+    if (samples.n == 0) return end - begin;
+    return std::max(
+        {samples.longest_gap, Duration{samples.first_at - begin}, Duration{end - samples.last_at}});
 }
 
 } // namespace axiscal

@@ -8,25 +8,7 @@
 namespace axiscal {
 namespace {
 
-// Stamps jitter by a bus turn (1 ms FTDI latency, twice), so a jump is judged over a little more
-// than the time between two stamps.
-constexpr Duration stamp_jitter = std::chrono::milliseconds{2};
-// Readings can jump by noise without any motion; below this nothing is called lost.
-constexpr Length jump_floor = 20.0_um;
 constexpr int starts_per_window = 20;
-
-struct LineFit { // of reading over time, both relative to the first good sample
-    double sum_t = 0, sum_r = 0, sum_tt = 0, sum_tr = 0;
-    int n = 0;
-    void add(double t, double r) {
-        sum_t += t, sum_r += r, sum_tt += t * t, sum_tr += t * r;
-        ++n;
-    }
-    [[nodiscard]] double slope() const {
-        const double spread_t = sum_tt - sum_t * sum_t / n;
-        return spread_t > 0 ? (sum_tr - sum_t * sum_r / n) / spread_t : 0;
-    }
-};
 
 Fault fault_of(Quality quality) {
     switch (quality) {
@@ -52,120 +34,144 @@ StillnessVerdict not_still(Fault fault, std::string reason, const WindowStatisti
     return {false, fault, std::move(reason), statistics};
 }
 
-std::optional<StillnessVerdict> judge_samples(std::span<const Sample> samples,
-                                              const WindowStatistics& statistics,
-                                              const CaptureConfig& config) {
-    const auto bad = std::find_if(samples.begin(), samples.end(),
-                                  [](const Sample& sample) { return !sample.value(); });
-    if (bad != samples.end())
-        return not_still(fault_of(bad->quality()), "In the window " + worded(bad->quality()) + ".",
+/// The sample by which a count was lost, after those before it.
+Error lost_by(const Sample& sample, const SampleSummary& before) {
+    if (sample.epoch != before.first_epoch)
+        return Error{Fault::datum_lost, "The counter lost its zero.", {}, {}};
+    if (sample.quality() == Quality::beam_lost)
+        return Error{Fault::beam_lost, "The beam was interrupted.", {}, {}};
+    const Length jump = abs(metre(sample.value().value_or(0) - before.last_good_m));
+    return Error{Fault::implausible_jump,
+                 "The reading jumped by " + in_mm(jump) + " within " +
+                     in_seconds(sample.at - before.last_good_at) +
+                     ", faster than the axis can move: counts were lost, tie a new datum.",
+                 {},
+                 {}};
+}
+
+/// Everything but what only a lost count's own sample tells.
+StillnessVerdict judge_summary(const SampleSummary& found,
+                               MonotonicTime begin,
+                               MonotonicTime end,
+                               const CaptureConfig& config) {
+    const WindowStatistics statistics = statistics_of(found);
+    if (statistics.n < config.minimum_samples)
+        return not_still(Fault::not_still,
+                         "Only " + counted(statistics.n, "sample") + " in " +
+                             in_seconds(end - begin) + ", " +
+                             std::to_string(config.minimum_samples) + " are needed.",
                          statistics);
-    if (const auto lost = find_lost_count(samples, config.fastest))
-        return not_still(lost->fault, lost->detail, statistics);
-    return std::nullopt;
+    const auto silence = longest_silence(found, begin, end);
+    if (silence > largest_gap(config))
+        return not_still(Fault::not_still,
+                         "The instrument was silent for " + in_seconds(silence) + " in the window.",
+                         statistics);
+    if (statistics.spread > config.spread_limit)
+        return not_still(Fault::not_still,
+                         "The readings spread over " + in_um(statistics.spread) +
+                             ", the limit is " + in_um(config.spread_limit) + ".",
+                         statistics);
+    if (std::abs(statistics.slope_um_per_s) > config.slope_limit_um_per_s)
+        return not_still(Fault::not_still,
+                         "The axis drifts by " + plain_number(statistics.slope_um_per_s, 3) +
+                             " um/s, the limit is " + plain_number(config.slope_limit_um_per_s, 3) +
+                             " um/s.",
+                         statistics);
+    return {true, Fault::none, {}, statistics};
 }
 
 } // namespace
 
-WindowStatistics measure_window(std::span<const Sample> samples) {
-    LineFit line;
-    double base = 0, low = 0, high = 0;
-    MonotonicTime start{};
-    for (const auto& sample : samples) {
-        const auto reading = sample.value();
-        if (!reading) continue;
-        if (line.n == 0) base = *reading, start = sample.at;
-        const double relative = *reading - base;
-        low = std::min(low, relative);
-        high = std::max(high, relative);
-        line.add(seconds_of(sample.at - start), relative);
-    }
-    if (line.n == 0) return {};
-    return {line.n, metre(base + line.sum_r / line.n), metre(high - low), line.slope() * 1e6};
+WindowStatistics statistics_of(const SampleSummary& samples) {
+    return {static_cast<int>(samples.good), metre(samples.mean_m()), metre(samples.spread_m()),
+            samples.slope() * 1e6};
 }
 
 Duration largest_gap(const CaptureConfig& config) {
     return 2 * config.window / std::max(config.minimum_samples, 1);
 }
 
-StillnessVerdict judge_window(std::span<const Sample> samples,
+StillnessVerdict judge_window(const SampleHistory& history,
                               MonotonicTime begin,
                               MonotonicTime end,
                               const CaptureConfig& config) {
-    const auto found = measure_window(samples);
+    const auto samples = history.between(begin, end);
+    const SampleSummary found = history.summary_of(samples);
+    const WindowStatistics statistics = statistics_of(found);
     if (samples.empty())
-        return not_still(Fault::link_timeout, "The instrument sent no samples.", found);
-    if (auto bad = judge_samples(samples, found, config)) return *std::move(bad);
-    if (found.n < config.minimum_samples)
-        return not_still(Fault::not_still,
-                         "Only " + counted(found.n, "sample") + " in " + in_seconds(end - begin) +
-                             ", " + std::to_string(config.minimum_samples) + " are needed.",
-                         found);
-    const auto silence = longest_silence(samples, begin, end);
-    if (silence > largest_gap(config))
-        return not_still(Fault::not_still,
-                         "The instrument was silent for " + in_seconds(silence) + " in the window.",
-                         found);
-    if (found.spread > config.spread_limit)
-        return not_still(Fault::not_still,
-                         "The readings spread over " + in_um(found.spread) + ", the limit is " +
-                             in_um(config.spread_limit) + ".",
-                         found);
-    if (std::abs(found.slope_um_per_s) > config.slope_limit_um_per_s)
-        return not_still(Fault::not_still,
-                         "The axis drifts by " + plain_number(found.slope_um_per_s, 3) +
-                             " um/s, the limit is " + plain_number(config.slope_limit_um_per_s, 3) +
-                             " um/s.",
-                         found);
-    return {true, Fault::none, {}, found};
+        return not_still(Fault::link_timeout, "The instrument sent no samples.", statistics);
+    if (found.first_bad != Quality::good)
+        return not_still(fault_of(found.first_bad),
+                         "In the window " + worded(found.first_bad) + ".", statistics);
+    if (const auto lost = find_lost_count(history, samples, config.fastest))
+        return not_still(lost->fault, lost->detail, statistics);
+    return judge_summary(found, begin, end, config);
 }
 
-std::optional<Error> find_lost_count(std::span<const Sample> samples, Speed fastest) {
-    const Sample* previous = nullptr; // last good one
-    for (const auto& sample : samples) {
-        if (sample.epoch != samples.front().epoch)
-            return Error{Fault::datum_lost, "The counter lost its zero.", {}, {}};
-        if (sample.quality() == Quality::beam_lost)
-            return Error{Fault::beam_lost, "The beam was interrupted.", {}, {}};
-        if (!sample.value()) continue;
-        if (previous != nullptr && fastest.si() > 0) {
-            const auto jump = abs(metre(*sample.value() - *previous->value()));
-            const double span_s = seconds_of(sample.at - previous->at + stamp_jitter);
-            if (jump > jump_floor + metre(fastest.si() * span_s))
-                return Error{Fault::implausible_jump,
-                             "The reading jumped by " + in_mm(jump) + " within " +
-                                 in_seconds(sample.at - previous->at) +
-                                 ", faster than the axis can move: counts were lost, tie a new "
-                                 "datum.",
-                             {},
-                             {}};
-        }
-        previous = &sample;
+std::optional<Error>
+find_lost_count(const SampleHistory& history, std::span<const Sample> samples, Speed fastest) {
+    if (!history.summary_of(samples).lost_count(fastest)) return std::nullopt;
+    // Once a count is lost it stays so: the shortest beginning with a loss ends at its sample.
+    std::size_t whole = 1, lost = samples.size();
+    while (whole < lost) {
+        const std::size_t middle = whole + (lost - whole) / 2;
+        if (history.summary_of(samples.first(middle)).lost_count(fastest))
+            lost = middle;
+        else
+            whole = middle + 1;
     }
-    return std::nullopt;
+    const auto before = lost > 1 ? samples.first(lost - 1) : samples.first(1);
+    return lost_by(samples[lost - 1], history.summary_of(before));
 }
 
-WindowSearch find_still_window(const SampleHistory& history,
-                               MonotonicTime from,
-                               MonotonicTime now,
-                               const CaptureConfig& config) {
+StillWindowSearch::StillWindowSearch(MonotonicTime from, const CaptureConfig& config)
+    : config_{config}
+    , step_{std::max(config.window / starts_per_window, Duration{1})}
+    , from_{from}
+    , next_{from} {
+    rejected_ = not_still(Fault::not_still, "The window is not over yet.", {});
+}
+
+/// The first start whose window reaches the next sample; without one the last start of all.
+MonotonicTime StillWindowSearch::start_after_silence(const SampleHistory& history,
+                                                     MonotonicTime begin,
+                                                     MonotonicTime now) const {
+    const MonotonicTime last_start = now - config_.window;
+    const auto later = history.between(begin, now);
+    const MonotonicTime wanted =
+        later.empty() ? last_start : std::min(later.front().at - config_.window, last_start);
+    const auto steps = std::max(Duration{wanted - begin}, step_) / step_;
+    return begin + steps * step_;
+}
+
+WindowSearch StillWindowSearch::look(const SampleHistory& history, MonotonicTime now) {
     WindowSearch search;
-    const auto since = history.between(from, now);
-    search.failure = find_lost_count(since, config.fastest);
+    const auto since = history.between(from_, now);
+    search.failure = find_lost_count(history, since, config_.fastest);
     if (search.failure) return search;
-    const Duration step = std::max(config.window / starts_per_window, Duration{1});
-    search.verdict = {false, Fault::not_still, "The window is not over yet.", {}};
-    if (since.empty() && now - from >= config.window)
-        search.verdict = judge_window(since, from, now, config);
+    search.verdict = rejected_;
     // Without samples no start needs to be tried: silence is never still.
-    if (since.empty()) return search;
-    for (auto begin = from; begin + config.window <= now; begin += step) {
-        const auto end = begin + config.window;
-        search.verdict = judge_window(history.between(begin, end), begin, end, config);
+    if (since.empty()) {
+        if (now - from_ >= config_.window)
+            search.verdict = judge_window(history, from_, now, config_);
+        return search;
+    }
+    // A sample may still come for a window that does not end before the newest one.
+    const MonotonicTime settled = history.newest()->at;
+    for (auto begin = next_; begin + config_.window <= now;) {
+        const auto end = begin + config_.window;
+        search.verdict = judge_window(history, begin, end, config_);
         if (search.verdict.still) {
             search.window = StillWindow{begin, end, search.verdict.statistics};
             break;
         }
+        const bool silent = search.verdict.fault == Fault::link_timeout;
+        const auto next = silent ? start_after_silence(history, begin, now) : begin + step_;
+        if (end < settled) {
+            next_ = next;
+            rejected_ = search.verdict;
+        }
+        begin = next;
     }
     return search;
 }

@@ -37,29 +37,44 @@ struct WindowSearch {
     StillnessVerdict verdict;
 };
 
-/// Over good samples only. Time and reading are re-based to the first sample, so that a slope of
-/// 1 nm/s survives at 100 m.
-WindowStatistics measure_window(std::span<const Sample> samples);
+/// Over good samples only.
+WindowStatistics statistics_of(const SampleSummary& samples);
 
 /// The longest silence a window may contain: twice its mean spacing at `minimum_samples`.
 Duration largest_gap(const CaptureConfig& config);
 
-/// Samples of [begin, end] against the limits of `config`. Empty windows are not still.
-StillnessVerdict judge_window(std::span<const Sample> samples,
+/// Samples of [begin, end] against the limits of `config`. Empty windows are not still. Costs no
+/// walk over the samples.
+StillnessVerdict judge_window(const SampleHistory& history,
                               MonotonicTime begin,
                               MonotonicTime end,
                               const CaptureConfig& config);
 
-/// Beam lost, zero lost (epoch change) or a jump that no axis makes, anywhere in `samples`; with
-/// `fastest` = 0 jumps are not judged.
-std::optional<Error> find_lost_count(std::span<const Sample> samples, Speed fastest);
+/// The first loss in `samples`, a part of history.all(): beam lost, zero lost (epoch change) or a
+/// jump that no axis makes; with `fastest` = 0 jumps are not judged.
+std::optional<Error>
+find_lost_count(const SampleHistory& history, std::span<const Sample> samples, Speed fastest);
 
-/// The earliest still window of the configured length inside [from, now]: never a moment before
-/// the trigger. Starts are tried on a grid of a twentieth of the window, anchored at `from`.
-WindowSearch find_still_window(const SampleHistory& history,
-                               MonotonicTime from,
-                               MonotonicTime now,
-                               const CaptureConfig& config);
+/// Looks, as often as it is asked, for the earliest still window of the configured length since
+/// `from`: never a moment before the trigger. Starts are tried on a grid of a twentieth of the
+/// window, anchored at `from`; one whose samples have all come is never tried again, so a look
+/// costs the same however long the search goes on.
+class StillWindowSearch {
+public:
+    StillWindowSearch(MonotonicTime from, const CaptureConfig& config);
+
+    /// What was found up to `now`, which must not go back from look to look.
+    WindowSearch look(const SampleHistory& history, MonotonicTime now);
+
+private:
+    [[nodiscard]] MonotonicTime
+    start_after_silence(const SampleHistory& history, MonotonicTime begin, MonotonicTime now) const;
+
+    CaptureConfig config_;
+    Duration step_;
+    MonotonicTime from_, next_; ///< next_: the first start not yet rejected for good
+    StillnessVerdict rejected_; ///< of the last start before next_
+};
 
 /// The error to give when the deadline passed without a window.
 Error give_up(const WindowSearch& search, Duration waited);

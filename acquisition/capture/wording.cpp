@@ -29,8 +29,4 @@ std::string in_um(Length length) {
 std::string in_seconds(Duration span) {
     return plain_number(seconds_of(span), 3) + " s";
 }
-std::string counted(long count, const std::string& thing) {
-    return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 } // namespace axiscal

@@ -20,7 +20,8 @@ Json to_json(const ChannelView& channel) {
             {"unit", channel.unit},
             {"age_s", or_null(channel.age_s)},
             {"quality", channel.quality},
-            {"used", channel.used}};
+            {"used", channel.used},
+            {"role", channel.role}};
 }
 
 Json to_json(const AxisView& axis) {
@@ -48,6 +49,14 @@ Json to_json(const OutboxView& outbox) {
               {"since_utc", outbox.since_utc}}}};
 }
 
+Json to_json(const CircleView& view) {
+    return {{"number", view.circle.number},
+            {"sense", view.circle.sense == Sense::ccw ? "counterclockwise" : "clockwise"},
+            {"repeat", view.circle.repeat},
+            {"warm_up", view.circle.warm_up},
+            {"begun", view.begun}};
+}
+
 Json to_json(const RunStatus& run) {
     Json next = nullptr;
     if (run.next_target)
@@ -61,12 +70,14 @@ Json to_json(const RunStatus& run) {
             {"state", run.state},
             {"file", run.file},
             {"step", run.step},
+            {"skipped", run.skipped},
             {"steps", run.steps},
             {"done", run.done},
             {"retakes_asked", run.retakes_asked},
             {"retakes_left", run.retakes_left},
             {"excluded", run.excluded},
             {"next", std::move(next)},
+            {"circle", run.circle ? to_json(*run.circle) : Json(nullptr)},
             {"seconds_left", or_null(run.seconds_left)},
             {"last_deviation_um", or_null(run.last_deviation_um)},
             {"last_synchronisation_um", or_null(run.last_synchronisation_um)},

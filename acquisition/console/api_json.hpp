@@ -22,7 +22,13 @@ nlohmann::ordered_json to_json(const RetakeAnswer& answer);
 Result<RevisionRequest> revision_request_from_json(const std::string& body);
 /// {"arcsec": 1.25}. @errors Fault::bad_request.
 Result<double> typed_reading_from_json(const std::string& body);
-/// The optional {"reason": "..."} of an abort.
-Result<std::string> abort_reason_from_json(const std::string& body);
+/// {"reason": "...", "by": "..."} of an abort; both may be left out.
+struct AbortRequest {
+    std::string reason = "aborted by the operator", by;
+};
+Result<AbortRequest> abort_request_from_json(const std::string& body);
+/// The name that a person gives with an order ("by"): one line of at most 80 bytes.
+/// @errors Fault::bad_request
+Result<std::string> name_of_orderer(const nlohmann::ordered_json& value);
 
 } // namespace axiscal

@@ -1,6 +1,7 @@
 #include "acquisition/console/drift_json.hpp"
 
 #include "acquisition/console/api_json.hpp"
+#include "config/json_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -43,13 +44,17 @@ Result<void> read_drift_field(const std::string& key, const Json& value, DriftRe
             return refuse(Fault::bad_request, key, "is \"axis\" or \"ballbar\"");
         return request.of_bar = value == "ballbar", Result<void>{};
     }
+    if (key == "by") {
+        AXISCAL_TRY(request.by.name, name_of_orderer(value));
+        return {};
+    }
     if (key != "statements")
         return refuse(Fault::bad_request, key,
-                      "is unknown; known are duration_s, interval_s, of, place_mm, statements");
+                      "is unknown; known are by, duration_s, interval_s, of, place_mm, statements");
     if (!is_table_of_texts(value))
         return refuse(Fault::bad_request, key, "must be an object of texts");
     // Statements are those of a run, read by the same rules.
-    AXISCAL_TRY(ArmRequest run, arm_request_from_json(Json{{"statements", value}}.dump()));
+    AXISCAL_TRY(ArmRequest run, arm_request_from_json(json_text(Json{{"statements", value}})));
     request.statements = std::move(run.statements);
     return {};
 }

@@ -1,11 +1,12 @@
-// Beast is heavy: this is the only file that includes it on the daemon's side.
 #include "acquisition/console/http_face.hpp"
 
 #include "acquisition/console/access.hpp"
 #include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/listening.hpp"
+#include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "drivers/spawn.hpp"
 
@@ -16,8 +17,12 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
+#include <array>
+#include <exception>
 #include <unistd.h>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -25,42 +30,30 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using Request = http::request<http::string_body>;
-using Response = http::response<http::string_body>;
+using Request = HttpRequest;
+using Response = HttpResponse;
 
 constexpr auto quiet = asio::as_tuple(asio::use_awaitable);
 constexpr auto idle_limit =
     std::chrono::seconds{30}; // a client that neither asks nor reads is let go
 constexpr std::uint64_t body_limit = std::uint64_t{64} * 1024;
-constexpr std::size_t client_limit = 64;
+constexpr std::size_t client_limit = 64; // of each door: who fills one leaves the other open
 
-http::status status_of(Fault fault) {
-    switch (fault) {
-    case Fault::bad_request:
-    case Fault::bad_configuration: return http::status::bad_request;
-    case Fault::not_found: return http::status::not_found;
-    case Fault::refused: return http::status::forbidden;
-    case Fault::internal:
-    case Fault::io:
-    case Fault::not_durable: return http::status::internal_server_error;
-    default: return http::status::conflict;
+constexpr std::size_t seat_of(Door door) {
+    return door == Door::unix_socket ? 0 : 1;
+}
+
+/// One of the clients that a door may have.
+struct ClientSeat {
+    explicit ClientSeat(std::size_t& of)
+        : taken{of} {
+        ++taken;
     }
-}
-
-Response answer(const Request& request, http::status status, const nlohmann::ordered_json& body) {
-    Response response{status, request.version()};
-    response.set(http::field::content_type, "application/json; charset=utf-8");
-    response.set(http::field::cache_control, "no-store");
-    response.set("X-Content-Type-Options", "nosniff");
-    response.keep_alive(request.keep_alive());
-    response.body() = body.dump() + "\n";
-    response.prepare_payload();
-    return response;
-}
-
-Response answer(const Request& request, const Error& error) {
-    return answer(request, status_of(error.fault), to_json(error));
-}
+    ClientSeat(const ClientSeat&) = delete;
+    ClientSeat& operator=(const ClientSeat&) = delete;
+    ~ClientSeat() { --taken; }
+    std::size_t& taken;
+};
 
 /// Arming met checks that do not hold: all of them at once.
 Response answer_with_checks(const Request& request,
@@ -69,17 +62,6 @@ Response answer_with_checks(const Request& request,
     auto body = to_json(error);
     if (checks) body["checks"] = to_json(*checks);
     return answer(request, http::status::conflict, body);
-}
-
-nlohmann::ordered_json sentence(unsigned status, const std::string& text) {
-    return {{"error",
-             {{"fault", status == 404 || status == 405 ? "not_found" : "refused"},
-              {"sentence", text}}}};
-}
-
-std::string field(const Request& request, http::field name) {
-    const auto found = request.find(name);
-    return found == request.end() ? std::string{} : std::string{found->value()};
 }
 
 } // namespace
@@ -96,10 +78,13 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
 
     template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
     template <class Socket> Task<void> serve(Socket socket, Door door);
-    Task<Response> respond(Request request, Door door);
-    Task<Response> change(Request request);
-    Task<Response> arm(Request request);
-    Task<Response> revise(Request request);
+    bool is_stranger(const asio::local::stream_protocol::socket& socket);
+    bool is_stranger(const asio::ip::tcp::socket& socket);
+    Task<Response> respond_or_tell(Request request, Door door, int descriptor);
+    Task<Response> respond(Request request, Door door, int descriptor);
+    Task<Response> change(Request request, Orderer by);
+    Task<Response> arm(Request request, Orderer by);
+    Task<Response> revise(Request request, Orderer by);
 
     Scheduler& scheduler;
     StationFace& station;
@@ -107,8 +92,25 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
     AccessRules rules;
     asio::ip::tcp::acceptor tcp;
     asio::local::stream_protocol::acceptor local;
-    std::size_t clients = 0;
+    std::array<std::size_t, 2> clients{}; ///< by door
+    std::string last_stranger;
 };
+
+bool HttpFace::Impl::is_stranger(const asio::local::stream_protocol::socket& /*socket*/) {
+    return false; // the socket's mode and group have judged
+}
+
+/// Told once for each address that is not followed by another one.
+bool HttpFace::Impl::is_stranger(const asio::ip::tcp::socket& socket) {
+    if (config.allowed_clients.empty()) return false;
+    boost::system::error_code gone;
+    const auto remote = socket.remote_endpoint(gone);
+    const std::string from = gone ? "" : remote.address().to_string();
+    if (any_covers(config.allowed_clients, from)) return false;
+    if (!from.empty() && std::exchange(last_stranger, from) != from)
+        spdlog::warn("The console turned {} away: console.allowed_clients does not name it.", from);
+    return true;
+}
 
 template <class Acceptor> Task<void> HttpFace::Impl::accept(Acceptor& acceptor, Door door) {
     const auto self = shared_from_this();
@@ -120,13 +122,15 @@ template <class Acceptor> Task<void> HttpFace::Impl::accept(Acceptor& acceptor, 
             co_await scheduler.sleep_for(std::chrono::milliseconds{200});
             continue;
         }
-        if (clients < client_limit) spawn(scheduler, serve(std::move(socket), door));
+        if (is_stranger(socket)) continue; // the socket closes here
+        if (clients[seat_of(door)] < client_limit) spawn(scheduler, serve(std::move(socket), door));
     }
 }
 
 template <class Socket> Task<void> HttpFace::Impl::serve(Socket socket, Door door) {
     const auto self = shared_from_this();
-    ++clients;
+    const ClientSeat seat{clients[seat_of(door)]};
+    const int descriptor = socket.native_handle();
     beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
     beast::flat_buffer buffer;
     for (bool alive = true; alive;) {
@@ -135,31 +139,40 @@ template <class Socket> Task<void> HttpFace::Impl::serve(Socket socket, Door doo
         stream.expires_after(idle_limit);
         const auto [read_error, got] = co_await http::async_read(stream, buffer, parser, quiet);
         if (read_error) break;
-        Response response = co_await respond(parser.release(), door);
+        Response response = co_await respond_or_tell(parser.release(), door, descriptor);
         alive = response.keep_alive();
         stream.expires_after(idle_limit);
         const auto [write_error, sent] = co_await http::async_write(stream, response, quiet);
         if (write_error) break;
     }
-    --clients;
 }
 
-Task<Response> HttpFace::Impl::respond(Request request, Door door) {
-    RequestHead head;
-    head.door = door;
-    head.changes_state =
-        request.method() != http::verb::get && request.method() != http::verb::head;
-    head.host = field(request, http::field::host);
-    head.origin = field(request, http::field::origin);
-    head.authorization = field(request, http::field::authorization);
-    const AccessVerdict verdict = judge_access(head, rules);
+/// What one request throws ends that request: the station goes on.
+Task<Response> HttpFace::Impl::respond_or_tell(Request request, Door door, int descriptor) {
+    std::string what;
+    Request asked = request;
+    try {
+        co_return co_await respond(std::move(asked), door, descriptor);
+    } catch (const std::exception& bug) {
+        what = bug.what();
+    }
+    co_return answer(request, Error{Fault::internal, "This request ended with: " + what, {}, {}});
+}
+
+Task<Response> HttpFace::Impl::respond(Request request, Door door, int descriptor) {
+    const AccessVerdict verdict = judge_access(head_of(request, door), rules);
     if (verdict.status != 200)
-        co_return answer(request, static_cast<http::status>(verdict.status),
-                         sentence(verdict.status, verdict.sentence));
-    if (request.method() == http::verb::post) co_return co_await change(std::move(request));
+        co_return answer_in_words(request, static_cast<http::status>(verdict.status),
+                                  verdict.sentence);
+    if (request.method() == http::verb::post) {
+        Orderer by;
+        by.door = "token";
+        if (door == Door::unix_socket) by = peer_of_socket(descriptor);
+        co_return co_await change(std::move(request), std::move(by));
+    }
     if (request.method() != http::verb::get)
-        co_return answer(request, http::status::method_not_allowed,
-                         sentence(405, "GET reads, POST changes"));
+        co_return answer_in_words(request, http::status::method_not_allowed,
+                                  "GET reads, POST changes");
     if (request.target() == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     const std::string_view target{request.target().data(), request.target().size()};
@@ -178,20 +191,18 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door) {
         if (!checks) co_return answer(request, checks.error());
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
-    co_return answer(
+    co_return answer_in_words(
         request, http::status::not_found,
-        sentence(
-            404,
-            "known are GET /v1/status, GET /v1/instruments, GET "
-            "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
-            "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
-            "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
-            "/v1/drift"));
+        "known are GET /v1/status, GET /v1/instruments, GET "
+        "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
+        "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
+        "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+        "/v1/drift");
 }
 
-Task<Response> HttpFace::Impl::change(Request request) {
+Task<Response> HttpFace::Impl::change(Request request, Orderer by) {
     const std::string target{request.target()};
-    if (target == "/v1/run") co_return co_await arm(std::move(request));
+    if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by));
     if (target == "/v1/preflight") {
         const auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
@@ -200,7 +211,7 @@ Task<Response> HttpFace::Impl::change(Request request) {
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
     if (target == "/v1/run/retake" || target == "/v1/run/exclude")
-        co_return co_await revise(std::move(request));
+        co_return co_await revise(std::move(request), std::move(by));
     if (target == "/v1/run/trigger") {
         const auto done = station.trigger();
         if (!done) co_return answer(request, done.error());
@@ -214,9 +225,10 @@ Task<Response> HttpFace::Impl::change(Request request) {
         co_return answer(request, http::status::accepted, {{"reading", "accepted"}});
     }
     if (target == "/v1/run/abort") {
-        const auto reason = abort_reason_from_json(request.body());
-        if (!reason) co_return answer(request, reason.error());
-        const auto done = station.abort(*reason);
+        auto order = abort_request_from_json(request.body());
+        if (!order) co_return answer(request, order.error());
+        by.name = order->by;
+        const auto done = co_await station.abort(std::move(order->reason), std::move(by));
         if (!done) co_return answer(request, done.error());
         co_return answer(request, http::status::ok, {{"run", "aborted"}});
     }
@@ -224,6 +236,8 @@ Task<Response> HttpFace::Impl::change(Request request) {
         auto wanted = drift_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
         DriftRequest order = *std::move(wanted);
+        by.name = order.by.name;
+        order.by = std::move(by);
         const auto run = co_await station.drift(std::move(order));
         if (!run) co_return answer(request, run.error());
         co_return answer(request, http::status::created, {{"run", *run}});
@@ -235,17 +249,19 @@ Task<Response> HttpFace::Impl::change(Request request) {
         if (!done) co_return answer(request, done.error());
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     }
-    co_return answer(
+    co_return answer_in_words(
         request, http::status::not_found,
-        sentence(404, "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
-                      "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
-                      "/v1/alignment, /v1/drift"));
+        "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
+        "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
+        "/v1/alignment, /v1/drift");
 }
 
-Task<Response> HttpFace::Impl::arm(Request request) {
+Task<Response> HttpFace::Impl::arm(Request request, Orderer by) {
     auto wanted = arm_request_from_json(request.body());
     if (!wanted) co_return answer(request, wanted.error());
     ArmRequest order = *std::move(wanted);
+    by.name = order.by.name;
+    order.by = std::move(by);
     ArmRequest asked = order;
     const auto run = co_await station.arm(std::move(asked));
     if (!run && run.error().field == "preflight")
@@ -254,10 +270,12 @@ Task<Response> HttpFace::Impl::arm(Request request) {
     co_return answer(request, http::status::created, {{"run", *run}});
 }
 
-Task<Response> HttpFace::Impl::revise(Request request) {
+Task<Response> HttpFace::Impl::revise(Request request, Orderer by) {
     auto wanted = revision_request_from_json(request.body());
     if (!wanted) co_return answer(request, wanted.error());
     RevisionRequest order = *std::move(wanted);
+    by.name = order.by.name;
+    order.by = std::move(by);
     if (request.target() == "/v1/run/retake") {
         const auto retake = co_await station.retake(std::move(order));
         if (!retake) co_return answer(request, retake.error());

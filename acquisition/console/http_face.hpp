@@ -17,6 +17,8 @@ public:
     HttpFace(const HttpFace&) = delete;
     HttpFace& operator=(const HttpFace&) = delete;
 
+    /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
+    /// clients of its own.
     /// Binds both doors and starts serving. The socket gets mode 0660 and the configured group.
     /// @errors Fault::io naming the path or port and who may hold it.
     Result<void> start();

@@ -1,4 +1,7 @@
 #include "acquisition/console/api_json.hpp"
+#include "config/measure.hpp"
+
+#include "analysis/quantity/valid_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -25,16 +28,24 @@ constexpr std::array statement_keys{"certificate_number",
                                     "control_compensation",
                                     "run_out"};
 
+tl::unexpected<Error> refuse_statement(const std::string& key) {
+    const std::vector<std::string> words{statement_keys.begin(), statement_keys.end()};
+    std::string list;
+    for (const std::string& word : words)
+        list += (list.empty() ? "" : ", ") + word;
+    return refuse(Fault::bad_request, "statements." + key,
+                  "is not a statement" + did_you_mean(key, words) + " There are " + list);
+}
+
 Result<void> read_statements(const Json& given, ArmRequest& request) {
     if (!given.is_object())
         return refuse(Fault::bad_request, "statements", "must be an object of texts");
     for (const auto& [key, value] : given.items()) {
         if (std::ranges::find(statement_keys, key) == statement_keys.end())
-            return refuse(Fault::bad_request, "statements." + key,
-                          "is not a statement; docs/api.md lists them");
+            return refuse_statement(key);
         if (!value.is_string())
             return refuse(Fault::bad_request, "statements." + key, "must be a text");
-        request.statements[key] = value.get<std::string>();
+        request.statements[key] = valid_text(value.get<std::string>());
     }
     return {};
 }
@@ -45,8 +56,13 @@ Result<void> read_overrides(const Json& given, ArmRequest& request) {
     for (const auto& [name, reason] : given.items()) {
         if (!reason.is_string())
             return refuse(Fault::bad_request, "overrides." + name, "must be a text");
-        request.overrides[name] = reason.get<std::string>();
+        request.overrides[name] = valid_text(reason.get<std::string>());
     }
+    return {};
+}
+
+Result<void> read_orderer(const Json& value, Orderer& by) {
+    AXISCAL_TRY(by.name, name_of_orderer(value));
     return {};
 }
 
@@ -54,18 +70,21 @@ Result<void> read_arm_field(const std::string& key, const Json& value, ArmReques
     if (key == "datum_mm" && value.is_number())
         return request.datum_mm = value.get<double>(), Result<void>{};
     if (key == "pass" && value.is_string())
-        return request.pass = value.get<std::string>(), Result<void>{};
+        return request.pass = valid_text(value.get<std::string>()), Result<void>{};
     if (key == "seed" && value.is_number_unsigned())
         return request.seed = value.get<std::uint64_t>(), Result<void>{};
     if (key == "datum_by_cnc" && value.is_boolean())
         return request.datum_by_cnc = value.get<bool>(), Result<void>{};
     if (key == "statements") return read_statements(value, request);
     if (key == "overrides") return read_overrides(value, request);
+    if (key == "by") return read_orderer(value, request.by);
     const bool known = key == "datum_mm" || key == "pass" || key == "seed" || key == "datum_by_cnc";
     return refuse(Fault::bad_request, key,
-                  known ? "has the wrong type"
+                  known ? std::string{"has the wrong type"}
                         : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
-                          "overrides");
+                          "overrides, by" +
+                              did_you_mean(key, {"datum_mm", "pass", "seed", "datum_by_cnc",
+                                                 "statements", "overrides", "by"}));
 }
 
 Result<Json> parse_object(const std::string& body) {
@@ -76,6 +95,20 @@ Result<Json> parse_object(const std::string& body) {
 }
 
 } // namespace
+
+Result<std::string> name_of_orderer(const nlohmann::ordered_json& value) {
+    constexpr std::size_t longest = 80;
+    constexpr unsigned char first_printed = 0x20, deleted = 0x7f;
+    const auto* name = value.get_ptr<const std::string*>();
+    const bool plain = name != nullptr && name->size() <= longest &&
+                       name->find_first_not_of(' ') != std::string::npos &&
+                       std::ranges::all_of(*name, [](char letter) {
+                           const auto byte = static_cast<unsigned char>(letter);
+                           return byte >= first_printed && byte != deleted;
+                       });
+    if (plain) return *name;
+    return refuse(Fault::bad_request, "by", "must be a name: one line of 1 to 80 bytes");
+}
 
 Result<ArmRequest> arm_request_from_json(const std::string& body) {
     AXISCAL_TRY(const Json parsed, parse_object(body));
@@ -102,11 +135,13 @@ read_revision_field(const std::string& key, const Json& value, RevisionRequest& 
         return {};
     }
     if (key == "reason" && value.is_string())
-        return request.reason = value.get<std::string>(), Result<void>{};
+        return request.reason = valid_text(value.get<std::string>()), Result<void>{};
+    if (key == "by") return read_orderer(value, request.by);
     const bool known = key == "target" || key == "cycle" || key == "direction" || key == "reason";
     return refuse(Fault::bad_request, key,
-                  known ? "has the wrong type or range"
-                        : "is unknown; known are target, direction, cycle, reason");
+                  known ? std::string{"has the wrong type or range"}
+                        : "is unknown; known are target, direction, cycle, reason, by" +
+                              did_you_mean(key, {"target", "direction", "cycle", "reason", "by"}));
 }
 
 } // namespace
@@ -132,12 +167,17 @@ Result<double> typed_reading_from_json(const std::string& body) {
     return parsed["arcsec"].get<double>();
 }
 
-Result<std::string> abort_reason_from_json(const std::string& body) {
+Result<AbortRequest> abort_request_from_json(const std::string& body) {
     AXISCAL_TRY(const Json parsed, parse_object(body));
-    if (!parsed.contains("reason")) return std::string{"aborted by the operator"};
+    AbortRequest request;
+    if (parsed.contains("by")) {
+        AXISCAL_TRY(request.by, name_of_orderer(parsed["by"]));
+    }
+    if (!parsed.contains("reason")) return request;
     if (!parsed["reason"].is_string())
         return refuse(Fault::bad_request, "reason", "must be a text");
-    return parsed["reason"].get<std::string>();
+    request.reason = valid_text(parsed["reason"].get<std::string>());
+    return request;
 }
 
 } // namespace axiscal

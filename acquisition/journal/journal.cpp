@@ -11,6 +11,10 @@ Journal::Journal(Scheduler& scheduler, JournalThread thread, JournalClock& clock
     , worker_{std::make_unique<Worker>(scheduler.executor(), thread, clock)} {}
 Journal::~Journal() = default;
 
+void Journal::sign_with(std::shared_ptr<const SecretKey> key) {
+    worker_->key = std::move(key);
+}
+
 Task<Result<void>> Journal::open(std::string path, RunRecord header) {
     return open(std::move(path), std::move(header), RunAttachments{});
 }
@@ -37,11 +41,13 @@ Task<Result<void>> Journal::reopen(std::string path) {
 
 Task<Result<void>> Journal::reopen_closed(std::string path,
                                           std::optional<RetakeRecord> retake,
-                                          std::vector<ExclusionRecord> exclusions) {
+                                          std::vector<ExclusionRecord> exclusions,
+                                          std::vector<OrderRecord> orders) {
     Worker* worker = worker_.get();
     auto first = std::make_shared<RunBatch>();
     if (retake) first->retakes.push_back(*std::move(retake));
     first->exclusions = std::move(exclusions);
+    first->orders = std::move(orders);
     std::function<Result<void>()> work = [worker, path, first]() -> Result<void> {
         AXISCAL_CHECK(worker->may_open());
         return worker->take(RunFileWriter::reopen_closed(path, *first));
@@ -128,7 +134,7 @@ Task<Result<JournalReceipt>> Journal::receipt_of_closed(std::string path) {
     co_return JournalReceipt{last->sequence, last->step};
 }
 
-Task<Result<StoredRuns>> Journal::stored_runs(std::string folder, std::string boot_id) {
+Task<Result<StoredRuns>> Journal::stored_runs(std::string folder, BootId boot_id) {
     const PresentBoot present{std::move(boot_id), scheduler_.clock_tie()};
     std::function<Result<StoredRuns>()> work = [folder, present] {
         return look_through_runs(folder, present);
@@ -188,6 +194,12 @@ void Journal::note(std::vector<ExclusionRecord> exclusions) {
     worker_->queue_note(worker_->noted.exclusions, std::move(exclusions));
 }
 
+void Journal::note(OrderRecord order) {
+    std::vector<OrderRecord> one_order;
+    one_order.push_back(std::move(order));
+    worker_->queue_note(worker_->noted.orders, std::move(one_order));
+}
+
 Task<Result<void>> Journal::flush() {
     Worker* worker = worker_.get();
     std::function<Result<void>()> work = [worker] { return worker->save_notes(); };
@@ -234,8 +246,11 @@ Task<Result<void>> Journal::close(bool complete, std::string reason) {
 
 Task<Result<void>> Journal::store(std::string path, StoredResult result) {
     auto shared = std::make_shared<const StoredResult>(std::move(result));
-    std::function<Result<void>()> work = [path, shared] { return store_result(path, *shared); };
-    co_return co_await perform<Worker, void>(worker_.get(), std::move(work));
+    Worker* worker = worker_.get();
+    std::function<Result<void>()> work = [worker, path, shared] {
+        return store_result(path, *shared, worker->key.get());
+    };
+    co_return co_await perform<Worker, void>(worker, std::move(work));
 }
 
 std::optional<Error> Journal::failure() const {

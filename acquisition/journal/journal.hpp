@@ -1,6 +1,7 @@
 #pragma once
 // The one writer of an open run: a thread that owns the run file, and the only maker of receipts.
 
+#include "acquisition/journal/ed25519.hpp"
 #include "acquisition/journal/journal_clock.hpp"
 #include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_attachments.hpp"
@@ -47,6 +48,9 @@ public:
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
+    /// Every closing from now on; before the first run is opened. Null: nothing is signed.
+    void sign_with(std::shared_ptr<const SecretKey> key);
+
     /// A new run file. @errors Fault::refused when the name is taken, Fault::busy while another
     /// run is open, Fault::not_durable.
     Task<Result<void>> open(std::string path, RunRecord header, RunAttachments attachments);
@@ -54,11 +58,12 @@ public:
     Task<Result<void>> open(std::string path, RunRecord header);
     /// Goes on with a run file that was left open. @errors as RunFileWriter::reopen.
     Task<Result<void>> reopen(std::string path);
-    /// Goes on with a closed run: `retake` or `exclusions` are its first new rows, on disk when
-    /// this returns. @errors as RunFileWriter::reopen_closed.
+    /// Goes on with a closed run: `retake` or `exclusions`, and who ordered them, are its first new
+    /// rows, on disk when this returns. @errors as RunFileWriter::reopen_closed.
     Task<Result<void>> reopen_closed(std::string path,
                                      std::optional<RetakeRecord> retake,
-                                     std::vector<ExclusionRecord> exclusions);
+                                     std::vector<ExclusionRecord> exclusions,
+                                     std::vector<OrderRecord> orders = {});
 
     /// Durable, with everything noted before, when the receipt comes.
     /// @errors Fault::not_durable; Fault::no_run_armed when no run is open.
@@ -80,7 +85,7 @@ public:
     Task<Result<JournalReceipt>> receipt_of_closed(std::string path);
 
     /// look_through_runs() off the loop. `boot_id`: of the computer now.
-    Task<Result<StoredRuns>> stored_runs(std::string folder, std::string boot_id);
+    Task<Result<StoredRuns>> stored_runs(std::string folder, BootId boot_id);
     /// summarize_run_file() off the loop.
     Task<Result<RunSummary>> summarize(std::string path);
 
@@ -99,6 +104,7 @@ public:
     void note(std::vector<PreflightRecord> checks);
     void note(RetakeRecord retake);
     void note(std::vector<ExclusionRecord> exclusions);
+    void note(OrderRecord order);
     /// Makes everything noted durable now.
     Task<Result<void>> flush();
 

@@ -9,6 +9,10 @@ void run_unlocked(std::unique_lock<std::mutex>& lock, const std::function<void()
     lock.lock();
 }
 
+bool revises(const OrderRecord& order) {
+    return order.kind == "retake" || order.kind == "exclude";
+}
+
 } // namespace
 
 Journal::Worker::Worker(boost::asio::any_io_executor loop_executor,
@@ -60,12 +64,23 @@ RunBatch Journal::Worker::take_notes() {
 }
 
 Result<void> Journal::Worker::save_notes() {
-    if (!writer) return {}; // before a run: kept for its first commit
-    if (auto why = known_failure()) return tl::unexpected<Error>(*why);
+    if (!writer || writer->closed()) return {}; // outside a run: kept for its first commit
+    if (auto why = known_failure()) {
+        drop_orders();
+        return tl::unexpected<Error>(*why);
+    }
     RunBatch notes = take_notes();
     auto written = write(notes);
     if (!written) put_back(std::move(notes));
     return written;
+}
+
+/// Who gave them is told now that they were not kept: they must not be written later.
+void Journal::Worker::drop_orders() {
+    const std::scoped_lock lock{mutex};
+    noted.retakes.clear();
+    noted.exclusions.clear();
+    std::erase_if(noted.orders, revises);
 }
 
 /// What could not be written waits for a disk. If it is there after all it stands there twice.
@@ -74,6 +89,9 @@ void Journal::Worker::put_back(RunBatch notes) {
     const std::scoped_lock lock{mutex};
     notes.preflight.insert(notes.preflight.end(), noted.preflight.begin(), noted.preflight.end());
     noted.preflight = std::move(notes.preflight);
+    std::erase_if(notes.orders, revises);
+    notes.orders.insert(notes.orders.end(), noted.orders.begin(), noted.orders.end());
+    noted.orders = std::move(notes.orders);
     notes.events.insert(notes.events.end(), noted.events.begin(), noted.events.end());
     notes.environment.insert(notes.environment.end(), noted.environment.begin(),
                              noted.environment.end());
@@ -100,6 +118,7 @@ Result<void> Journal::Worker::write_with_notes(RunBatch batch) {
     batch.preflight = notes.preflight;
     batch.retakes = notes.retakes;
     batch.exclusions = notes.exclusions;
+    batch.orders = notes.orders;
     auto written = write(batch);
     if (!written) put_back(std::move(notes));
     return written;
@@ -146,7 +165,7 @@ Result<void> Journal::Worker::close(bool complete, const std::string& reason, co
     AXISCAL_CHECK(save_notes());
     if (auto why = known_failure()) return tl::unexpected<Error>(*why);
     if (!writer) return fail(Fault::no_run_armed, "no run file is open");
-    auto closed = remember(writer->close(complete, reason, tie));
+    auto closed = remember(writer->close(complete, reason, tie, key.get()));
     if (closed) writer.reset();
     return closed;
 }

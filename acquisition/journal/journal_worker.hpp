@@ -74,6 +74,7 @@ struct Journal::Worker {
     std::optional<JournalClock::Time> save_at; // when something is noted
     std::optional<Error> broken;
     std::optional<RunFileWriter> writer;
+    std::shared_ptr<const SecretKey> key; ///< set before the first job
     boost::asio::any_io_executor loop;
     JournalClock& clock;
     std::jthread thread;
@@ -81,6 +82,7 @@ struct Journal::Worker {
 private:
     void serve(const std::stop_token& stop);
     RunBatch take_notes();
+    void drop_orders();
     void put_back(RunBatch notes);
     Result<void> write(const RunBatch& batch);
     Result<void> remember(Result<void> outcome);

@@ -175,6 +175,8 @@ void MissingRows::settle_points(int next_step) {
     for (std::size_t i = 0; i < open.size(); ++i) {
         const bool certain = missed.size() >= open.size();
         open[i]->row.table = certain ? "point"
+                             : format_ >= 7
+                                 ? "point, synchronisation, environment, event, exclusion or ordered"
                              : format_ >= 4
                                  ? "point, synchronisation, environment, event or exclusion"
                                  : "point, environment or event";

@@ -152,6 +152,7 @@ std::vector<std::string> MissingRows::body_candidates(const Hole& hole) const {
     add(hole.before == place_of("retake_point") || (format_ >= 3 && !hole.alone && last_step_ >= 0),
         "retake_point");
     add(format_ >= 3 && last_step_ >= 0, "exclusion");
+    add(format_ >= 7, "ordered");
     add(hole.after == place_of("retake") || hole.after == place_of("exclusion"), "closing");
     return tables;
 }
@@ -162,7 +163,7 @@ void MissingRows::settle_body(Hole& hole) {
         return;
     }
     if (hole.before == place_of("closing") && hole.alone) { // an order alone would be told by these
-        hole.row.table = "exclusion";
+        hole.row.table = format_ >= 7 ? "exclusion or ordered" : "exclusion";
         return;
     }
     hole.row.table = joined(body_candidates(hole));

@@ -98,6 +98,7 @@ inline constexpr std::array tables{
     Table{"retake_point", "step, planned_step", "ii", 3},
     Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit", 3},
     Table{"synchronisation", "step, datum_id, u_t_ns, error_um", "itIR", 4},
+    Table{"ordered", "kind, about, at_ns, utc_ns, door, uid, user, name", "ttiitItt", 7},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
 

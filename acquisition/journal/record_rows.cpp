@@ -157,7 +157,7 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     const auto& [before, utc_ns, after] = header.opened;
     std::vector<ChainedRow> rows;
     rows.push_back(chained("run", {header.run_id, header.software_version, header.station,
-                                   header.station_config, header.config_hash, header.boot_id,
+                                   header.station_config, header.config_hash, header.boot_id.text,
                                    nanoseconds(before), utc_ns, nanoseconds(after)}));
     rows.push_back(row_of_plan(header.plan));
     for (const auto target : header.plan.targets)
@@ -346,6 +346,14 @@ ChainedRow row_of(const SynchronisationRecord& record) {
         error = stated->error_um;
     }
     return chained("synchronisation", {whole(step), datum_id, uncertainty, error});
+}
+
+ChainedRow row_of(const OrderRecord& order) {
+    const auto& [kind, about, at, utc_ns, by] = order;
+    Value uid;
+    if (by.uid) uid = *by.uid;
+    return chained("ordered",
+                   {kind, about, nanoseconds(at), utc_ns, by.door, uid, by.user, by.name});
 }
 
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake) {

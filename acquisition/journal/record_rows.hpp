@@ -58,6 +58,7 @@ ChainedRow time_row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);
 ChainedRow row_of(const ExclusionRecord& exclusion);
 ChainedRow row_of(const SynchronisationRecord& record);
+ChainedRow row_of(const OrderRecord& order);
 /// The order, then its points.
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake);
 /// A row that may stand after a closing row: the run is open again from there on.

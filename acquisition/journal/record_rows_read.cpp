@@ -51,6 +51,7 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_retake_point,
     read_exclusion,
     read_synchronisation,
+    read_ordered,
     read_closing,
 };
 

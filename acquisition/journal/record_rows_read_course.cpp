@@ -193,6 +193,19 @@ void read_synchronisation(RecordedRun& run, RowReader& in) {
     run.attachments.synchronisation.push_back(std::move(record));
 }
 
+void read_ordered(RecordedRun& run, RowReader& in) {
+    OrderRecord order;
+    order.kind = in.text();
+    order.about = in.text();
+    order.at = in.time();
+    order.utc_ns = in.integer();
+    order.by.door = in.text();
+    order.by.uid = in.optional_integer();
+    order.by.user = in.text();
+    order.by.name = in.text();
+    run.revisions.orders.push_back(std::move(order));
+}
+
 void read_closing(RecordedRun& run, RowReader& in) {
     ++run.revisions.closings;
     run.complete = in.flag();

@@ -29,7 +29,7 @@ void read_run(RunRecord& run, RowReader& in) {
     run.station = in.text();
     run.station_config = in.text();
     run.config_hash = in.text();
-    run.boot_id = in.text();
+    run.boot_id.text = in.text();
     run.opened = read_tie(in);
 }
 

@@ -1,6 +1,8 @@
 #include "acquisition/journal/run_file.hpp"
 
 #include "acquisition/journal/durable_file.hpp"
+#include "acquisition/journal/file_users.hpp"
+#include "acquisition/journal/run_signature.hpp"
 #include "acquisition/journal/schema.hpp"
 #include "acquisition/journal/statement.hpp"
 #include "acquisition/journal/stream_packing.hpp"
@@ -15,6 +17,8 @@
 namespace axiscal {
 namespace {
 
+constexpr int orders_since = 7; // format of the file
+
 std::string insert_sql(const Table& table) {
     std::string marks = "?";
     for (std::size_t i = 0; i < table.types.size() + 1; ++i)
@@ -27,12 +31,20 @@ Blob blob_of(const Digest& digest) {
     return Blob{std::string{digest.begin(), digest.end()}};
 }
 
-// Back from WAL to one file that can be mailed; fails while another connection reads it.
+tl::unexpected<Error> held_by_others(const std::string& path) {
+    return fail(Fault::busy, path + " is read by " + file_users_in_words(path) +
+                                 ": the station goes on as soon as that program is ended");
+}
+
+// Back from WAL to one file that can be mailed. The first pragma tells 1 where a reader is in its
+// way, and no error.
 Result<void> fold_into_one_file(Database& database, const std::string& path) {
-    AXISCAL_CHECK(database.execute("PRAGMA wal_checkpoint(TRUNCATE)"));
-    AXISCAL_TRY(const auto mode, database.value_of("PRAGMA journal_mode=DELETE"));
-    if (mode != Value{std::string{"delete"}})
-        return fail(Fault::io, path + " is in use by another program: stop it and close again");
+    AXISCAL_TRY(const auto in_the_way, database.integer_of("PRAGMA wal_checkpoint(TRUNCATE)"));
+    if (in_the_way != 0) return held_by_others(path);
+    const auto mode = database.value_of("PRAGMA journal_mode=DELETE");
+    if (!mode && database.is_held()) return held_by_others(path);
+    if (!mode) return tl::unexpected<Error>(mode.error());
+    if (*mode != Value{std::string{"delete"}}) return held_by_others(path);
     return {};
 }
 
@@ -93,7 +105,7 @@ Error as_not_durable(Error error) {
 
 bool RunBatch::empty() const {
     return environment.empty() && events.empty() && preflight.empty() && retakes.empty() &&
-           exclusions.empty() && !datum && !point && !circular && streams.empty() && chunks.empty();
+           exclusions.empty() && orders.empty() && !datum && !point && !circular && streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
@@ -159,11 +171,15 @@ Result<RunFileWriter> RunFileWriter::reopen_closed(const std::string& path, cons
 Result<RunFileWriter> RunFileWriter::go_on(const std::string& path,
                                            const RunFileContents& contents) {
     AXISCAL_TRY(auto writer, attach(path));
-    AXISCAL_TRY(const auto mode, writer.database_->value_of("PRAGMA journal_mode=WAL"));
-    if (mode != Value{std::string{"wal"}})
+    const auto mode = writer.database_->value_of("PRAGMA journal_mode=WAL");
+    if (!mode && writer.database_->is_held()) return held_by_others(path);
+    if (!mode) return tl::unexpected<Error>(mode.error());
+    if (*mode != Value{std::string{"wal"}})
         return fail(Fault::not_durable, path + ": this file system does not carry a WAL");
     AXISCAL_CHECK(writer.database_->execute("PRAGMA synchronous=FULL"));
-    // What a killed process wrote may be in the page cache only: sync it before it counts.
+    // What a killed process wrote may be in the page cache only: sync it before it counts. The log
+    // by itself: where a reader is in its way, the checkpoint leaves it as it is.
+    if (std::filesystem::exists(path + "-wal")) AXISCAL_CHECK(sync_file(path + "-wal"));
     AXISCAL_CHECK(writer.database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"));
     writer.links_ = contents.links;
     writer.head_ = contents.chain_head;
@@ -201,7 +217,8 @@ Result<void> RunFileWriter::append(const ChainedRow& row) {
 }
 
 Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
-                                     const std::string& before) {
+                                     const std::string& before,
+                                     const SecretKey* key) {
     if (broken_) return tl::unexpected<Error>(*broken_);
     for (const auto& row : rows)
         AXISCAL_CHECK(check_before_writing(row, format_));
@@ -210,6 +227,8 @@ Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
         if (!before.empty()) AXISCAL_CHECK(database_->execute(before));
         for (const auto& row : rows)
             AXISCAL_CHECK(append(row));
+        if (key != nullptr && format_ >= signed_since)
+            AXISCAL_CHECK(append_signature(*database_, *key, std::nullopt));
         return database_->execute("COMMIT");
     }());
 }
@@ -236,6 +255,9 @@ Result<void> RunFileWriter::write(const RunBatch& batch) {
         std::ranges::move(rows_of(retake), std::back_inserter(rows));
     for (const auto& exclusion : batch.exclusions)
         rows.push_back(row_of(exclusion));
+    if (format_ >= orders_since)
+        for (const auto& order : batch.orders)
+            rows.push_back(row_of(order));
     std::ranges::move(circular_rows(batch, format_), std::back_inserter(rows));
     for (const auto& reading : batch.environment)
         rows.push_back(row_of(reading));
@@ -301,27 +323,49 @@ Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_skip(std::uint16
                                        std::to_string(sequence) + " LIMIT 1");
 }
 
-Result<void> RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie) {
-    AXISCAL_CHECK(transact({row_of(Closing{complete, std::move(reason), tie})}));
-    broken_ = Error{Fault::refused, path_ + " is closed: nothing can be added", {}, {}};
-    insertions_.clear();
+Result<void>
+RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie, const SecretKey* key) {
+    if (!closed_) {
+        AXISCAL_CHECK(transact({row_of(Closing{complete, std::move(reason), tie})}, {}, key));
+        closed_ = true;
+        broken_ = Error{Fault::refused, path_ + " is closed: nothing can be added", {}, {}};
+        insertions_.clear();
+    }
     AXISCAL_CHECK(fold_into_one_file(*database_, path_));
     database_.reset();
     return sync_with_folder(path_);
 }
 
-Result<void> store_result(const std::string& path, const StoredResult& result) {
+namespace {
+
+/// Result and signature in one transaction: neither stands without the other.
+Result<void> insert_result(Database& database, const StoredResult& result, const SecretKey* key) {
+    AXISCAL_CHECK(database.execute("PRAGMA synchronous=EXTRA; BEGIN IMMEDIATE"));
+    {
+        AXISCAL_TRY(auto insert,
+                    database.prepare("INSERT INTO result(digest, document, hash) VALUES(?,?,?)"));
+        const Digest hash = sha256(result.digest + '\n' + result.document);
+        AXISCAL_CHECK(insert.bind({result.digest, result.document, blob_of(hash)}));
+        if (auto stepped = insert.step(); !stepped) return tl::unexpected<Error>(stepped.error());
+        if (key != nullptr) AXISCAL_CHECK(append_signature(database, *key, hash));
+    }
+    return database.execute("COMMIT");
+}
+
+} // namespace
+
+Result<void>
+store_result(const std::string& path, const StoredResult& result, const SecretKey* key) {
     AXISCAL_TRY(const auto summary, summarize_run_file(path));
     if (!summary.closed) return fail(Fault::refused, path + " is still open: close the run first");
     AXISCAL_TRY(auto database,
                 Database::open(path, Database::Access::read_write, Fault::not_durable));
-    AXISCAL_CHECK(database->execute("PRAGMA synchronous=EXTRA"));
-    AXISCAL_TRY(auto insert,
-                database->prepare("INSERT INTO result(digest, document, hash) VALUES(?,?,?)"));
-    const Digest hash = sha256(result.digest + '\n' + result.document);
-    AXISCAL_CHECK(insert.bind({result.digest, result.document, blob_of(hash)}));
-    if (auto stepped = insert.step(); !stepped) return tl::unexpected<Error>(stepped.error());
-    return {};
+    AXISCAL_TRY(const bool signed_closing, is_closing_signed(*database));
+    if (signed_closing && key == nullptr)
+        return fail(Fault::refused, path + " was closed with a signature, and the key for that of "
+                                           "its result is gone: start axiscald anew");
+    AXISCAL_TRY(const auto format, database->integer_of("PRAGMA user_version"));
+    return insert_result(*database, result, format >= signed_since ? key : nullptr);
 }
 
 Result<void> tidy_run_files(const std::string& folder) {
@@ -333,17 +377,20 @@ Result<void> tidy_run_files(const std::string& folder) {
     for (const auto& path : found)
         if (path.ends_with(".axiscal.new") || path.ends_with(".axiscal.new-journal"))
             std::filesystem::remove(path, error);
+    Result<void> outcome;
     for (const auto& path : found) {
         if (!path.ends_with(run_file_ending)) continue;
         if (!found.contains(path + "-wal") && !found.contains(path + "-journal")) continue;
         AXISCAL_TRY(auto database, Database::open(path, Database::Access::read_write, Fault::io));
         AXISCAL_TRY(const bool closed, is_run_closed(*database));
         if (!closed) continue;
-        AXISCAL_CHECK(fold_into_one_file(*database, path));
+        auto folded = fold_into_one_file(*database, path);
         database.reset();
-        AXISCAL_CHECK(sync_with_folder(path));
+        if (folded) folded = sync_with_folder(path);
+        if (!folded && folded.error().fault != Fault::busy) return folded;
+        if (!folded) outcome = std::move(folded);
     }
-    return {};
+    return outcome;
 }
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 // the daemon makes them on the journal's thread.
 
 #include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/ed25519.hpp"
 #include "acquisition/journal/record_rows.hpp"
 #include "acquisition/journal/statement.hpp"
 #include "analysis/run_record.hpp"
@@ -30,6 +31,7 @@ struct RunBatch {
     std::vector<PreflightRecord> preflight;
     std::vector<RetakeRecord> retakes;
     std::vector<ExclusionRecord> exclusions;
+    std::vector<OrderRecord> orders; ///< in a file of a format before 7 they are not kept
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
     std::optional<Synchronisation> synchronisation; ///< of the point, else of the datum
@@ -69,7 +71,7 @@ public:
     /// its sync waits for the data alone.
     void reserve_log() const;
 
-    /// One transaction, in the order preflight, retakes, exclusions, circular, streams, chunks,
+    /// One transaction, in the order preflight, retakes, exclusions, orders, circular, streams, chunks,
     /// environment, events, datum, point; the last two with their synchronisation. @errors
     /// Fault::refused, unwritten, for the first three in a file of a format before 3.
     Result<void> write(const RunBatch& batch);
@@ -87,8 +89,14 @@ public:
     sequence_of_skip(std::uint16_t sequence) const;
 
     /// Writes the closing row and leaves one single file without WAL, synced with its folder.
-    Result<void> close(bool complete, std::string reason, const ClockTie& tie);
+    /// @param key  signs it, in the same transaction; null, or a file of a format before 7: nobody
+    /// @errors Fault::busy while another program reads the file: the closing row is durable then,
+    /// and a further call only tries the rest.
+    Result<void>
+    close(bool complete, std::string reason, const ClockTie& tie, const SecretKey* key = nullptr);
     [[nodiscard]] const std::string& path() const { return path_; }
+    /// The closing row is durable.
+    [[nodiscard]] bool closed() const { return closed_; }
 
 private:
     RunFileWriter(std::string path, std::unique_ptr<Database> database);
@@ -96,16 +104,19 @@ private:
     static Result<RunFileWriter> go_on(const std::string& path, const RunFileContents& contents);
     Result<Statement*> insertion_into(const Table& table);
     Result<void> append(const ChainedRow& row);
-    /// `before`: SQL of the same transaction that comes first.
-    Result<void> transact(const std::vector<ChainedRow>& rows, const std::string& before = {});
+    /// `before`: SQL of the same transaction that comes first; `key` signs what is closed in it.
+    Result<void> transact(const std::vector<ChainedRow>& rows,
+                          const std::string& before = {},
+                          const SecretKey* key = nullptr);
     Result<void> keep(Result<void> outcome);
 
     std::string path_;
     std::unique_ptr<Database> database_;
     std::map<std::string_view, Statement> insertions_; ///< by table
-    std::int64_t links_ = 0; ///< in the chain so far
-    Digest head_{};          ///< hash of the last link; zeros before the first
-    int format_ = 0;         ///< set by create and reopen
+    std::int64_t links_ = 0;                           ///< in the chain so far
+    Digest head_{};  ///< hash of the last link; zeros before the first
+    int format_ = 0; ///< set by create and reopen
+    bool closed_ = false;
     std::optional<Error> broken_;
 };
 
@@ -136,8 +147,11 @@ Result<RunFileContents> read_run_file_contents(const std::string& path);
 Result<RunRecord> read_run_file(const std::string& path);
 
 /// Adds a result to a closed run file; several may be kept, the last one counts. The chain is not
-/// touched; the file's SHA-256 changes. @errors Fault::refused while the run is open.
-Result<void> store_result(const std::string& path, const StoredResult& result);
+/// touched; the file's SHA-256 changes.
+/// @param key  signs it with the last closing; null: nobody
+/// @errors Fault::refused while the run is open, and without a key where the closing is signed.
+Result<void>
+store_result(const std::string& path, const StoredResult& result, const SecretKey* key = nullptr);
 /// @errors Fault::not_found when none is stored; Fault::bad_run_file when it was changed.
 Result<StoredResult> read_stored_result(const std::string& path);
 
@@ -157,7 +171,7 @@ Result<bool> is_run_closed(const Database& database);
 struct RunSummary {
     bool circular = false; ///< a circular test
     std::string path, run_id, machine, axis, closing_reason;
-    std::string boot_id; ///< of the computer when the run was opened
+    BootId boot_id; ///< of the computer when the run was opened
     MonotonicTime opened_at;
     std::int64_t opened_utc_ns = 0; ///< what the clock said
     int points = 0, planned = 0, closings = 0;
@@ -168,7 +182,8 @@ struct RunSummary {
     bool probing = false;           ///< a probing test
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
-/// Folder of its certificate. A run that was added to after its first one gets another: nothing
+/// Folder of its certificate: the run's id, made anew by id_of_name() in case the file comes from
+/// elsewhere. A run that was added to after its first one gets another: nothing
 /// that was issued is replaced.
 std::string certificate_name(const RunSummary& run);
 /// A stored result of a drift test.

@@ -2,6 +2,7 @@
 #include "acquisition/journal/run_file_open.hpp"
 #include "acquisition/journal/run_order.hpp"
 #include "acquisition/journal/schema.hpp"
+#include "analysis/quantity/valid_text.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -310,7 +311,7 @@ Result<void> take_opening(const Database& database, RunSummary& summary) {
                                                    "opened_utc_ns FROM run LIMIT 1"));
     if (rows.empty()) return {};
     if (const auto* id = std::get_if<std::string>(&rows[0][0])) summary.run_id = *id;
-    if (const auto* boot = std::get_if<std::string>(&rows[0][1])) summary.boot_id = *boot;
+    if (const auto* boot = std::get_if<std::string>(&rows[0][1])) summary.boot_id.text = *boot;
     if (const auto* at = std::get_if<std::int64_t>(&rows[0][2]))
         summary.opened_at = monotonic_from_ns(*at);
     if (const auto* utc_ns = std::get_if<std::int64_t>(&rows[0][3]))
@@ -388,7 +389,8 @@ Result<std::optional<LastRequest>> last_request_of_closed(const std::string& pat
 }
 
 std::string certificate_name(const RunSummary& run) {
-    return run.run_id + (run.closings > 1 ? "-r" + std::to_string(run.closings) : "");
+    return id_of_name(run.run_id, "run", longest_run_id) +
+           (run.closings > 1 ? "-r" + std::to_string(run.closings) : "");
 }
 
 std::vector<RunSummary> list_run_files(const std::string& folder) {

@@ -8,9 +8,9 @@
 
 namespace axiscal {
 
-/// The computer at this moment. Without an id nothing is known of it.
+/// The computer at this moment. Where the id is unknown, no run is of this boot.
 struct PresentBoot {
-    std::string id;
+    BootId id;
     ClockTie now{};
 };
 
@@ -18,7 +18,7 @@ struct PresentBoot {
 /// by the latest UTC of their runs, the present one after all others. A run that states no boot is
 /// a boot by itself. Two of the same moment: the path decides.
 /// @returns a place in `runs`; null when there are none
-const RunSummary* newest_run(const std::vector<RunSummary>& runs, const std::string& present_boot);
+const RunSummary* newest_run(const std::vector<RunSummary>& runs, const BootId& present_boot);
 
 /// The earliest UTC that a run opened after `newest` can state: that of `newest`, or what the clock
 /// of now tells of its opening, if it was set back since in the present boot. A clock that was set

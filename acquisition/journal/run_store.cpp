@@ -76,7 +76,7 @@ Look worth(const std::string& instant,
         instant >= instant_in_name(earliest_utc_ns_after(*newest, present)))
         return Look::into;
     const bool all_in_the_future =
-        !present.id.empty() && std::ranges::all_of(seen, [&](const RunSummary& run) {
+        present.id.known() && std::ranges::all_of(seen, [&](const RunSummary& run) {
             return run.opened_utc_ns > present.now.utc_ns;
         });
     if (!all_in_the_future) return Look::no_further;
@@ -112,7 +112,9 @@ std::string instant_in_name(std::int64_t utc_ns) {
 }
 
 Result<StoredRuns> look_through_runs(const std::string& folder, const PresentBoot& present) {
-    AXISCAL_CHECK(tidy_run_files(folder));
+    // A closed run that somebody reads is put into one file later.
+    if (auto tidied = tidy_run_files(folder); !tidied && tidied.error().fault != Fault::busy)
+        return tl::unexpected<Error>(tidied.error());
     StoredRuns runs;
     const FileHandle place{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
     if (!place) return runs;

@@ -12,6 +12,6 @@ std::string run_file_schema(int format);
 /// "AXCL": PRAGMA application_id, bytes 68..71 of the file, big-endian.
 inline constexpr int run_file_application_id = 0x4158434C;
 /// PRAGMA user_version of files written here; older ones are read, a newer one is refused.
-inline constexpr int run_file_version = 6;
+inline constexpr int run_file_version = 7;
 
 } // namespace axiscal

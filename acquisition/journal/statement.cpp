@@ -145,6 +145,10 @@ int errno_of_files(sqlite3* connection) {
 
 } // namespace
 
+bool Database::is_held() const {
+    return (sqlite3_errcode(connection_.get()) & 0xff) == SQLITE_BUSY;
+}
+
 tl::unexpected<Error> Database::failure() const {
     int system = connection_ ? sqlite3_system_errno(connection_.get()) : 0;
     const int kind = connection_ ? sqlite3_extended_errcode(connection_.get()) : SQLITE_NOMEM;

@@ -50,6 +50,8 @@ public:
     [[nodiscard]] Result<Value> value_of(const std::string& sql) const;
     [[nodiscard]] Result<std::int64_t> integer_of(const std::string& sql) const;
     [[nodiscard]] tl::unexpected<Error> failure() const;
+    /// The last call failed because another connection holds the file.
+    [[nodiscard]] bool is_held() const;
 
 private:
     struct Close {

@@ -11,7 +11,8 @@ namespace axiscal {
 struct CircularOrder {
     CircularPlan plan;
     TriggerShape shape = TriggerShape::sequence_block;
-    Duration answer_limit = std::chrono::seconds{10}; ///< longest wait for `done`
+    Duration answer_limit =
+        usual_cnc_timeout(std::chrono::seconds{10}); ///< longest wait for `done`
 };
 
 /// Rest, request n, feed-in, circle with overshoot, feed-out, for every circle n of the plan; the

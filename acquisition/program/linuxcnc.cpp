@@ -183,6 +183,7 @@ private:
 
 Result<std::string> write_linuxcnc(const ProgramOrder& order) {
     if (auto fits = check_prepare(order); !fits) return tl::unexpected<Error>(fits.error());
+    AXISCAL_CHECK(check_answer_limit(order.answer_limit, order.capture_timeout));
     if (order.shape == TriggerShape::dwell && order.dwell < order.least_halt)
         return fail(Fault::bad_request,
                     "a dwell of " + std::to_string(seconds_of(order.dwell)) +

@@ -4,6 +4,8 @@
 #include "analysis/rotary/rotary_position.hpp"
 #include "drivers/framing/checksum.hpp"
 
+#include "config/measure.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +30,15 @@ Result<void> check_prepare(const ProgramOrder& order) {
         Fault::bad_request,
         "only trigger.shape = \"sequence-block\" can send prepare: leave --datum-by-cnc out "
         "and give 'axiscal arm' when the axis waits at its datum");
+}
+
+Result<void> check_answer_limit(Duration answer_limit, Duration capture_timeout) {
+    if (answer_limit >= least_cnc_timeout(capture_timeout)) return {};
+    return fail(Fault::bad_request,
+                "the program would wait for an answer " + std::to_string(seconds_of(answer_limit)) +
+                    " s and the station needs " +
+                    std::to_string(seconds_of(least_cnc_timeout(capture_timeout))) +
+                    " s at most: lengthen trigger.cnc_timeout");
 }
 
 std::vector<ProgramMove> moves_of(const RunPlan& plan) {
@@ -75,12 +86,14 @@ std::span<const ProgramDialect> program_dialects() {
 
 Result<ProgramDialect> find_dialect(std::string_view name) {
     std::string known;
+    std::vector<std::string> names;
     for (const ProgramDialect& dialect : dialects) {
         if (dialect.name == name) return dialect;
         known += (known.empty() ? "" : ", ") + std::string{dialect.name};
+        names.emplace_back(dialect.name);
     }
-    return fail(Fault::bad_request,
-                "there is no dialect '" + std::string{name} + "'; known are " + known);
+    return fail(Fault::bad_request, "there is no dialect '" + std::string{name} + "'; known are " +
+                                        known + did_you_mean(name, names));
 }
 
 std::string program_id(const RunPlan& plan) {

@@ -18,7 +18,9 @@ struct ProgramOrder {
     Speed feed;
     Duration dwell{};
     TriggerShape shape = TriggerShape::sequence_block;
-    Duration answer_limit = std::chrono::seconds{10}; ///< longest wait for `done`
+    /// Longest wait for `done`; one that ends before the station's own is refused.
+    Duration answer_limit = usual_cnc_timeout(std::chrono::seconds{10});
+    Duration capture_timeout = std::chrono::seconds{10}; ///< the station's
     /// Points taken again in a run that is armed: the program begins at the last durable request
     /// instead of 0 and counts on.
     bool retakes = false;
@@ -31,6 +33,9 @@ struct ProgramOrder {
 
 /// @errors Fault::bad_request where the CNC is to tie the datum by a shape that has no `prepare`.
 Result<void> check_prepare(const ProgramOrder& order);
+
+/// @errors Fault::bad_request where the CNC would give up before the station does.
+Result<void> check_answer_limit(Duration answer_limit, Duration capture_timeout);
 
 /// One move of the cycle, before any dialect: where to, and whether a point is taken there.
 struct ProgramMove {

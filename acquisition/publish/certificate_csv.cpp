@@ -19,6 +19,7 @@ void append_head(std::string& csv, const Certificate& certificate) {
     append_csv_line(csv, {"# axiscal.certificate-csv/1"});
     line("run", run.run_id);
     line("certificate_number", run.statements.certificate_number);
+    if (!certificate.replaces.empty()) line("replaces", certificate.replaces);
     line("machine", run.statements.machine);
     line("machine_serial", run.statements.machine_serial);
     line("axis", run.statements.axis);
@@ -29,6 +30,22 @@ void append_head(std::string& csv, const Certificate& certificate) {
     line("sign", "deviation = actual - target; B_mean = mean forward - mean backward");
     line("run_file_sha256", certificate.run_file_sha256);
     line("software_version", run.software_version);
+}
+
+/// What enters no figure, one line a target and direction; excluded readings have lines of their
+/// own (append_set_aside).
+void append_completeness(std::string& csv, const Certificate& certificate) {
+    const Completeness& known = certificate.completeness;
+    append_csv_line(csv,
+                    {"# completeness", known.partial() ? "partial" : "complete",
+                     "used " + std::to_string(known.used), "of " + std::to_string(known.expected)});
+    if (!known.partial()) return;
+    for (const LeftOut& entry : known.left_out)
+        append_csv_line(csv, {"# left_out", std::to_string(entry.approaches.size()),
+                              entry.direction == Direction::positive ? "forward" : "backward",
+                              csv_number(certificate.planned_targets.at(
+                                  static_cast<std::size_t>(entry.target_index))),
+                              csv_field(entry.why)});
 }
 
 void append_parameters(std::string& csv, const Certificate& certificate) {
@@ -117,7 +134,7 @@ void append_set_aside(std::string& csv, const Certificate& certificate) {
                         {reading.superseded ? "# superseded" : "# excluded",
                          std::to_string(reading.planned.approach + 1),
                          reading.planned.direction == Direction::positive ? "forward" : "backward",
-                         csv_number(certificate.deviations.targets().at(
+                         csv_number(certificate.planned_targets.at(
                              static_cast<std::size_t>(reading.planned.target_index))),
                          csv_number(reading.deviation * factor), csv_field(reading.reason)});
     for (const PreflightRecord& check : certificate.revisions.preflight)
@@ -147,17 +164,16 @@ void append_points(std::string& csv, const Certificate& certificate) {
         const auto i = static_cast<std::size_t>(point.planned.target_index);
         const auto j = static_cast<std::size_t>(point.planned.approach);
         if (is_excluded(certificate, point)) continue; // stands among those set aside
-        const double target = certificate.deviations.targets().at(i);
+        const double target = certificate.planned_targets.at(i);
         const double deviation = certificate.compensation.after.at(k);
         const MonotonicTime at = point.window_begin + (point.window_end - point.window_begin) / 2;
         const Surroundings around = surroundings_at(history, at);
-        append_csv_line(csv,
-                        {std::to_string(j + 1), forward ? "forward" : "backward",
-                         csv_number(target), csv_number(target + deviation),
-                         csv_number(deviation * deviation_factor), csv_number(around.air_degC),
-                         csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
-                         csv_number(around.material_degC), iso8601_utc(tie.utc_ns_at(at)),
-                         csv_number(synchronisation_error(certificate, point))});
+        append_csv_line(csv, {std::to_string(j + 1), forward ? "forward" : "backward",
+                              csv_number(target), csv_number(target + deviation),
+                              csv_number(deviation * deviation_factor), csv_number(around.air_degC),
+                              csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
+                              csv_number(around.material_degC), iso8601_utc(tie.utc_ns_at(at)),
+                              csv_number(synchronisation_error(certificate, point))});
     }
 }
 
@@ -167,6 +183,7 @@ std::string certificate_csv(const Certificate& certificate) {
     const bool rotary = certificate.run.plan.axis_kind == AxisKind::rotary;
     std::string csv;
     append_head(csv, certificate);
+    append_completeness(csv, certificate);
     append_parameters(csv, certificate);
     append_budget(csv, certificate);
     append_synchronisation(csv, certificate);

@@ -19,7 +19,7 @@ Json plan_of(const Certificate& certificate) {
     object["cycle"] = name_of(plan.cycle);
     object["pass"] = plan.pass;
     object["remark"] = stated_json(plan.remark);
-    object["targets"] = certificate.deviations.targets();
+    object["targets"] = certificate.planned_targets;
     object["target_rule"] = plan.seed ? "P_i = (i-1) p + r" : "given list";
     object["interval_mm"] = plan.interval.in(mm);
     object["seed"] = stated_json(plan.seed);
@@ -227,11 +227,14 @@ Json run_of(const Certificate& certificate) {
     object["datums"] = datums_of(run);
     object["synchronisation"] = synchronisation_json(certificate);
     object["deviations"]["sign"] = "actual minus target";
+    if (certificate.completeness.partial()) // else those of the plan
+        object["deviations"]["targets"] = certificate.deviations.targets();
     object["deviations"]["forward"] = certificate.deviations.forward();
     if (!certificate.deviations.backward().empty())
         object["deviations"]["backward"] = certificate.deviations.backward();
     object["preflight"] = preflight_json(certificate.revisions.preflight);
     object["retakes"] = retakes_of(run, certificate.revisions);
+    object["orders"] = orders_json(certificate.revisions.orders, run.opened);
     object["set_aside"] = set_aside_of(certificate);
     object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;
@@ -307,6 +310,27 @@ Json compensation_of(const Certificate& certificate) {
     return object;
 }
 
+/// Counts of readings; targets and approaches from 0, positions in mm or deg.
+Json completeness_of(const Certificate& certificate) {
+    const Completeness& known = certificate.completeness;
+    Json object;
+    object["status"] = known.partial() ? "partial" : "complete";
+    object["expected"] = known.expected;
+    object["used"] = known.used;
+    object["left_out"] = Json::array();
+    for (const LeftOut& entry : known.left_out)
+        object["left_out"].push_back(
+            {{"target", entry.target_index},
+             {"position",
+              certificate.planned_targets.at(static_cast<std::size_t>(entry.target_index))},
+             {"direction", name_of(entry.direction)},
+             {"approaches", entry.approaches},
+             {"count", entry.approaches.size()},
+             {"why", entry.why},
+             {"target_omitted", entry.target_omitted}});
+    return object;
+}
+
 /// By parameter, whose U is not evaluated. An object of its own: a new member of `document` may
 /// move those that are being read.
 Json not_evaluated_for(const Json& document) {
@@ -339,8 +363,12 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
 
 Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
+    document["completeness"] = completeness_of(certificate);
     document["compensation"] = compensation_of(certificate);
     add_uncertainty(document, certificate);
+    document["certificate"] = {
+        {"number", stated_json(certificate.run.statements.certificate_number)},
+        {"replaces", stated_json(certificate.replaces)}};
     document["run"] = run_of(certificate);
     document["environment"] = environment_of(certificate);
     return document;

@@ -12,6 +12,8 @@ namespace axiscal {
 /// The document of result_to_json() with
 /// - "compensation" replaced by an object (formulas, coefficients, largest corrections; deviations
 ///   before and after in plan order, in `unit`),
+/// - "completeness": "status" ("complete" | "partial"), readings "expected" and "used", and
+///   "left_out", an object for each target and direction of which planned readings enter no figure,
 /// - "environment": every channel with place, correction and first, last, least, greatest,
 /// - "run": who, what, when; plan, laser, material, air, instruments, datums, deviations, events,
 ///   remarks, "synchronisation" (what the uncertain time of its samples adds to each capture, step

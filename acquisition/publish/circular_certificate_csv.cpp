@@ -18,6 +18,7 @@ void append_head(std::string& csv, const CircularCertificate& certificate) {
     append_csv_line(csv, {"# axiscal.circular-csv/1"});
     line(measured.taken_elsewhere ? "case" : "run", run.run_id);
     line("certificate_number", run.statements.certificate_number);
+    if (!certificate.replaces.empty()) line("replaces", certificate.replaces);
     line("machine", run.statements.machine);
     line("machine_serial", run.statements.machine_serial);
     line("plane", measured.axes[0] + measured.axes[1]);

@@ -213,7 +213,10 @@ Json run_of(const CircularCertificate& certificate) {
     object["instruments"] = instruments_json(run.instruments, measured.started_utc.substr(0, 10));
     object["calibrations"] =
         calibrations_json(run.calibrations, run.channels, measured.started_utc.substr(0, 10));
-    if (!measured.taken_elsewhere) object["preflight"] = preflight_json(run.preflight);
+    if (!measured.taken_elsewhere) {
+        object["preflight"] = preflight_json(run.preflight);
+        object["orders"] = orders_json(run.orders, run.opened);
+    }
     object["events"] = events_json(run.events, run.opened);
     object["remarks"] = certificate.remarks;
     return object;
@@ -233,6 +236,9 @@ Json circular_certificate_to_json(const CircularCertificate& certificate) {
         for (const auto& [key, values] : certificate.of_repeats)
             document["repeats"][label_of(certificate, key)] = values;
     }
+    document["certificate"] = {
+        {"number", stated_json(measured.run.statements.certificate_number)},
+        {"replaces", stated_json(certificate.replaces)}};
     document["run"] = run_of(certificate);
     document["environment"] = environment_of(measured.conditions);
     return document;

@@ -109,6 +109,7 @@ Result<CircularRun> circular_run_of(const RunFileContents& contents) {
     const CircularSetup& setup = *contents.circular;
     CircularRun circular = header_of(contents.run, setup);
     circular.preflight = contents.revisions.preflight;
+    circular.orders = contents.revisions.orders;
     circular.eve_source = contents.attachments.eve_source;
     AXISCAL_TRY(const StreamSamples stream,
                 samples_of(contents.blocks, contents.streams.front().id));

@@ -1,5 +1,7 @@
 #include "acquisition/publish/csv_text.hpp"
 
+#include "analysis/quantity/valid_text.hpp"
+
 #include <array>
 #include <charconv>
 
@@ -18,9 +20,9 @@ std::string csv_number(const std::optional<double>& value) {
 std::string csv_field(std::string_view words) {
     std::string text;
     bool quote = false;
-    for (const char c : words) {
+    for (const char c : valid_text(words)) {
         if (c == '"') text += '"';
-        text += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        text += c;
         quote = quote || c == '"' || c == ',';
     }
     return quote ? '"' + text + '"' : text;

@@ -3,6 +3,7 @@
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/row.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "config/json_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +72,7 @@ Json test_run_json(const RunRecord& run,
 
 std::string document_text(const Json& document) {
     constexpr int indent = 1;
-    return document.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(document, indent) + "\n";
 }
 
 } // namespace axiscal

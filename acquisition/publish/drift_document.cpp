@@ -7,6 +7,7 @@
 #include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
 #include "analysis/run_clock.hpp"
+#include "config/json_text.hpp"
 
 #include <array>
 
@@ -114,6 +115,7 @@ Json run_of(const DriftDocument& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
     Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
+    object["orders"] = orders_json(document.orders, run.opened);
     Json& statements = object["statements"];
     statements["certificate_number"] = stated_json(said.certificate_number);
     statements["laboratory"] = stated_json(said.laboratory);
@@ -210,18 +212,21 @@ Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
     AXISCAL_TRY(document.drift, evaluate_drift(contents.run, *contents.attachments.drift));
     tell_times_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.retakes,
                             contents.run.closed);
+    tell_orders_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.orders);
     document.run = std::move(contents.run);
     document.attachments = std::move(contents.attachments);
+    document.orders = std::move(contents.revisions.orders);
     AXISCAL_TRY(document.result_digest,
                 standing_digest(run_file, {digest_of(document.drift), agreement_of(document.run),
                                            [&document] { return drift_figures(document.drift); }}));
     return document;
 }
 
-Result<void> seal_drift(const std::string& run_file) {
+Result<void> seal_drift(const std::string& run_file, const SecretKey* key) {
     if (read_stored_result(run_file)) return {};
     AXISCAL_TRY(const DriftDocument document, drift_of_run_file(run_file));
-    return store_result(run_file, {document.result_digest, drift_figures(document.drift).dump()});
+    return store_result(run_file,
+                        {document.result_digest, json_text(drift_figures(document.drift))}, key);
 }
 
 std::string drift_standards(const RunDrift& drift) {

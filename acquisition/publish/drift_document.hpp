@@ -1,9 +1,11 @@
 #pragma once
 // A closed drift test as the documents that leave the station. Pure, but for reading the run file.
 
+#include "acquisition/journal/ed25519.hpp"
 #include "analysis/drift/run_drift.hpp"
 #include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
+#include "analysis/run_revisions.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,7 @@ namespace axiscal {
 struct DriftDocument {
     RunRecord run;
     RunAttachments attachments;
+    std::vector<OrderRecord> orders; ///< who began it
     RunDrift drift;
     std::string run_file_sha256, result_digest;
 };
@@ -23,8 +26,8 @@ struct DriftDocument {
 /// also for figures that are not those stored; Fault::not_found.
 Result<DriftDocument> drift_of_run_file(const std::string& run_file);
 
-/// The first evaluation: stores digest and figures in the closed run file, once.
-Result<void> seal_drift(const std::string& run_file);
+/// The first evaluation: stores digest and figures in the closed run file, once; signed by `key`.
+Result<void> seal_drift(const std::string& run_file, const SecretKey* key = nullptr);
 
 /// "ISO 230-2 E_VE, ISO 230-3 ETVE"; E_VE of a ballbar is that of ISO/TR 230-9.
 std::string drift_standards(const RunDrift& drift);

@@ -4,6 +4,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
+#include "config/json_text.hpp"
 
 #include <cstdio>
 
@@ -86,10 +87,11 @@ Result<ProbingDocument> probing_of_run_file(const std::string& run_file) {
     return document;
 }
 
-Result<void> seal_probing(const std::string& run_file) {
+Result<void> seal_probing(const std::string& run_file, const SecretKey* key) {
     if (read_stored_result(run_file)) return {};
     AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(run_file));
-    return store_result(run_file, {document.result_digest, probing_figures(document).dump()});
+    return store_result(run_file, {document.result_digest, json_text(probing_figures(document))},
+                        key);
 }
 
 Json probing_to_json(const ProbingDocument& document) {

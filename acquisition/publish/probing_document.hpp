@@ -2,6 +2,7 @@
 // A recorded probing test as the documents that leave the station. Pure, but for reading the run
 // file.
 
+#include "acquisition/journal/ed25519.hpp"
 #include "analysis/probing/probing_record.hpp"
 #include "analysis/run_record.hpp"
 
@@ -25,7 +26,7 @@ struct ProbingDocument {
 Result<ProbingDocument> probing_of_run_file(const std::string& run_file);
 
 /// The first evaluation: stores digest and figures in the closed run file, once.
-Result<void> seal_probing(const std::string& run_file);
+Result<void> seal_probing(const std::string& run_file, const SecretKey* key = nullptr);
 
 /// How far the tip moves in a millisecond, the usual servo tick of a control, mm. Pure.
 double feed_mm_per_ms(const ProbingRecord& record);

@@ -1,5 +1,6 @@
 #include "acquisition/publish/publisher_report.hpp"
 
+#include "config/json_text.hpp"
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -31,7 +32,7 @@ Result<void> write_report(const std::string& outbox, const PublisherReport& repo
     const auto path = beside(outbox, "publisher.json"), unfinished = path + ".part";
     {
         std::ofstream file{unfinished};
-        file << document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+        file << json_text(document) << '\n';
         if (!file.flush()) return fail_io("cannot write", unfinished);
     }
     if (std::rename(unfinished.c_str(), path.c_str()) != 0) return fail_io("cannot replace", path);

@@ -90,6 +90,20 @@ Json preflight_json(const std::vector<PreflightRecord>& checks) {
     return list;
 }
 
+Json orders_json(const std::vector<OrderRecord>& orders, const ClockTie& opened) {
+    Json list = Json::array();
+    for (const OrderRecord& order : orders)
+        list.push_back(
+            {{"order", order.kind},
+             {"about", stated_json(order.about)},
+             {"time", iso8601_utc(order.utc_ns ? order.utc_ns : opened.utc_ns_at(order.at))},
+             {"door", stated_json(order.by.door)},
+             {"uid", stated_json(order.by.uid)},
+             {"user", stated_json(order.by.user)},
+             {"by", stated_json(order.by.name)}});
+    return list;
+}
+
 Json events_json(const std::vector<EventRecord>& events, const ClockTie& opened) {
     Json list = Json::array();
     for (const EventRecord& event : events) {

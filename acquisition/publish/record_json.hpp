@@ -32,6 +32,9 @@ nlohmann::ordered_json calibrations_json(const std::vector<ChannelCalibration>& 
 
 nlohmann::ordered_json preflight_json(const std::vector<PreflightRecord>& checks);
 
+/// `opened` tells the time of one that the clock did not.
+nlohmann::ordered_json orders_json(const std::vector<OrderRecord>& orders, const ClockTie& opened);
+
 nlohmann::ordered_json events_json(const std::vector<EventRecord>& events, const ClockTie& opened);
 
 } // namespace axiscal

@@ -8,8 +8,11 @@
 #include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/drift_document.hpp"
 #include "acquisition/publish/figure_agreement.hpp"
+#include "acquisition/publish/paper_identity.hpp"
 #include "acquisition/publish/probing_document.hpp"
+#include "acquisition/publish/receipt.hpp"
 #include "acquisition/publish/run_certificate.hpp"
+#include "config/json_text.hpp"
 
 #include <array>
 #include <filesystem>
@@ -68,7 +71,7 @@ certificate_for(const std::string& run_file, const std::string& run_id, std::str
 
 std::string shown(const Json& value) {
     constexpr std::size_t longest = 80;
-    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string text = json_text(value);
     return text.size() <= longest ? text : text.substr(0, longest) + "...";
 }
 
@@ -98,6 +101,9 @@ void compare(const Json& printed,
         compare_at(place, printed, right, agreement, report);
     for (const char* place : repeated_places)
         compare_at(place, printed, right, same_bits, report);
+    // Those of older versions have no such member.
+    if (printed.contains("certificate") || report.chain.format >= numbered_since)
+        compare_at("/certificate", printed, right, same_bits, report);
 }
 
 /// Without figures the marks that need none are held: the file's own hash, the run, the datums.
@@ -157,19 +163,48 @@ Result<Recomputed> recomputed(const std::string& run_file) {
 
 } // namespace
 
-Result<VerifyReport> verify_run(const std::string& run_file, const std::string& certificate) {
+namespace {
+
+Result<std::vector<PublicKey>> keys_from(const std::string& path) {
+    if (path.empty()) return std::vector<PublicKey>{};
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path))
+        return fail(Fault::not_found, "cannot read " + path);
+    auto keys = public_keys_of(std::string{std::istreambuf_iterator<char>{file}, {}});
+    if (!keys) return fail(keys.error().fault, path + ": " + keys.error().detail);
+    return keys;
+}
+
+/// What came by another way than the file: whose key signed it, and what was said of it before.
+Result<void> hold_against(const VerifyAgainst& against, VerifyReport& report) {
+    AXISCAL_TRY(const auto keys, keys_from(against.public_keys));
+    AXISCAL_TRY(report.signature, check_signatures(report.run_file, keys));
+    if (report.signature.verdict == SignatureVerdict::good && !report.chain.intact())
+        report.signature = {SignatureVerdict::bad,
+                            "rows of the file are not those that were signed"};
+    report.anchor.sentence = "--receipt was not given";
+    if (against.receipt.empty()) return {};
+    AXISCAL_TRY(report.anchor,
+                compare_with_receipt(report.run_file, report.file_sha256, against.receipt));
+    return {};
+}
+
+} // namespace
+
+Result<VerifyReport> verify_run(const std::string& run_file, const VerifyAgainst& against) {
     VerifyReport report;
     report.run_file = run_file;
     AXISCAL_TRY(report.chain, verify_chain(run_file));
     AXISCAL_TRY(report.file_sha256, sha256_of_file(run_file));
     AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
     report.run_id = summary.run_id;
-    report.certificate = certificate;
+    report.certificate = against.certificate;
+    AXISCAL_CHECK(hold_against(against, report));
     AXISCAL_TRY(const auto printed, certificate_for(run_file, report.run_id, report.certificate));
     std::optional<Recomputed> right;
     if (!report.chain.intact()) {
         report.no_figures = "rows are not what they were";
-    } else if (!report.chain.complete) {
+    } else if (!report.chain.closed) {
         report.no_figures = state_in_words(report.chain);
     } else if (auto made = recomputed(run_file)) {
         right = *std::move(made);
@@ -206,8 +241,21 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
     document["certificate_findings"] = Json::array();
     for (const auto& [place, sentence] : report.certificate_findings)
         document["certificate_findings"].push_back({{"place", place}, {"sentence", sentence}});
+    document["signature"] = name_of(report.signature.verdict);
+    document["signature_sentence"] = report.signature.sentence;
+    document["anchor"] = name_of(report.anchor.verdict);
+    document["anchor_sentence"] = report.anchor.sentence;
     return document;
 }
+
+namespace {
+
+std::string in_words(SignatureVerdict verdict) {
+    return verdict == SignatureVerdict::unknown_key ? "of an unknown key"
+                                                    : std::string{name_of(verdict)};
+}
+
+} // namespace
 
 std::string to_text(const VerifyReport& report) {
     std::string text;
@@ -218,6 +266,10 @@ std::string to_text(const VerifyReport& report) {
     if (report.wrong_result) line(*report.wrong_result);
     for (const CertificateFinding& finding : report.certificate_findings)
         line(report.certificate + ": " + finding.sentence);
+    if (report.signature.verdict == SignatureVerdict::bad)
+        line("signature bad: " + report.signature.sentence);
+    if (report.anchor.verdict == AnchorVerdict::differs)
+        line("anchor differs: " + report.anchor.sentence);
     if (!report.intact()) {
         line(report.run_file + " is NOT what was written.");
         return text;
@@ -230,6 +282,8 @@ std::string to_text(const VerifyReport& report) {
                                       : "  figures " + report.result_digest + ", computed anew");
     line(report.certificate.empty() ? "  no certificate.json beside it was held against it"
                                     : "  " + report.certificate + " says the same");
+    line("  signature " + in_words(report.signature.verdict) + ": " + report.signature.sentence);
+    line("  anchor " + std::string{name_of(report.anchor.verdict)} + ": " + report.anchor.sentence);
     return text;
 }
 

@@ -3,6 +3,7 @@
 // certificate that was made of it. Reads only.
 
 #include "acquisition/journal/run_file_verify.hpp"
+#include "acquisition/journal/run_signature.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -26,15 +27,27 @@ struct VerifyReport {
     std::optional<std::string> wrong_result; ///< the stored result is not what is computed now
     std::string certificate;                 ///< path; empty: none was held against the run
     std::vector<CertificateFinding> certificate_findings;
+    SignatureReport signature;
+    AnchorReport anchor;
     [[nodiscard]] bool intact() const {
-        return chain.intact() && !wrong_result && certificate_findings.empty();
+        return chain.intact() && !wrong_result && certificate_findings.empty() &&
+               signature.verdict != SignatureVerdict::bad &&
+               anchor.verdict != AnchorVerdict::differs;
     }
 };
 
-/// `certificate` empty: certificate.json beside the run file where it is of the same run, else
-/// none. The figures of a damaged file are not computed.
-/// @errors Fault::not_found; Fault::bad_run_file; Fault::bad_case for a certificate that is none.
-Result<VerifyReport> verify_run(const std::string& run_file, const std::string& certificate = {});
+/// What the run file is held against: paths; an empty one is left out, but for a certificate.json
+/// beside the run file where that is of the same run.
+struct VerifyAgainst {
+    std::string certificate;
+    std::string public_keys; ///< PEM, one or more, that came by another way than the run file
+    std::string receipt;     ///< of the publisher
+};
+
+/// The figures of a damaged file are not computed.
+/// @errors Fault::not_found; Fault::bad_run_file; Fault::bad_case for a certificate, a key or a
+/// receipt that is none.
+Result<VerifyReport> verify_run(const std::string& run_file, const VerifyAgainst& against = {});
 
 nlohmann::ordered_json to_json(const VerifyReport& report);
 /// One line each finding, a verdict last.

@@ -2,7 +2,10 @@
 
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/journal/durable_file.hpp"
+#include "acquisition/journal/run_file.hpp"
+#include "acquisition/publish/receipt.hpp"
 #include "analysis/quantity/time.hpp"
+#include "config/json_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -39,6 +42,15 @@ Result<std::vector<PublishedFile>> describe_files(const OutboxEntry& entry,
     }
     if (files.empty()) return fail(Fault::refused, entry.folder + " holds nothing to publish");
     return files;
+}
+
+/// What the run file says of its end, so that it can be held against the receipt for ever; none for
+/// an entry that holds no run file that can be read.
+std::optional<ClosingMark> closing_in(const OutboxEntry& entry) {
+    for (const auto& name : entry.files)
+        if (name.ends_with(run_file_ending))
+            if (auto mark = last_closing_mark(entry.folder + "/" + name)) return *std::move(mark);
+    return std::nullopt;
 }
 
 std::string part_name(const std::string& name, const std::string& mark) {
@@ -148,7 +160,7 @@ copy_entry(const OutboxEntry& entry, const Delivery& delivery, std::int64_t utc_
     AXISCAL_CHECK(delivery.destination.sync_folder(folder));
     AXISCAL_CHECK(delivery.destination.sync_folder(""));
     return PublishReceipt{entry.run_id, delivery.destination.place() + "/" + folder,
-                          iso8601_utc(utc_ns), std::move(journey.files)};
+                          iso8601_utc(utc_ns), std::move(journey.files), closing_in(entry)};
 }
 
 Result<std::optional<PublishReceipt>>
@@ -177,7 +189,8 @@ std::string receipt_json(const PublishReceipt& receipt) {
     for (const auto& file : receipt.files)
         document["files"].push_back(
             {{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
-    return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    document["closing"] = closing_json(receipt.closing);
+    return json_text(document);
 }
 
 Result<void> write_receipt(const OutboxEntry& entry, const PublishReceipt& receipt) {

@@ -2,6 +2,7 @@
 // Carries one outbox entry to its destination, which may be slow or vanish: every call may block,
 // so only the publisher's own process makes them. No state.
 
+#include "acquisition/journal/run_signature.hpp"
 #include "acquisition/publish/destination.hpp"
 #include "acquisition/publish/outbox.hpp"
 
@@ -22,6 +23,7 @@ struct PublishReceipt {
     std::string folder; ///< <destination>/<run-id>, or with a number where that name was taken
     std::string published_utc;
     std::vector<PublishedFile> files;
+    std::optional<ClosingMark> closing = {}; ///< of the run file among them
 };
 
 /// How entries of one outbox travel.

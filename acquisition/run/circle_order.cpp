@@ -19,6 +19,10 @@ int CircleOrder::begun() const {
     return std::min((last_ + requests_a_circle_ - 1) / requests_a_circle_, circles());
 }
 
+const PlannedCircle& CircleOrder::current() const {
+    return circles_[static_cast<std::size_t>(std::max(begun(), 1) - 1)];
+}
+
 int CircleOrder::first_of(int sequence) const {
     return (sequence - 1) / requests_a_circle_ * requests_a_circle_ + 1;
 }

@@ -48,6 +48,8 @@ public:
 
     [[nodiscard]] int circles() const { return static_cast<int>(circles_.size()); }
     [[nodiscard]] int begun() const;
+    /// The circle of the last durable request, the first one before that.
+    [[nodiscard]] const PlannedCircle& current() const;
     [[nodiscard]] std::uint16_t last_durable() const { return static_cast<std::uint16_t>(last_); }
 
 private:

@@ -1,6 +1,7 @@
 #include "acquisition/run/circle_resume.hpp"
 
 #include "analysis/circular/circle_cut.hpp"
+#include "analysis/run_clock.hpp"
 
 namespace axiscal {
 namespace {
@@ -58,9 +59,10 @@ CircleResume decide_circle_resume(const RecordedCircles& from, const BarNow& now
     if (now.config_hash != from.run.config_hash)
         return closing(Fault::bad_configuration,
                        "The station file was changed since the run was opened.");
-    if (now.boot_id != from.run.boot_id)
-        return closing(Fault::incomplete_run, "The computer was restarted while circles were "
-                                              "driven: start the test anew.");
+    if (!is_same_boot(now.boot_id, from.run.boot_id))
+        return closing(Fault::incomplete_run, "While circles were driven " +
+                                                  restart_in_words(from.run.boot_id, now.boot_id) +
+                                                  ": start the test anew.");
     if (!now.speaks)
         return closing(Fault::link_timeout,
                        "The ballbar sent nothing after the restart: start the test anew.");

@@ -21,7 +21,8 @@ struct RecordedCircles {
 
 /// The bar as it is after the restart.
 struct BarNow {
-    std::string config_hash, boot_id;
+    std::string config_hash;
+    BootId boot_id;
     bool incremental = false;  ///< its zero holds only while it counts on
     bool speaks = false;       ///< at rest it may be out of its range
     std::optional<Sample> bar; ///< its newest sample, if that is good

@@ -92,6 +92,11 @@ std::string shift_cause(Length shift) {
     return "the datum is shifted by " + in_mm(shift);
 }
 
+/// The readings cannot tell it from a shift of the program, but the way out is the same.
+constexpr std::string_view armed_off_the_datum =
+    " (if the axis stood that far from it when the run was armed: abort, go to the datum and arm "
+    "again)";
+
 } // namespace
 
 Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims) {
@@ -103,14 +108,15 @@ Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims
     auto causes = named_causes(datum, claims, fault);
     if (claims.size() > 1) {
         if (shift_fits(claims))
-            causes.push_back(shift_cause(shift));
+            causes.push_back(shift_cause(shift) + std::string{armed_off_the_datum});
         else if (causes.empty() && ratio_fits(datum, claims, seen / claimed))
             causes.push_back(scale_cause(seen / claimed));
         if (shift_is_new(claims)) causes.push_back(shift_cause(shift) + " since the target before");
     } else {
         if (causes.empty()) causes.push_back(scale_cause(seen / claimed));
         // Nothing moved is no shift: a shift would have to equal the move by chance.
-        if (fault != Fault::wrong_target) causes.push_back(shift_cause(shift));
+        if (fault != Fault::wrong_target)
+            causes.push_back(shift_cause(shift) + std::string{armed_off_the_datum});
     }
     if (causes.empty()) causes.emplace_back("the axis stands at another place than the program");
     return {fault,

@@ -14,6 +14,12 @@ Length whole_steps_above(Length length) {
     return target_step * std::ceil(length / target_step - 1e-6);
 }
 
+/// The widest with which `count` drawn targets fit whatever their random part is.
+Length widest_interval(const Pass& pass, int count) {
+    return whole_steps_below((highest(pass) - lowest(pass) - target_step) /
+                             (count - 1 + 2 * random_share));
+}
+
 Result<Length> interval_of(const Pass& pass) {
     const auto& config = pass.config;
     if (!config.interval && !config.target_count)
@@ -21,8 +27,7 @@ Result<Length> interval_of(const Pass& pass) {
     if (config.target_count && *config.target_count < 2)
         return refuse_plan("target_count", "At least 2 targets are needed.");
     if (config.interval) return whole_steps_below(*config.interval);
-    const Length widest = whole_steps_below((highest(pass) - lowest(pass) - target_step) /
-                                            (*config.target_count - 1 + 2 * random_share));
+    const Length widest = widest_interval(pass, *config.target_count);
     return config.axis_kind == AxisKind::rotary ? std::min(widest, turn_interval) : widest;
 }
 
@@ -39,12 +44,42 @@ Length usual_first_target(const Pass& pass, Length interval) {
     return whole_steps_above(lowest(pass) + interval * random_share);
 }
 
+/// On a rotary axis targets without a random part stand at the principal positions.
+Result<void> check_interval(const Pass& pass, Length interval) {
+    const auto& config = pass.config;
+    const std::string named = "An interval of " + in_unit(config, interval);
+    if (interval < 10 * target_step)
+        return refuse_plan("interval", named + " is too small to draw a random part.");
+    const bool two_fit = interval <= widest_interval(pass, 2) + target_step;
+    if (two_fit || wants_principal_positions(pass)) return {};
+    const int least = least_targets(config.axis_kind, pass.end - pass.begin);
+    return refuse_plan("interval", named + " is too long: between " +
+                                       in_unit(config, lowest(pass)) + " and " +
+                                       in_unit(config, highest(pass)) +
+                                       ", the travel without its overrun, not even two targets "
+                                       "fit; take " +
+                                       in_unit(config, widest_interval(pass, least)) + " or less.");
+}
+
+tl::unexpected<Error>
+refuse_first_target(const Pass& pass, Length first, Length interval, Length may_fall_to) {
+    const auto& config = pass.config;
+    const Length least = lowest(pass) + (first - may_fall_to);
+    return refuse_plan(
+        config.first_target ? "first_target" : "interval",
+        "At an interval of " + in_unit(config, interval) + " the first target of " +
+            in_unit(config, first) + " may fall to " + in_unit(config, may_fall_to) +
+            "; with its overrun the lowest possible is " + in_unit(config, lowest(pass)) + ": " +
+            (config.first_target
+                 ? "leave first_target out, take " + in_unit(config, least) + " or more, or take"
+                 : std::string{"take"}) +
+            " a smaller interval.");
+}
+
 Result<PassTargets> draw_targets(const Pass& pass) {
     const auto& config = pass.config;
     AXISCAL_TRY(const Length interval, interval_of(pass));
-    if (interval < 10 * target_step)
-        return refuse_plan("interval", "An interval of " + in_unit(config, interval) +
-                                           " is too small to draw a random part.");
+    AXISCAL_CHECK(check_interval(pass, interval));
     const auto low = lowest(pass), high = highest(pass);
     const auto first = config.first_target.value_or(usual_first_target(pass, interval));
     const bool principal = wants_principal_positions(pass);
@@ -57,10 +92,7 @@ Result<PassTargets> draw_targets(const Pass& pass) {
     const int count = config.target_count.value_or(fit);
     const Length last = first + interval * (count - 1);
     if (first - reach_at(first) < low - rounding)
-        return refuse_plan("first_target", "The first target may fall to " +
-                                               in_unit(config, first - reach_at(first)) +
-                                               "; with its overrun the lowest possible is " +
-                                               in_unit(config, low) + ".");
+        return refuse_first_target(pass, first, interval, first - reach_at(first));
     if (count > fit)
         return refuse_plan("target_count", std::to_string(count) + " targets at intervals of " +
                                                in_unit(config, interval) + " reach up to " +

@@ -2,9 +2,9 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/sequence.hpp"
+#include "analysis/run_clock.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -14,7 +14,6 @@ namespace {
 
 constexpr Duration shortest_rate_base = std::chrono::seconds{10};
 constexpr Duration shortest_count = std::chrono::seconds{1};
-constexpr std::string_view skip_words = "Skipped: planned step ";
 
 void add_sightings(const std::vector<WindowSample>& samples, std::vector<CounterSighting>& out) {
     for (const auto* sample : {&samples.front(), &samples.back()})
@@ -43,6 +42,11 @@ std::string serial_of_laser(const RunRecord& run) {
     return laser == run.instruments.end() ? std::string{} : laser->serial;
 }
 
+std::string begun_large(std::string sentence) {
+    sentence.front() = static_cast<char>(std::toupper(sentence.front()));
+    return sentence;
+}
+
 ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
     const auto closing = [](std::string why) {
         return ResumeVerdict{ResumeDecision::close_datum_lost, Fault::datum_lost, std::move(why)};
@@ -53,12 +57,13 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
         return {ResumeDecision::close_never_armed, Fault::no_run_armed,
                 "The station went down before the datum was tied; nothing was measured yet."};
     // The air and the temperatures kept so far count by a clock that has begun anew.
-    if (run.datums.empty() && now.boot_id != run.boot_id)
+    const bool same_boot = is_same_boot(now.boot_id, run.boot_id);
+    const std::string restart = same_boot ? "" : restart_in_words(run.boot_id, now.boot_id);
+    if (run.datums.empty() && !same_boot)
         return {ResumeDecision::close_never_armed, Fault::no_run_armed,
-                "The computer was restarted before the datum was tied; nothing was measured yet."};
+                begun_large(restart) + " before the datum was tied; nothing was measured yet."};
     if (run.datums.empty()) return {};
-    if (now.boot_id != run.boot_id)
-        return closing("The datum is lost: the computer was restarted since.");
+    if (!same_boot) return closing("The datum is lost: " + restart + " since.");
     const std::string reference{reference_word_of(run)};
     const auto before = last_sighting(run);
     if (!before)
@@ -73,19 +78,6 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
 }
 
 } // namespace
-
-std::string skip_text(int step) {
-    return std::string{skip_words} + std::to_string(step);
-}
-
-std::optional<int> skipped_step(const EventRecord& event) {
-    if (event.kind != EventKind::skipped || !event.text.starts_with(skip_words))
-        return std::nullopt;
-    const std::string_view digits = std::string_view{event.text}.substr(skip_words.size());
-    int step = -1; // stays where no number stands
-    std::from_chars(digits.data(), digits.data() + digits.size(), step);
-    return step >= 0 ? std::optional{step} : std::nullopt;
-}
 
 std::optional<CounterSighting> last_sighting(const RunRecord& run) {
     const auto seen = sightings(run);

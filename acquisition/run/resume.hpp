@@ -2,6 +2,7 @@
 // May an open run go on after a restart of the daemon? Pure.
 
 #include "analysis/run_record.hpp"
+#include "analysis/skipped_step.hpp"
 #include "drivers/sample.hpp"
 
 #include <cstdint>
@@ -89,7 +90,9 @@ std::string exchanged_instrument(const RunRecord& run, const std::vector<Instrum
 
 /// The station as it is after the restart.
 struct StationNow {
-    std::string config_hash, boot_id, laser_serial;
+    std::string config_hash;
+    BootId boot_id;
+    std::string laser_serial;
     std::optional<Sample> laser;  ///< first good sample; none: the laser is silent
     ContinuityLimits limits;      ///< rate_hz 0: taken from the run
     std::string outside_limits{}; ///< of the environment, in words; empty: nothing is
@@ -103,10 +106,6 @@ struct DurableRequest {
     int step = -1;
 };
 DurableRequest last_durable_request(const RunRecord& run);
-
-/// A skipped step lives in the run file as an event with this text.
-std::string skip_text(int step);
-std::optional<int> skipped_step(const EventRecord& event);
 
 /// The request alone, the rest being in order. `request` empty: nothing seen yet.
 ResumeVerdict judge_first_request(std::uint16_t last_durable, std::optional<std::uint16_t> request);

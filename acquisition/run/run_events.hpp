@@ -83,6 +83,14 @@ struct Exclude {
     std::string reason;
     MonotonicTime at;
 };
+/// The order of the last RecordRetake or RecordExclusion is on disk.
+struct RevisionKept {
+    MonotonicTime at;
+};
+/// It could not be written: what it added is taken back, and nothing else.
+struct RevisionLost {
+    MonotonicTime at;
+};
 struct Tick {
     MonotonicTime now;
 };
@@ -98,6 +106,8 @@ using RunInput = std::variant<Arm,
                               Abort,
                               Retake,
                               Exclude,
+                              RevisionKept,
+                              RevisionLost,
                               Tick>;
 
 // --- actions, to be carried out in order
@@ -134,15 +144,17 @@ struct CommitEvent {
 struct Acknowledge {
     std::uint16_t sequence = 0;
     int step = -1;
+    bool skipped = false; ///< without a point
 };
 /// Publish done = sequence again, with the receipt of the last durable record: kept from its
 /// commit, or after a restart Journal::receipt_for(step).
 struct RepublishDone {
     std::uint16_t sequence = 0;
     int step = -1;
+    bool skipped = false;
 };
-/// done stays. A refusal of a manual trigger is for the technician, not for the port. Sequence 0
-/// and origin manual: the arming itself was refused.
+/// done stays. Origin manual: for the one whose input it answers, not for the port; later, without
+/// an input of a person, it is the end of a manual capture, or with sequence 0 of the arming.
 struct Refuse {
     std::uint16_t sequence = 0;
     Fault fault = Fault::none;
@@ -153,11 +165,13 @@ struct Refuse {
 struct RecordEvent {
     EventRecord event;
 };
-/// The order is to be durable before anything else of the run. `reopens`: the run was closed.
+/// The order is to be durable before anything else of the run. Answer with RevisionKept or
+/// RevisionLost. `reopens`: the run was closed, and stays so until then.
 struct RecordRetake {
     RetakeRecord retake;
     bool reopens = false;
 };
+/// Answer as RecordRetake.
 struct RecordExclusion {
     std::vector<ExclusionRecord> exclusions;
     bool reopens = false;
@@ -170,6 +184,7 @@ struct Close {
     bool complete = false;
     std::string reason;
     Fault fault = Fault::none;
+    bool answers_cnc = false; ///< an acknowledged request ended the run
 };
 
 using RunAction = std::variant<PublishArmed,

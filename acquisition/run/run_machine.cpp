@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace axiscal {
 namespace {
 
 // A window result that does not come is a broken promise of the station; the CNC must not wait for
 // ever because of it.
-constexpr Duration answer_grace = std::chrono::seconds{2};
+constexpr Duration answer_grace = capture_answer_grace;
 
 int count_of(const std::vector<bool>& flags) {
     return static_cast<int>(std::count(flags.begin(), flags.end(), true));
@@ -88,8 +89,7 @@ RunActions RunMachine::handle(const RunInput& input) {
 
 void RunMachine::on(const Arm& arm, RunActions& out) {
     if (armed_ || closed_ || pending_) {
-        refuse(0, TriggerOrigin::manual, {Fault::busy, "This run was armed before.", {}, {}},
-               arm.at, out);
+        object(0, {Fault::busy, "This run was armed before.", {}, {}}, out);
         return;
     }
     if (arm.tie_datum) {
@@ -114,20 +114,21 @@ void RunMachine::on(const Committed& committed, RunActions& out) {
     }
     const auto settled = std::move(*pending_);
     pending_.reset();
+    if (settled.step >= static_cast<int>(done_.size())) { // its order was taken back meanwhile
+        ++counters_.stray;
+        return;
+    }
     last_refusal_.reset();
     if (settled.sequence != 0) {
         last_durable_ = settled.sequence;
         last_durable_step_ = settled.step;
-        out.push_back(Acknowledge{settled.sequence, settled.step});
+        out.push_back(
+            Acknowledge{settled.sequence, settled.step, settled.purpose == Purpose::skip});
     }
     settle_commit(settled, out);
     if (closed_) return;
-    const bool all_settled = !next_step();
-    if (all_settled && count_of(skipped_) == 0)
+    if (!next_step() && without_point() == 0) // a skipped one waits for its retake
         close(true, "Every planned point is durable.", Fault::none, out);
-    else if (all_settled)
-        close(false, std::to_string(count_of(skipped_)) + " of the points were skipped.",
-              Fault::none, out);
     else if (wanted_close_)
         close(wanted_close_->complete, wanted_close_->reason, wanted_close_->fault, out);
 }
@@ -155,8 +156,30 @@ void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
         skipped_[static_cast<std::size_t>(settled.step)] = true;
         return set_state(PortState::armed, out);
     case Purpose::end:
-        return close(false, "The CNC ended the run before its last point.", Fault::none, out);
+        close(false, "The CNC ended the run before its last point.", Fault::none, out);
+        return answer_with_close(out);
     }
+}
+
+/// The CNC reads its acknowledgement after the run is closed.
+void RunMachine::answer_with_close(RunActions& out) {
+    if (auto* closing = std::get_if<Close>(&out.back())) closing->answers_cnc = true;
+}
+
+bool RunMachine::is_without_point(int planned_step) const {
+    const auto place = static_cast<std::size_t>(planned_step);
+    return skipped_[place] && last_reading_[place] < 0;
+}
+
+int RunMachine::without_point() const {
+    return static_cast<int>(
+        std::ranges::count_if(setup_.plan.points, [this](const PlannedPoint& point) {
+            return is_without_point(point.step);
+        }));
+}
+
+bool RunMachine::last_was_skipped() const {
+    return last_durable_step_ >= 0 && skipped_[static_cast<std::size_t>(last_durable_step_)];
 }
 
 void RunMachine::on(const CommitFailed& failed, RunActions& out) {
@@ -174,6 +197,8 @@ void RunMachine::on(const CommitFailed& failed, RunActions& out) {
          {},
          {}},
         failed.at, out);
+    // A point of an order that was taken back meanwhile is not written again.
+    if (unwritten_->step >= static_cast<int>(done_.size())) unwritten_.reset();
     set_state(PortState::error, out);
     if (wanted_close_) close(false, wanted_close_->reason, wanted_close_->fault, out);
 }
@@ -227,15 +252,9 @@ void RunMachine::on(const Abort& abort, RunActions& out) {
 
 void RunMachine::on(const Tick& tick, RunActions& out) {
     if (closed_) return;
-    if (!pending_ && armed_ && !next_step() && !setup_.plan.points.empty()) {
-        // Died between the last commit and the closing.
-        const int skipped = count_of(skipped_);
-        close(skipped == 0,
-              skipped == 0 ? "Every planned point is durable."
-                           : std::to_string(skipped) + " of the points were skipped.",
-              Fault::none, out);
-        return;
-    }
+    // Died between the last commit and the closing.
+    if (!pending_ && armed_ && !next_step() && without_point() == 0 && !setup_.plan.points.empty())
+        return close(true, "Every planned point is durable.", Fault::none, out);
     if (pending_ && !pending_->committing && tick.now > pending_->deadline + answer_grace)
         refuse_pending({Fault::not_still, "The capture gave no answer in time.", {}, {}}, tick.now,
                        out);
@@ -272,6 +291,11 @@ void RunMachine::refuse(std::uint16_t sequence,
                         RunActions& out) {
     ++counters_.refused;
     Refuse refusal{sequence, error.fault, error.detail, origin};
+    if (origin == TriggerOrigin::manual) { // what the CNC was told last stays what it is
+        if (!closed_) record(EventKind::refused, at, describe(error), error.fault, sequence, out);
+        out.push_back(std::move(refusal));
+        return;
+    }
     const bool repeated = last_refusal_ && last_refusal_->sequence == sequence &&
                           last_refusal_->fault == error.fault && last_refusal_->origin == origin;
     // After Close the file is shut, and a request repeated at 200 Hz must not fill it before.
@@ -283,6 +307,10 @@ void RunMachine::refuse(std::uint16_t sequence,
 
 void RunMachine::refuse(const TriggerEvent& event, const Error& error, RunActions& out) {
     refuse(event.sequence, event.origin, error, event.at, out);
+}
+
+void RunMachine::object(std::uint16_t sequence, const Error& error, RunActions& out) {
+    out.push_back(Refuse{sequence, error.fault, error.detail, TriggerOrigin::manual});
 }
 
 void RunMachine::record(EventKind kind,
@@ -311,6 +339,9 @@ RunView RunMachine::view() const {
     view.complete = complete_;
     view.stopped = stopped_;
     view.last_durable = last_durable_;
+    view.last_durable_step = last_durable_step_;
+    view.last_skipped = last_was_skipped();
+    view.without_point = without_point();
     if (const auto next = next_step()) view.next = planned_at(*next);
     view.retakes_asked = static_cast<int>(retaken_.size());
     for (std::size_t step = setup_.plan.points.size(); step < done_.size(); ++step)

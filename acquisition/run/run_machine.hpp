@@ -34,7 +34,10 @@ struct RunView {
     PortState state = PortState::idle;
     bool closed = false, complete = false, stopped = false;
     std::uint16_t last_durable = 0;
+    int last_durable_step = -1;
+    bool last_skipped = false;            ///< that request skipped its point
     std::optional<PlannedPoint> next;     ///< none when every point is done or skipped
+    int without_point = 0;                ///< planned, skipped, and not taken since
     int done = 0, skipped = 0, total = 0; ///< points that are taken again included
     int retakes_asked = 0, retakes_left = 0, excluded = 0;
     std::optional<DatumRecord> datum;
@@ -63,6 +66,8 @@ public:
 
     RunActions handle(const RunInput& input);
     [[nodiscard]] RunView view() const;
+    /// What a step of the plan, or behind it of a retake, is planned to be.
+    [[nodiscard]] PlannedPoint planned_at(int step) const;
 
 private:
     enum class Purpose : std::uint8_t { datum, point, skip, end };
@@ -95,23 +100,33 @@ private:
     // run_machine_retake.cpp: points taken again, readings left out
     void on(const Retake& retake, RunActions& out);
     void on(const Exclude& exclude, RunActions& out);
+    void on(const RevisionKept& kept, RunActions& out);
+    void on(const RevisionLost& lost, RunActions& out);
+    void take_back_steps(std::size_t first, MonotonicTime at, RunActions& out);
     /// What a person's selection names; the sentence says why none of it can be meant.
-    [[nodiscard]] Result<std::vector<int>> chosen(const PointSelection& selection) const;
+    /// @param skipped_too  points that the CNC skipped can be taken, but not left out
+    [[nodiscard]] Result<std::vector<int>> chosen(const PointSelection& selection,
+                                                  bool skipped_too) const;
+    [[nodiscard]] bool is_without_point(int planned_step) const;
+    [[nodiscard]] int without_point() const;
     [[nodiscard]] std::optional<Error> objection_to_retake(const Retake& retake) const;
     [[nodiscard]] bool is_left_out(int planned_step) const;
     [[nodiscard]] bool leaves_enough(const std::vector<int>& planned_steps) const;
     [[nodiscard]] bool awaits_retake(int planned_step) const;
-    [[nodiscard]] PlannedPoint planned_at(int step) const;
     [[nodiscard]] bool plan_is_done() const;
     void append_retakes(const std::vector<RetakePoint>& points);
 
     // run_machine.cpp: order of requests, commits, closing
+    [[nodiscard]] std::optional<Error> objection_now() const;
     bool answered_by_order(const TriggerEvent& event, RunActions& out);
     bool answered_after_resume(const TriggerEvent& event, RunActions& out);
     void start_command(const TriggerEvent& event, RunActions& out);
     void commit_event(const TriggerEvent& event, Purpose purpose, RunActions& out);
+    [[nodiscard]] std::optional<Error> objection_to_skip(const TriggerEvent& event) const;
+    [[nodiscard]] bool last_was_skipped() const;
     void settle_commit(const Pending& settled, RunActions& out);
     void close(bool complete, std::string reason, Fault fault, RunActions& out);
+    static void answer_with_close(RunActions& out);
     void close_when_idle(Close wanted, MonotonicTime at, RunActions& out);
     void refuse(std::uint16_t sequence,
                 TriggerOrigin origin,
@@ -119,6 +134,8 @@ private:
                 MonotonicTime at,
                 RunActions& out);
     void refuse(const TriggerEvent& event, const Error& error, RunActions& out);
+    /// A person's order is not taken: nothing is recorded, and nothing of the run changes.
+    static void object(std::uint16_t sequence, const Error& error, RunActions& out);
     void record(EventKind kind,
                 MonotonicTime at,
                 std::string text,
@@ -132,6 +149,7 @@ private:
     // run_machine_capture.cpp: what a request must fit, what a window must show
     void start_datum(const TriggerEvent& event, RunActions& out);
     void start_point(const TriggerEvent& event, RunActions& out);
+    [[nodiscard]] Error no_datum_yet() const;
     [[nodiscard]] std::optional<Error> objection_to_claim(const TriggerEvent& event,
                                                           int step) const;
     void open_window(Pending pending,
@@ -166,6 +184,13 @@ private:
     std::vector<ClaimedTarget> first_claims_; ///< the first accepted targets, at most two
     Result<double> scale_minus_1_ =
         fail(Fault::environment_stale, "No environment reading has come yet.");
+    /// What an order added that is not known to be on disk.
+    struct Unkept {
+        std::size_t first_step = 0; ///< of those added; the number of all when there is none
+        std::vector<int> excluded;
+        bool reopens = false;
+    };
+    std::optional<Unkept> unkept_;
     std::optional<Pending> pending_;
     std::optional<Pending> unwritten_;  ///< its commit failed; waits for the disk
     std::optional<Close> wanted_close_; ///< waits for the outstanding commit

@@ -105,7 +105,15 @@ void RunMachine::start_datum(const TriggerEvent& event, RunActions& out) {
     open_window(std::move(pending), std::nullopt, setup_.plan.datum, out);
 }
 
-/// Index, direction and nominal position as far as the CNC's shape carries them.
+Error RunMachine::no_datum_yet() const {
+    return {Fault::no_run_armed,
+            "No datum is tied yet: send prepare at " +
+                in_axis_unit(setup_.plan.axis_kind, setup_.plan.datum) + " first.",
+            {},
+            {}};
+}
+
+/// Index, direction, approach and nominal position as far as the CNC's shape carries them.
 std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, int step) const {
     const auto& plan = setup_.plan;
     const PlannedPoint point = planned_at(step);
@@ -122,6 +130,13 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
                          next,
                      {},
                      {}};
+    if (event.run_index && *event.run_index != point.approach)
+        return Error{Fault::wrong_target,
+                     "The CNC claims approach " + std::to_string(*event.run_index) +
+                         " (RUN_INDEX), counted from 0, and " + std::to_string(point.approach) +
+                         " is due" + next,
+                     {},
+                     {}};
     const auto target = plan.targets[static_cast<std::size_t>(point.target_index)];
     return objection_to_position(event, plan.axis_kind, target, next);
 }
@@ -129,14 +144,7 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
 void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     const auto step = next_step();
     if (!step) return refuse(event, {Fault::bad_command, "No point is left.", {}, {}}, out);
-    if (!datum_)
-        return refuse(event,
-                      {Fault::no_run_armed,
-                       "No datum is tied yet: send prepare at " +
-                           in_axis_unit(setup_.plan.axis_kind, setup_.plan.datum) + " first.",
-                       {},
-                       {}},
-                      out);
+    if (!datum_) return refuse(event, no_datum_yet(), out);
     if (datum_broken_) {
         refuse(event, datum_lost_error("The counting was interrupted since the datum."), out);
         return close(false, "The counting was interrupted since the datum.", Fault::datum_lost,

@@ -26,15 +26,26 @@ void RunMachine::on(const TriggerEvent& event, RunActions& out) {
         if (answered_by_order(event, out)) return;
     } else {
         request.sequence = next_sequence(last_durable_);
-        if (closed_ || !armed_) return refuse(request, not_armed(), out);
-        if (stopped_) return refuse(request, {Fault::not_durable, {}, {}, {}}, out);
         if (pending_ && event.origin == TriggerOrigin::dwell) {
             ++counters_.doubled;
             return;
         }
-        if (pending_) return refuse(request, {Fault::busy, "A capture is under way.", {}, {}}, out);
+        if (const auto objection = objection_now()) {
+            if (event.origin == TriggerOrigin::dwell) return refuse(request, *objection, out);
+            return object(request.sequence, *objection, out);
+        }
     }
     start_command(request, out);
+}
+
+/// To a request without a number, whatever it asks for.
+std::optional<Error> RunMachine::objection_now() const {
+    if (!closed_ && !armed_ && pending_)
+        return Error{Fault::busy, "The reading is being tied to the datum just now.", {}, {}};
+    if (closed_ || !armed_) return not_armed();
+    if (stopped_) return Error{Fault::not_durable, {}, {}, {}};
+    if (pending_) return Error{Fault::busy, "A capture is under way.", {}, {}};
+    return std::nullopt;
 }
 
 /// Everything that the number alone decides. True: nothing more is to be done.
@@ -42,8 +53,8 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
     const auto sequence = event.sequence;
     const bool finished_before = sequence != 0 && sequence == last_durable_;
     if (closed_ || !armed_) {
-        if (closed_ && finished_before)
-            out.push_back(RepublishDone{sequence, last_durable_step_});
+        if (closed_ && complete_ && finished_before)
+            out.push_back(RepublishDone{sequence, last_durable_step_, last_was_skipped()});
         else if (sequence != 0)
             refuse(event, not_armed(), out);
         return true;
@@ -54,7 +65,7 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
     if (event.standing && !any_accepted_) return true;
     if (finished_before) {
         ++counters_.republished;
-        out.push_back(RepublishDone{sequence, last_durable_step_});
+        out.push_back(RepublishDone{sequence, last_durable_step_, last_was_skipped()});
         return true;
     }
     if (pending_ && pending_->sequence == sequence && event.command != TriggerCommand::abort) {
@@ -67,7 +78,12 @@ bool RunMachine::answered_by_order(const TriggerEvent& event, RunActions& out) {
         return true;
     }
     if (stopped_) {
-        refuse(event, {Fault::not_durable, "The disk takes no records; once it does the run goes on by itself.", {}, {}}, out);
+        refuse(event,
+               {Fault::not_durable,
+                "The disk takes no records; once it does the run goes on by itself.",
+                {},
+                {}},
+               out);
         return true;
     }
     if (sequence == next_sequence(last_durable_)) return false;
@@ -101,21 +117,20 @@ void RunMachine::start_command(const TriggerEvent& event, RunActions& out) {
 }
 
 void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunActions& out) {
+    if (purpose == Purpose::skip)
+        if (const auto objection = objection_to_skip(event)) return refuse(event, *objection, out);
     Pending pending;
     pending.purpose = purpose;
     pending.origin = event.origin;
     pending.sequence = event.sequence;
     pending.committing = true;
-    const auto next = next_step();
     EventRecord note;
     note.at = event.at;
     note.sequence = event.sequence;
     if (purpose == Purpose::skip) {
-        if (!next)
-            return refuse(event, {Fault::bad_command, "Nothing is left to skip.", {}, {}}, out);
-        pending.step = *next;
+        pending.step = *next_step();
         note.kind = EventKind::skipped;
-        note.text = skip_text(*next);
+        note.text = skip_text(pending.step);
     } else {
         note.kind = EventKind::aborted;
         note.text = event.command == TriggerCommand::end
@@ -123,8 +138,17 @@ void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunAct
                         : "The CNC aborted the run.";
     }
     pending.event = note;
+    set_state(PortState::settling, out);
     out.push_back(CommitEvent{note, pending.step});
     pending_ = std::move(pending);
+}
+
+/// It names its point as a capture does: another one must not be lost by it.
+std::optional<Error> RunMachine::objection_to_skip(const TriggerEvent& event) const {
+    const auto next = next_step();
+    if (!next) return Error{Fault::bad_command, "Nothing is left to skip.", {}, {}};
+    if (!datum_) return no_datum_yet();
+    return objection_to_claim(event, *next);
 }
 
 } // namespace axiscal

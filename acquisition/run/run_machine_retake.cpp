@@ -33,9 +33,7 @@ PlannedPoint RunMachine::planned_at(int step) const {
 }
 
 bool RunMachine::plan_is_done() const {
-    return std::all_of(done_.begin(),
-                       done_.begin() + static_cast<std::ptrdiff_t>(setup_.plan.points.size()),
-                       [](bool done) { return done; });
+    return std::ranges::all_of(last_reading_, [](int step) { return step >= 0; });
 }
 
 void RunMachine::append_retakes(const std::vector<RetakePoint>& points) {
@@ -58,7 +56,8 @@ bool RunMachine::awaits_retake(int planned_step) const {
     return false;
 }
 
-Result<std::vector<int>> RunMachine::chosen(const PointSelection& selection) const {
+Result<std::vector<int>> RunMachine::chosen(const PointSelection& selection,
+                                            bool skipped_too) const {
     if (!selection.target && !selection.direction && !selection.approach)
         return tl::unexpected<Error>(
             refused("Say which: a target, a direction, a cycle, or several of them."));
@@ -67,7 +66,8 @@ Result<std::vector<int>> RunMachine::chosen(const PointSelection& selection) con
     for (const PlannedPoint& point : setup_.plan.points) {
         if (!fits(selection, point)) continue;
         planned = true;
-        if (last_reading_[place(point.step)] >= 0) steps.push_back(point.step);
+        const bool skipped = skipped_too && is_without_point(point.step);
+        if (skipped || last_reading_[place(point.step)] >= 0) steps.push_back(point.step);
     }
     if (!planned)
         return tl::unexpected<Error>(refused(
@@ -87,6 +87,7 @@ std::optional<Error> RunMachine::objection_to_retake(const Retake& retake) const
         return Error{
             Fault::no_run_armed, "The run was closed as incomplete: arm a new one.", {}, {}};
     if (wanted_close_) return Error{Fault::busy, "The run is being closed.", {}, {}};
+    if (unkept_) return Error{Fault::busy, "The last order is on its way to the disk.", {}, {}};
     if (!datum_ || datum_broken_)
         return Error{Fault::datum_lost,
                      "The datum is lost: readings taken now would not belong to the run. Arm a new "
@@ -99,13 +100,11 @@ std::optional<Error> RunMachine::objection_to_retake(const Retake& retake) const
 
 void RunMachine::on(const Retake& retake, RunActions& out) {
     const auto objection = objection_to_retake(retake);
-    if (objection) return refuse(0, TriggerOrigin::manual, *objection, retake.at, out);
-    auto steps = chosen(retake.selection);
-    if (!steps) return refuse(0, TriggerOrigin::manual, steps.error(), retake.at, out);
+    if (objection) return object(0, *objection, out);
+    auto steps = chosen(retake.selection, true);
+    if (!steps) return object(0, steps.error(), out);
     std::erase_if(*steps, [this](int step) { return awaits_retake(step); });
-    if (steps->empty())
-        return refuse(0, TriggerOrigin::manual, refused("That is to be taken again already."),
-                      retake.at, out);
+    if (steps->empty()) return object(0, refused("That is to be taken again already."), out);
     RetakeRecord record;
     record.number = ++retakes_;
     record.at = retake.at;
@@ -113,15 +112,44 @@ void RunMachine::on(const Retake& retake, RunActions& out) {
     int step = static_cast<int>(done_.size());
     for (const int planned : *steps)
         record.points.push_back({step++, planned});
+    unkept_ = Unkept{done_.size(), {}, closed_};
     append_retakes(record.points);
-    const bool reopens = std::exchange(closed_, false);
-    if (reopens) { // the way since then was not of this run
-        complete_ = false;
-        approach_since_ = retake.at;
-        approach_unseen_ = false;
-    }
-    out.push_back(RecordRetake{std::move(record), reopens});
-    if (!pending_) set_state(PortState::armed, out);
+    out.push_back(RecordRetake{std::move(record), closed_});
+}
+
+/// A run that was closed takes requests from now on.
+void RunMachine::on(const RevisionKept& kept, RunActions& out) {
+    const auto order = std::exchange(unkept_, std::nullopt);
+    if (!order || !order->reopens) return;
+    closed_ = complete_ = false;
+    approach_since_ = kept.at; // the way since the closing was not of this run
+    approach_unseen_ = false;
+    set_state(PortState::armed, out);
+}
+
+/// Whatever came in between (a commit that failed, a request, an abort) stays as it is.
+void RunMachine::on(const RevisionLost& lost, RunActions& out) {
+    const auto order = std::exchange(unkept_, std::nullopt);
+    if (!order) return;
+    std::erase_if(excluded_, [&](int step) {
+        return std::ranges::find(order->excluded, step) != order->excluded.end();
+    });
+    if (order->first_step < done_.size()) take_back_steps(order->first_step, lost.at, out);
+}
+
+void RunMachine::take_back_steps(std::size_t first, MonotonicTime at, RunActions& out) {
+    const auto gone = [first](const std::optional<Pending>& of) {
+        return of && of->step >= static_cast<int>(first);
+    };
+    if (gone(unwritten_)) unwritten_.reset();
+    if (gone(pending_) && !pending_->committing)
+        refuse_pending(
+            {Fault::not_durable, "The order for this point could not be written.", {}, {}}, at,
+            out);
+    --retakes_;
+    retaken_.resize(first - setup_.plan.points.size());
+    done_.resize(first);
+    skipped_.resize(first);
 }
 
 /// A standard deviation needs two readings; where one was planned, one.
@@ -133,6 +161,7 @@ bool RunMachine::leaves_enough(const std::vector<int>& planned_steps) const {
         for (const PlannedPoint& other : setup_.plan.points)
             if (other.target_index == of.target_index && other.direction == of.direction &&
                 !is_left_out(other.step) &&
+                (!is_without_point(other.step) || awaits_retake(other.step)) &&
                 std::ranges::find(planned_steps, other.step) == planned_steps.end())
                 ++left;
         if (left < least) return false;
@@ -141,20 +170,19 @@ bool RunMachine::leaves_enough(const std::vector<int>& planned_steps) const {
 }
 
 void RunMachine::on(const Exclude& exclude, RunActions& out) {
-    const auto object = [&](const Error& error) {
-        refuse(0, TriggerOrigin::manual, error, exclude.at, out);
-    };
+    const auto no = [&](const Error& error) { object(0, error, out); };
     if (stopped_ || wanted_close_ || (closed_ && !complete_))
-        return object({Fault::no_run_armed, "This run takes nothing more.", {}, {}});
-    if (exclude.reason.empty()) return object(refused("An exclusion needs its reason."));
-    auto steps = chosen(exclude.selection);
-    if (!steps) return object(steps.error());
+        return no({Fault::no_run_armed, "This run takes nothing more.", {}, {}});
+    if (unkept_) return no({Fault::busy, "The last order is on its way to the disk.", {}, {}});
+    if (exclude.reason.empty()) return no(refused("An exclusion needs its reason."));
+    auto steps = chosen(exclude.selection, false);
+    if (!steps) return no(steps.error());
     std::erase_if(*steps, [this](int step) { return is_left_out(step); });
-    if (steps->empty()) return object(refused("That is left out already."));
+    if (steps->empty()) return no(refused("That is left out already."));
     if (!leaves_enough(*steps))
-        return object(
-            refused("At least two readings of each target and direction must remain for a "
-                    "standard deviation; take the point again instead."));
+        return no(refused("At least two readings of each target and direction must remain for a "
+                          "standard deviation; take the point again instead."));
+    unkept_ = Unkept{done_.size(), {}, false};
     std::vector<ExclusionRecord> records;
     records.reserve(steps->size());
     for (const int planned : *steps) {
@@ -163,6 +191,7 @@ void RunMachine::on(const Exclude& exclude, RunActions& out) {
         record.at = exclude.at;
         record.reason = exclude.reason;
         excluded_.push_back(record.step);
+        unkept_->excluded.push_back(record.step);
         records.push_back(std::move(record));
     }
     out.push_back(RecordExclusion{std::move(records), closed_});

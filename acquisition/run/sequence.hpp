@@ -1,5 +1,6 @@
 #pragma once
-// The numbering of requests: 0 is idle, 65535 is followed by 1. Pure.
+// The numbering of requests: 0 is idle, 65534 is followed by 1, 65535 is
+// `done` while no run takes requests. Pure.
 
 #include "drivers/trigger_port.hpp"
 

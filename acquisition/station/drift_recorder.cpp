@@ -18,16 +18,10 @@ std::optional<EnvironmentReading>
 DriftRecorder::mean_of(MonotonicTime now, const SampleHistory& watched, const DriftLimits& limits) {
     const auto window = watched.between(now - limits.window, now);
     if (window.size() < static_cast<std::size_t>(limits.minimum_samples)) return std::nullopt;
-    const auto first = window.front().value();
-    if (!first) return std::nullopt;
-    double sum_m = 0; // about the first: a mean of metres keeps its nanometres
-    for (const Sample& sample : window) {
-        const auto value = sample.value();
-        if (!value || sample.epoch != epoch_) return std::nullopt;
-        sum_m += *value - *first;
-    }
-    return EnvironmentReading{watched_, now - limits.window / 2,
-                              *first + sum_m / static_cast<double>(window.size())};
+    const SampleSummary found = watched.summary_of(window);
+    const bool one_zero = !found.epoch_changed && found.last_epoch == epoch_;
+    if (found.good < found.n || !one_zero) return std::nullopt;
+    return EnvironmentReading{watched_, now - limits.window / 2, found.mean_m()};
 }
 
 std::vector<EnvironmentReading> DriftRecorder::take(MonotonicTime now,

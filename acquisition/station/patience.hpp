@@ -6,6 +6,7 @@
 namespace axiscal {
 
 inline constexpr Duration laser_limit = std::chrono::seconds{2};   // an older reading is no reading
+inline constexpr Duration closing_limit = std::chrono::seconds{5}; // a disk syncs in far less
 inline constexpr Duration return_limit = std::chrono::seconds{15}; // an instrument is back in 5 s
 inline constexpr Duration look_every =
     std::chrono::milliseconds{20}; // adds at most this to a capture

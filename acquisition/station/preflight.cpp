@@ -4,6 +4,8 @@
 #include "acquisition/station/preflight_checks.hpp"
 #include "analysis/drift/settling.hpp"
 
+#include "config/measure.hpp"
+
 #include <algorithm>
 
 namespace axiscal {
@@ -32,11 +34,11 @@ double slope_of(const DriftSeries& series) {
 
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
     using namespace preflight_checks;
-    std::vector<PreflightRecord> checks{check_instruments(facts),  check_soak(facts),
-                                        check_sensors(facts),      check_contact(facts),
-                                        check_strength(facts),     check_drift(facts),
-                                        check_expansion(facts),    check_compensation(facts),
-                                        check_certificates(facts), check_environment(facts)};
+    std::vector<PreflightRecord> checks{
+        check_instruments(facts), check_soak(facts),         check_sensors(facts),
+        check_contact(facts),     check_strength(facts),     check_drift(facts),
+        check_expansion(facts),   check_compensation(facts), check_certificates(facts),
+        check_environment(facts), check_computer(facts)};
     if (facts.config.axis.angle && !facts.circular) checks.push_back(check_run_out(facts));
     return checks;
 }
@@ -47,10 +49,13 @@ Result<void> override_checks(std::vector<PreflightRecord>& checks,
         const auto check = std::ranges::find(checks, name, &PreflightRecord::name);
         if (check == checks.end()) {
             std::string known;
-            for (const PreflightRecord& known_check : checks)
+            std::vector<std::string> names;
+            for (const PreflightRecord& known_check : checks) {
                 known += (known.empty() ? "" : ", ") + known_check.name;
+                names.push_back(known_check.name);
+            }
             return refuse(Fault::bad_request, "overrides." + name,
-                          "is no check; there are " + known);
+                          "is no check; there are " + known + did_you_mean(name, names));
         }
         if (reason.find_first_not_of(" \t") == std::string::npos)
             return refuse(Fault::bad_request, "overrides." + name, "needs a reason: it is printed");

@@ -38,6 +38,7 @@ struct PreflightFacts {
     std::vector<SensorFacts> strengths;      ///< of the length's signal; empty: it tells none
     std::optional<Duration> laser_age;       ///< of its last good reading
     std::span<const Sample> laser_samples;   ///< of a little more than the last drift_window
+    Length laser_range = {};                 ///< of all its good readings within drift_window
     bool circular = false;                   ///< for circles: a ballbar in the laser's place
     std::optional<Duration> bar_age = {};    ///< of its last reading, good or not
     const SensorLog* bar = nullptr;          ///< its good readings lately, m
@@ -45,6 +46,8 @@ struct PreflightFacts {
     bool faces_read = false;                 ///< by the autocollimator itself, not typed
     std::optional<Duration> face_age = {};   ///< of its last reading, with a face in sight or not
     std::string run_out = {};                ///< of a rotary axis's set-up, as stated
+    bool boot_known = true;                  ///< the kernel tells the daemon its boot id
+    std::string may_sleep = {}; ///< why the computer may fall asleep in mid-run; empty: it may not
 };
 
 /// How far back `laser_samples` go: a laser that is asked seldom has its last sample before the
@@ -54,8 +57,8 @@ inline Duration drift_reach(const PreflightConfig& config) {
 }
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
-/// "certificates", "environment", in this order, of a linear or rotary run and of a circular test
-/// alike; of a rotary run also "run_out".
+/// "certificates", "environment", "computer", in this order, of a linear or rotary run and of a
+/// circular test alike; of a rotary run also "run_out".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

@@ -49,4 +49,7 @@ PreflightRecord check_expansion(const PreflightFacts& facts);
 PreflightRecord check_compensation(const PreflightFacts& facts);
 PreflightRecord check_run_out(const PreflightFacts& facts);
 
+// preflight_computer.cpp
+PreflightRecord check_computer(const PreflightFacts& facts);
+
 } // namespace axiscal::preflight_checks

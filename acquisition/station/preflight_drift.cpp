@@ -6,38 +6,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace axiscal::preflight_checks {
 namespace {
 
 constexpr double longest_break = 0.5; // of a window: what happened meanwhile nobody knows
 
-/// The standing axis's readings in micrometres that span the drift window until now: also the last
-/// one before it. Times are seconds since its beginning.
+/// The standing axis's readings in micrometres that span the drift window until now: some thousand,
+/// evenly taken, for a line needs no more and the loop no wait, and the last one before it. Times
+/// are seconds since the window's beginning.
 DriftSeries readings_of_the_laser(const PreflightFacts& facts) {
+    constexpr std::size_t enough = 1000;
     const MonotonicTime begin = facts.now - facts.config.preflight.drift_window;
+    const auto& samples = facts.laser_samples;
+    const auto is_good = [](const Sample& sample) { return sample.value().has_value(); };
+    const auto inside = std::ranges::partition_point(
+        samples, [begin](const Sample& sample) { return sample.at <= begin; });
+    const auto before = std::find_if(std::reverse_iterator{inside}, samples.rend(), is_good);
+    const auto stride = (samples.end() - inside) / static_cast<std::ptrdiff_t>(enough) + 1;
     DriftSeries series;
-    for (const Sample& sample : facts.laser_samples) {
-        const auto reading_m = sample.value();
-        const double at_s = seconds_of(sample.at - begin);
-        if (!reading_m || (!series.times.empty() && at_s <= series.times.back())) continue;
-        if (at_s <= 0) series = {}; // only the last one before the window is of use
-        series.times.push_back(at_s);
-        series.readings.push_back(*reading_m * 1e6);
+    auto next = before == samples.rend() ? inside : std::prev(before.base());
+    while ((next = std::find_if(next, samples.end(), is_good)) != samples.end()) {
+        const double at_s = seconds_of(next->at - begin);
+        if (series.times.empty() || at_s > series.times.back()) {
+            series.times.push_back(at_s);
+            series.readings.push_back(*next->value() * 1e6);
+        }
+        next += std::min(next < inside ? 1 : stride, samples.end() - next);
     }
     return series;
-}
-
-/// No more than some thousand readings, evenly taken: a line needs no more, and the loop no wait.
-DriftSeries thinned(const DriftSeries& series) {
-    constexpr std::size_t enough = 1000;
-    const std::size_t stride = series.times.size() / enough + 1;
-    DriftSeries few;
-    for (std::size_t i = 0; i < series.times.size(); i += stride) {
-        few.times.push_back(series.times[i]);
-        few.readings.push_back(series.readings[i]);
-    }
-    return few;
 }
 
 bool spans_window(const DriftSeries& series, double window_s) {
@@ -79,11 +77,11 @@ PreflightRecord check_drift(const PreflightFacts& facts) {
     if (!spans_window(series, window_s))
         return failed("drift", "The " + length_word_of(facts) + " has been read for less than " +
                                    in_minutes(limits.drift_window) + " without a break. Wait.");
-    if (total_range(series).range > moved_um)
+    if (std::max(total_range(series).range, facts.laser_range.in(um)) > moved_um)
         return failed("drift", "The axis moved within the last " + in_minutes(limits.drift_window) +
                                    (facts.circular ? ". Let the machine rest beside the circle."
                                                    : ". Let it stand at its datum."));
-    const double change_um = slope_of(thinned(series)) * window_s;
+    const double change_um = slope_of(series) * window_s;
     const std::string seen =
         std::string{"The reading of the standing "} + (facts.circular ? "ballbar" : "axis") +
         " drifts by " + plain_number(change_um, 2) + " um in " + in_minutes(limits.drift_window);

@@ -2,6 +2,10 @@
 
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/journal/run_store.hpp"
+#include "analysis/quantity/valid_text.hpp"
+#include "config/measure.hpp"
+#include "config/number_pattern.hpp"
+#include "config/version.hpp"
 
 #include <algorithm>
 #include <array>
@@ -112,15 +116,34 @@ std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,
     return calibrations;
 }
 
+namespace {
+
+std::vector<std::string> statement_names() {
+    std::vector<std::string> names{"run_out"};
+    for (const auto& [name, field] : statement_fields)
+        names.emplace_back(name);
+    return names;
+}
+
+} // namespace
+
 std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns) {
-    return station + "-" + instant_in_name(utc_ns) + "-" + axis;
+    return id_of_name(station, "station", longest_station_part) + "-" + instant_in_name(utc_ns) +
+           "-" + id_of_name(axis, "axis", longest_axis_part);
+}
+
+std::string taken_up_in_words(const RunRecord& run) {
+    const std::string ours = software_version();
+    const bool same = run.software_version == ours;
+    return "Version " + ours + " goes on" +
+           (same ? "" : "; version " + run.software_version + " opened the run") + ". ";
 }
 
 Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request) {
     const StationConfig& config = parts.config;
     RunRecord run;
     run.run_id = run_id_of(config.station, config.axis.name, parts.opened.utc_ns);
-    run.software_version = AXISCAL_VERSION;
+    run.software_version = software_version();
     run.station = config.station;
     run.station_config = config.text;
     run.config_hash = parts.config_hash;
@@ -144,9 +167,12 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
             std::ranges::find(statement_fields, key, &std::pair<std::string_view, Field>::first);
         if (field == statement_fields.end())
             return refuse(Fault::bad_request, "statements." + key,
-                          "is not a statement; docs/api.md lists them");
+                          "is not a statement" + did_you_mean(key, statement_names()));
         run.statements.*(field->second) = value;
     }
+    if (std::string mistake = mistake_in_number(run.statements.certificate_number);
+        !mistake.empty())
+        return refuse(Fault::bad_request, "statements.certificate_number", std::move(mistake));
     for (std::size_t i = 0; i < config.instruments.size(); ++i)
         run.instruments.push_back(
             instrument_of(config.instruments[i], parts.supervisor.identity(static_cast<int>(i))));

@@ -13,11 +13,17 @@ struct RunHeaderParts {
     const StationRoles& roles;
     RunPlan plan;
     ClockTie opened;
-    std::string boot_id, config_hash;
+    BootId boot_id;
+    std::string config_hash;
 };
 
-/// "<station>-20261121T100000Z-X": unique a second, sortable, fit for a file name.
+/// "<station>-20261121T100000Z-X": unique a second, sortable, fit for a file name whatever the
+/// names hold (id_of_name).
 std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns);
+
+/// "Version 0.2.0 goes on; version 0.1.0 opened the run. ": of an interrupted run, whose next points this program takes; the
+/// second half only where the versions differ.
+std::string taken_up_in_words(const RunRecord& run);
 
 /// What the station file states of the certificates of `recorded`, in their order.
 std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,

@@ -2,6 +2,7 @@
 
 #include "acquisition/run/live_position.hpp"
 #include "analysis/air_refraction.hpp"
+#include "analysis/quantity/valid_text.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "drivers/spawn.hpp"
 
@@ -105,12 +106,15 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , config_hash_{std::move(parts.config_hash)}
     , boot_id_{std::move(parts.boot_id)}
     , report_program_{std::move(parts.report_program)}
+    , slept_{scheduler.asleep()}
+    , sleep_lock_{scheduler, std::move(parts.inhibit_program)}
     , supervisor_{scheduler, links, *this}
     , port_{std::move(parts.port)}
     , journal_{scheduler, parts.journal_thread}
     , history_{history_limits(config_)}
     , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments), std::move(parts.tapes)),
               watched(roles_, supervisor_.channels()))}
+    , environment_{roles_.environment()}
     , latest_(supervisor_.channels().size())
     , logged_(supervisor_.channels().size())
     , sensor_logs_{sensor_logs(supervisor_.channels(), config_)}
@@ -120,6 +124,16 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
+    sign_with(std::move(parts.key));
+}
+
+/// That another key signs, or none, stands in the events of the next run, too.
+void Station::sign_with(StationKey key) {
+    journal_.sign_with(std::move(key.key));
+    if (!key.news.empty()) note(key.news);
+    if (key.warns)
+        journal_.note(EventRecord{EventKind::note, scheduler_.now(), scheduler_.clock_tie().utc_ns,
+                                  std::move(key.news), Fault::none, 0});
 }
 
 Station::~Station() = default;
@@ -135,6 +149,7 @@ Task<Result<void>> Station::start() {
                                "; check station.state_directory and its owner",
                            error);
     }
+    sleep_lock_.try_out();
     supervisor_.start();
     judged_ = judged_outbox_ = scheduler_.now();
     time_counts_until_ = std::max(time_counts_until_, judged_ + first_looks);
@@ -161,6 +176,7 @@ void Station::open_port() {
 
 Task<void> Station::stop() {
     stopping_ = true;
+    sleep_lock_.want(false);
     end_port_.emit(boost::asio::cancellation_type::terminal);
     if (recording() || drift_open()) {
         if (circular_)
@@ -191,9 +207,8 @@ void Station::on_sample(const Sample& sample) {
     if (circular_ && sample.channel == roles_.bar_temperature)
         log_environment(sample.channel, sample);
     log_sensor(sample);
-    const std::vector<int> environment = roles_.environment();
-    for (std::size_t i = 0; i < environment.size(); ++i)
-        if (environment[i] == sample.channel) {
+    for (std::size_t i = 0; i < environment_.size(); ++i)
+        if (environment_[i] == sample.channel) {
             watch_.take(i, sample);
             log_environment(sample.channel, sample);
         }
@@ -248,7 +263,10 @@ void Station::record_instrument(const std::string& sentence, Fault fault) {
 
 void Station::on_trigger(const TriggerEvent& event) {
     port_note_.clear(); // it works
-    if (circular_ && recording()) return take_circular(event);
+    if (circular_ && recording()) {
+        take_circular(event);
+        return;
+    }
     if (machine_) return feed_with_air(event);
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
@@ -275,16 +293,17 @@ void Station::on_cnc_silent(bool silent) {
 }
 
 void Station::on_port_note(Fault fault, std::string sentence) {
-    std::string told = std::string{fault_sentence(fault)} + " " + sentence;
+    std::string told = describe({fault, std::move(sentence), {}, {}});
     if (told == port_note_) return; // a taken address is tried again each second
     note("Trigger port: " + told);
     port_note_ = std::move(told);
 }
 
 void Station::note(const std::string& sentence) {
-    spdlog::info("{}", sentence);
+    std::string told = valid_text(sentence); // of errors, which may quote a client or a file
+    spdlog::info("{}", told);
     const ClockTie tie = scheduler_.clock_tie();
-    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + sentence);
+    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + std::move(told));
     if (notes_.size() > kept_notes) notes_.pop_front();
     bell_.ring(); // what was worth a word may be worth a look
 }

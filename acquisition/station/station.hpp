@@ -13,12 +13,14 @@
 #include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/journal/run_store.hpp"
+#include "acquisition/journal/signing_key.hpp"
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/circle_resume.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "acquisition/station/drift_recorder.hpp"
 #include "acquisition/station/preflight.hpp"
 #include "acquisition/station/roles.hpp"
+#include "acquisition/station/sleep_lock.hpp"
 #include "acquisition/station/station_face.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "config/station_config.hpp"
@@ -42,9 +44,12 @@ struct StationParts {
     std::vector<std::unique_ptr<Instrument>> instruments;
     std::map<std::string, Tape> tapes; ///< by instrument, of those that are none
     std::unique_ptr<TriggerPort> port;
-    std::string config_hash, boot_id;
+    std::string config_hash;
+    BootId boot_id;
     std::string report_program = "axiscal-report";
+    std::string inhibit_program; ///< systemd-inhibit; empty: the computer may fall asleep
     JournalThread journal_thread = JournalThread::own;
+    StationKey key; ///< signs what is closed
 };
 
 class Station final : public StationFace, private SupervisorListener, private TriggerSink {
@@ -66,7 +71,7 @@ public:
     Task<Result<std::string>> arm(ArmRequest request) override;
     Result<void> trigger() override;
     Result<void> type_reading(double seconds_of_arc) override;
-    Result<void> abort(std::string reason) override;
+    Task<Result<void>> abort(std::string reason, Orderer by = {}) override;
     [[nodiscard]] Result<std::vector<PreflightRecord>>
     preflight(const ArmRequest& request) const override;
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
@@ -82,9 +87,14 @@ private:
         RunRecord header; ///< without points
         std::string path;
         bool closing = false, closed = false;
-        bool shut = false;          ///< its closing row is durable
+        bool shut = false;             ///< its closing row is durable
+        std::optional<Error> not_shut; ///< why it is closed, and its file is not
+        /// Why the reading could not be tied to the datum: the answer to who armed it.
+        std::optional<Error> not_tied;
         bool limits_waived = false; ///< armed in spite of the environment
         bool resumed = false;       ///< of an earlier daemon: who answers late may be another
+        bool taken_over = false;    ///< an earlier daemon closed it, perhaps in another boot
+        bool broken_off = false;    ///< closed as incomplete, and not by the CNC's own request
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
         std::string certificate;      ///< folder
@@ -117,6 +127,15 @@ private:
     /// feeds the next.
     void feed(RunInput input);
     void feed_with_air(RunInput input); ///< the refractive index of this moment first
+    /// What the run machine answers a person. It goes to nobody else.
+    struct Answer {
+        std::optional<Error> refusal;
+        std::optional<RecordRetake> retake;
+        std::optional<RecordExclusion> exclusion;
+    };
+    Answer ask(RunInput input);
+    void take_up_inputs();
+    void refresh_air();
     void handle(const RunInput& input);
     void perform(PublishArmed action);
     void perform(OpenWindow action);
@@ -125,8 +144,11 @@ private:
     void perform(CommitDatum action);
     void perform(CommitEvent action);
     void perform(Acknowledge action);
+    void warn_of_skip(const Acknowledge& action);
+    void publish_done(std::uint16_t sequence, bool skipped);
     void perform(RepublishDone action);
     void perform(const Refuse& action);
+    void refused_manually(const Refuse& action, Error error);
     void perform(RecordEvent action);
     void perform(RecordRetake action);
     void perform(RecordExclusion action);
@@ -180,7 +202,8 @@ private:
     void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
     void take_bar(const Sample& sample);
     void keep_chunk(StreamChunk chunk);
-    void take_circular(const TriggerEvent& event);
+    /// @returns the answer to a person; the CNC hears its own.
+    std::optional<Error> take_circular(const TriggerEvent& event);
     Task<void>
     commit_circle(TriggerEvent event, std::uint16_t sequence, std::string sentence, bool last);
     void end_circular(Close close);
@@ -203,6 +226,9 @@ private:
     Task<void> take_over_when_disk_is_back(std::string told);
     /// Why no file may grow where the runs are, if so.
     Task<std::optional<Error>> disk_trouble();
+    Task<Result<void>> close_file(bool complete, std::string reason);
+    Task<Result<void>> close_file_for_now(bool complete, std::string reason);
+    Task<void> wait_for_readers();
     Task<Result<void>> go_on_after_disk(std::shared_ptr<const RunRecord> on_disk);
     Task<Result<void>> close_after_disk();
     Task<Result<void>> finish_after_disk();
@@ -226,6 +252,7 @@ private:
     [[nodiscard]] Result<void> disk_takes_records() const;
     /// Neither run nor drift test is open, and nobody opens one. @errors Fault::busy
     [[nodiscard]] Result<void> nothing_goes_on() const;
+    Task<Result<void>> await_closing(std::string path);
 
     // station_preflight.cpp
     void log_sensor(const Sample& sample);
@@ -248,10 +275,12 @@ private:
 
     // station_retake.cpp: points taken again and readings left out, also after the run was closed
     [[nodiscard]] Result<void> run_may_be_revised() const;
+    Task<Result<void>> write_revision(Answer order, OrderRecord ordered);
     [[nodiscard]] Result<void> datum_stands() const;
     [[nodiscard]] Result<void> set_up_stands() const;
     void run_is_open_again();
-    Task<Result<void>> keep_revision(RunMachine before);
+    Task<void> show_last_number();
+    Task<Result<void>> keep_revision(Answer order, Orderer by);
     Task<Result<void>> close_again();
 
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
@@ -265,7 +294,7 @@ private:
     Task<void> publish_done_of_closed(std::string newest_path);
     Task<Result<void>>
     close_left_over(std::string path, std::string reason, Fault fault, bool whole);
-    void mark_another_boot(const std::string& boot_id_of_run);
+    void mark_another_boot(const BootId& boot_of_run);
     [[nodiscard]] std::string laser_serial() const;
 
     // station_serials.cpp: whether the instruments after a restart are those of the run
@@ -296,7 +325,7 @@ private:
     /// Ends with the test of this id: another one may begin at once.
     Task<void> record_drift(std::string run_id);
     void note_drift();
-    Task<void> close_drift(bool complete, std::string reason);
+    Task<Result<void>> close_drift(bool complete, std::string reason);
     [[nodiscard]] bool drift_open() const { return drift_ && !drift_->closed; }
     [[nodiscard]] DriftView drift_view() const;
 
@@ -335,6 +364,8 @@ private:
     Task<void> tick();
     Task<void> pause_before_looking();
     void look_at_the_time();
+    void keep_awake();
+    void notice_sleep();
     /// A run, a drift test or an alignment goes on, an instrument speaks, or what was read last
     /// still grows old.
     [[nodiscard]] bool time_counts() const;
@@ -368,15 +399,26 @@ private:
     /// Its autocollimator is an instrument; else a person reads it and types.
     [[nodiscard]] bool reads_faces() const { return roles_.autocollimator.has_value(); }
 
+    void sign_with(StationKey key);
+    [[nodiscard]] OrderRecord
+    order_of(std::string kind, const Orderer& by, std::string about = {}) const;
+    /// Who armed, and who overrode which check.
+    void note_orders_of_arming(const Orderer& by, const std::vector<PreflightRecord>& checks);
+
     Scheduler& scheduler_;
     StationConfig config_;
     StationRoles roles_;
-    std::string config_hash_, boot_id_, report_program_;
+    std::string config_hash_;
+    BootId boot_id_;
+    std::string report_program_;
+    Duration slept_{}; ///< of the computer, as last told
+    SleepLock sleep_lock_;
     Supervisor supervisor_;
     std::unique_ptr<TriggerPort> port_;
     Journal journal_;
     SampleHistory history_;
     EnvironmentWatch watch_;
+    std::vector<int> environment_;                     ///< channels, in the order of watch_
     std::vector<std::optional<Sample>> latest_;        ///< by channel
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
     std::vector<SensorLog> sensor_logs_;               ///< by channel; the laser's stays empty
@@ -392,14 +434,16 @@ private:
     std::optional<Circles> circular_;
     SampleRate bar_rate_;
     std::optional<CurrentRun> run_;
-    std::deque<RunInput> inputs_;
+    struct Input {
+        RunInput input;
+        std::shared_ptr<Answer> answer; ///< of a person's request
+    };
+    std::deque<Input> inputs_;
+    std::shared_ptr<Answer> answering_; ///< while that request is handled, and no longer
     bool handling_ = false;
     std::optional<JournalReceipt> last_receipt_;
     std::uint64_t open_window_ = 0;
     PortState port_state_ = PortState::idle;
-    std::optional<Error> manual_refusal_;          ///< of a person's own request
-    std::optional<RecordRetake> new_retake_;       ///< decided, not yet kept
-    std::optional<RecordExclusion> new_exclusion_; ///< decided, not yet kept
     std::string set_up_lost_;  ///< why nothing can be taken again of the run that was closed
     std::string interruption_; ///< of a closed run that was taken over, to be recorded
     std::optional<Sample> last_reading_; ///< since the run was closed, or since the start

@@ -2,11 +2,13 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/journal/certificate_numbers.hpp"
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/environment_limits.hpp"
+#include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "analysis/run_clock.hpp"
@@ -55,6 +57,8 @@ Result<void> Station::disk_takes_records() const {
 
 Result<void> Station::nothing_goes_on() const {
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
+    if (revising_)
+        return fail(Fault::busy, "a retake or an exclusion is being written just now; ask again");
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
                                      " is open; finish it or 'axiscal abort' it first");
@@ -100,10 +104,8 @@ RunSetup Station::setup_of(const RunRecord& header) const {
 Task<Result<std::string>> Station::arm(ArmRequest request) {
     if (request.pass == circular_pass) co_return co_await arm_circular(std::move(request));
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
-    arming_ = true;
-    auto armed = co_await open_and_tie(std::move(request));
-    arming_ = false;
-    co_return armed;
+    const Held arming{arming_};
+    co_return co_await open_and_tie(std::move(request));
 }
 
 Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
@@ -115,10 +117,15 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
+    if (auto free = check_number_is_free(config_.state_directory,
+                                         header.statements.certificate_number);
+        !free)
+        co_return tl::unexpected<Error>(free.error());
     RunAttachments attachments;
-    attachments.alignment = alignment_for_run();
     if (auto adopted = co_await adopt_eve(header, attachments); !adopted)
         co_return tl::unexpected<Error>(adopted.error());
+    attachments.alignment =
+        alignment_for_run(); // ends one that is going on: not before all else fits
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
     RunRecord copy = header;
@@ -131,12 +138,29 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     RunMachine machine{setup_of(header)};
     begin_run(std::move(header), std::move(path), std::move(machine));
     run_->limits_waived = waives_limits(checks);
+    note_orders_of_arming(request.by, checks);
     journal_.note(std::move(checks));
-    manual_refusal_.reset();
     feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
     if (request.datum_by_cnc) co_return run_->header.run_id;
     if (auto tied = co_await await_datum(); !tied) co_return tl::unexpected<Error>(tied.error());
     co_return run_->header.run_id;
+}
+
+OrderRecord
+Station::order_of(std::string kind, const Orderer& by, std::string about) const {
+    return {std::move(kind), std::move(about), scheduler_.now(), scheduler_.clock_tie().utc_ns, by};
+}
+
+void Station::note_orders_of_arming(const Orderer& by,
+                                    const std::vector<PreflightRecord>& checks) {
+    journal_.note(order_of("arm", by));
+    std::string overridden;
+    for (const PreflightRecord& check : checks) {
+        if (check.override_reason.empty()) continue;
+        journal_.note(order_of("override", by, check.name));
+        overridden += (overridden.empty() ? ", overriding " : ", ") + check.name;
+    }
+    note("Run " + run_->header.run_id + " was armed by " + in_words(by) + overridden + ".");
 }
 
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
@@ -166,11 +190,11 @@ void Station::log_environment_anew() {
 /// A run whose datum cannot be tied is closed again: the technician mends the cause and arms anew.
 Task<Result<void>> Station::await_datum() {
     const MonotonicTime deadline = scheduler_.now() + config_.capture.timeout + laser_limit;
-    while (!datum_ && recording() && !manual_refusal_ && scheduler_.now() < deadline)
+    while (!datum_ && recording() && !run_->not_tied && scheduler_.now() < deadline)
         co_await scheduler_.sleep_for(look_every);
     if (datum_ && recording()) co_return Result<void>{};
     const Error why =
-        manual_refusal_.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
+        run_->not_tied.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
     feed(Abort{"The datum could not be tied: " + describe(why), scheduler_.now()});
     while (!run_->closed)
         co_await scheduler_.sleep_for(look_every);
@@ -179,30 +203,47 @@ Task<Result<void>> Station::await_datum() {
 
 Result<void> Station::trigger() {
     if (!recording()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
-    manual_refusal_.reset();
     TriggerEvent event;
     event.at = scheduler_.now();
     event.origin = TriggerOrigin::manual;
-    if (circular_)
-        take_circular(event);
-    else
-        feed_with_air(event);
-    if (manual_refusal_) return tl::unexpected<Error>(*manual_refusal_);
+    const std::optional<Error> refusal = circular_ ? take_circular(event) : ask(event).refusal;
+    if (refusal) return tl::unexpected<Error>(*refusal);
     return {};
 }
 
-Result<void> Station::abort(std::string reason) {
+Task<Result<void>> Station::abort(std::string reason, Orderer by) {
     if (drift_open()) {
-        if (drift_->closing) return fail(Fault::busy, "the drift test is being closed");
-        spawn(scheduler_, close_drift(false, std::move(reason)));
-        return {};
+        if (drift_->closing) co_return fail(Fault::busy, "the drift test is being closed");
+        journal_.note(order_of("abort", by));
+        note("The drift test was aborted by " + in_words(by) + ".");
+        co_return co_await close_drift(false, std::move(reason));
     }
-    if (!recording()) return fail(Fault::no_run_armed, "there is nothing to abort");
+    if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
+    journal_.note(order_of("abort", by));
+    note("Run " + run_->header.run_id + " was aborted by " + in_words(by) + ".");
     if (circular_)
         end_circular({false, std::move(reason), Fault::none});
     else
         feed(Abort{std::move(reason), scheduler_.now()});
-    return {};
+    co_return co_await await_closing(run_->path);
+}
+
+/// What did not close is told to the one who asked: 200 would be a lie.
+Task<Result<void>> Station::await_closing(std::string path) {
+    const MonotonicTime limit = scheduler_.now() + closing_limit;
+    const auto same = [&] { return run_ && run_->path == path; };
+    while (same() && !run_->closed && scheduler_.now() < limit && !stopping_)
+        co_await scheduler_.sleep_for(look_every);
+    if (!same() || (run_->closed && run_->shut)) co_return Result<void>{};
+    if (!run_->closed)
+        co_return fail(Fault::busy,
+                       "the run is not closed yet: a record is on its way to the disk; "
+                       "the run ends as soon as the disk has answered");
+    const Error& why = *run_->not_shut;
+    co_return fail(Fault::not_durable,
+                   "the run takes nothing more, but its file could not be closed: " +
+                       disk_in_words(why) + " The station closes it once the disk takes records",
+                   why.cause);
 }
 
 bool Station::instruments_returned() const {
@@ -231,7 +272,9 @@ Task<Result<void>> Station::take_over_stored_runs() {
         auto now = co_await journal_.summarize(run.path);
         if (now) run = *std::move(now);
     }
-    if (stored->newest) co_await publish_done_of_closed(stored->newest->path);
+    // Of one that was not completed `done` stays 65535: it takes no requests.
+    if (stored->newest && stored->newest->complete)
+        co_await publish_done_of_closed(stored->newest->path);
     spawn(scheduler_, certify_left_over(*std::move(stored)));
     co_return Result<void>{};
 }
@@ -318,11 +361,12 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     begin_run(std::move(header), path, std::move(machine));
     run_->limits_waived = waived;
     run_->resumed = true;
-    const std::string away = run.boot_id == boot_id_
+    const std::string away = is_same_boot(run.boot_id, boot_id_)
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
-                                 : "while " + std::string{computer_restarted};
+                                 : "while " + restart_in_words(run.boot_id, boot_id_);
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
-                         "The station recorded nothing " + away + ". " + proof, Fault::none, 0}});
+                         "The station recorded nothing " + away + ". " +
+                             taken_up_in_words(run) + proof, Fault::none, 0}});
     feed(EnvironmentNow{scale_within_limits()});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
@@ -344,7 +388,7 @@ Task<Result<void>> Station::publish_last_done(RunRecord run) {
                        : co_await journal_.receipt_for_skip(last.sequence, last.step);
     if (!receipt) co_return tl::unexpected<Error>(receipt.error());
     last_receipt_ = *receipt;
-    port_->acknowledge(*receipt);
+    publish_done(receipt->sequence(), last.step >= 0 && !is_point);
     co_return Result<void>{};
 }
 
@@ -365,7 +409,7 @@ Station::close_left_over(std::string path, std::string reason, Fault fault, bool
     if (stored) mark_another_boot(stored->boot_id);
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
     if (whole) reason = "Every planned point is durable; not every retake was done: " + reason;
-    if (auto closed = co_await journal_.close(whole, reason); !closed) {
+    if (auto closed = co_await close_file_for_now(whole, reason); !closed) {
         co_await journal_.let_go();
         co_return closed;
     }

@@ -2,7 +2,9 @@
 // request of the CNC becomes durable before it is answered.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/journal/certificate_numbers.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/station/held.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
 
@@ -58,6 +60,8 @@ Result<RunRecord> Station::header_without_axis(std::string_view pass,
 Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
     const std::string plane{name_of(config_.circular->setup.plan.plane)};
     AXISCAL_TRY(RunRecord header, header_without_axis(circular_pass, plane + "-circle", request));
+    AXISCAL_CHECK(
+        check_number_is_free(config_.state_directory, header.statements.certificate_number));
     header.plan.remark = "circular test; the table circular holds its plan";
     header.statements.axis = plane;
     return header;
@@ -65,10 +69,8 @@ Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
 
 Task<Result<std::string>> Station::arm_circular(ArmRequest request) {
     if (auto ready = ready_for_circles(); !ready) co_return tl::unexpected<Error>(ready.error());
-    arming_ = true;
-    auto armed = co_await open_circular(std::move(request));
-    arming_ = false;
-    co_return armed;
+    const Held arming{arming_};
+    co_return co_await open_circular(std::move(request));
 }
 
 Task<Result<std::string>> Station::open_circular(ArmRequest request) {
@@ -93,8 +95,9 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
     stream.unit = stored_unit_of(bar.kind);
     stream.nominal_rate_hz = setup.capture.sample_rate_hz;
     journal_.note(setup, std::vector<StreamSetup>{stream});
-    journal_.note(std::move(checks));
     begin_circular(std::move(header), std::move(path), setup);
+    note_orders_of_arming(request.by, checks);
+    journal_.note(std::move(checks));
     perform(
         RecordEvent{{EventKind::armed, scheduler_.now(), 0, "Armed for circles.", Fault::none, 0}});
     port_->publish_armed();
@@ -113,7 +116,6 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
     last_receipt_.reset();
     left_over_fault_.reset();
     refused_note_.clear();
-    manual_refusal_.reset();
     datum_.reset();
     for (auto& logged : logged_)
         logged.reset();
@@ -137,23 +139,29 @@ void Station::keep_chunk(StreamChunk chunk) {
     perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, told, Fault::not_durable, 0}});
 }
 
-void Station::take_circular(const TriggerEvent& event) {
+std::optional<Error> Station::take_circular(const TriggerEvent& event) {
     const CircleVerdict verdict = circular_->order.judge(event);
+    const auto refused = [&](Fault fault) {
+        if (event.origin != TriggerOrigin::manual)
+            perform(Refuse{verdict.sequence, fault, verdict.sentence, event.origin});
+        return Error{fault, verdict.sentence, {}, {}};
+    };
     switch (verdict.answer) {
-    case CircleAnswer::ignore: return;
-    case CircleAnswer::again: return perform(Acknowledge{verdict.sequence, -1});
-    case CircleAnswer::abort: return end_circular({false, verdict.sentence, Fault::none});
-    case CircleAnswer::broken:
-        perform(Refuse{verdict.sequence, Fault::incomplete_run, verdict.sentence, event.origin});
-        return end_circular({false, verdict.sentence, Fault::incomplete_run});
-    case CircleAnswer::refuse:
-        return perform(
-            Refuse{verdict.sequence, Fault::sequence_lost, verdict.sentence, event.origin});
+    case CircleAnswer::ignore: break;
+    case CircleAnswer::again: publish_done(verdict.sequence, false); break;
+    case CircleAnswer::abort: end_circular({false, verdict.sentence, Fault::none}); break;
+    case CircleAnswer::broken: {
+        Error error = refused(Fault::incomplete_run);
+        end_circular({false, verdict.sentence, Fault::incomplete_run});
+        return error;
+    }
+    case CircleAnswer::refuse: return refused(Fault::sequence_lost);
     case CircleAnswer::begin:
     case CircleAnswer::end:
         spawn(scheduler_, commit_circle(event, verdict.sequence, verdict.sentence,
                                         verdict.answer == CircleAnswer::end));
     }
+    return std::nullopt;
 }
 
 /// The stretch up to here goes into the same commit. The event's time is that of the request: what
@@ -214,6 +222,7 @@ RunStatus Station::circular_status() const {
     run.steps = circular_->order.circles();
     run.done = circular_->order.last_durable();
     run.certificate = run_->certificate;
+    if (!run_->closed) run.circle = CircleView{circular_->order.current(), run.step > 0};
     run.state = !run_->closed ? "armed" : run_->outcome->complete ? "complete" : "incomplete";
     const auto tell = [&run](const Error& error) {
         if (error.fault != Fault::none) run.last_fault = fault_name(error.fault);

@@ -5,6 +5,7 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/journal/stream_packing.hpp"
 #include "acquisition/station/patience.hpp"
+#include "acquisition/station/run_header.hpp"
 
 #include <algorithm>
 
@@ -97,7 +98,7 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
     if (stored) mark_another_boot(stored->boot_id);
     const std::string reason = "Every circle was driven.";
     perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, Fault::none, 0}});
-    if (auto closed = co_await journal_.close(true, reason); !closed) {
+    if (auto closed = co_await close_file_for_now(true, reason); !closed) {
         co_await journal_.let_go();
         co_return closed;
     }
@@ -108,7 +109,8 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
 std::string Station::interruption_in_words(const RunFileContents& contents,
                                            const CircleResume& verdict) const {
     const std::string away = in_seconds(scheduler_.now() - last_sign_of(contents));
-    return "The station recorded nothing for " + away + ". " + verdict.sentence;
+    return "The station recorded nothing for " + away + ". " + taken_up_in_words(contents.run) +
+           verdict.sentence;
 }
 
 /// The port is not open yet. What the CNC stands at decides: the last durable request begins its

@@ -27,7 +27,7 @@ void Station::watch_set_up(const Sample& sample) {
     if (!run_ && !settled_sample_ && sample.value() && sample.at - first_sample_->at >= buffer_time)
         settled_sample_ = sample;
     const std::uint32_t epoch = run_ ? datum_epoch_ : first_sample_->epoch;
-    const std::string since =
+    const char* const since =
         run_ && interruption_.empty() ? " since the run was closed" : " since axiscald was started";
     if (sample.epoch != epoch)
         set_up_lost_ = "the " + reference_word() + "'s counter lost its zero" + since;
@@ -45,11 +45,14 @@ void Station::watch_set_up(const Sample& sample) {
 }
 
 /// What is written now counts by another monotonic clock: who tells its times has to know.
-void Station::mark_another_boot(const std::string& boot_id_of_run) {
-    if (boot_id_of_run == boot_id_) return;
-    perform(RecordEvent{{EventKind::note, scheduler_.now(), 0,
-                         "What follows was written after " + std::string{computer_restarted} + ".",
-                         Fault::none, 0}});
+void Station::mark_another_boot(const BootId& boot_of_run) {
+    if (is_same_boot(boot_of_run, boot_id_)) return;
+    const bool certain = boot_of_run.known() && boot_id_.known();
+    std::string sentence =
+        certain ? "What follows was written after " : "What follows may count by another clock: ";
+    sentence += restart_in_words(boot_of_run, boot_id_) + ".";
+    perform(
+        RecordEvent{{EventKind::note, scheduler_.now(), 0, std::move(sentence), Fault::none, 0}});
 }
 
 Task<Result<RunSummary>> Station::newest_closed_run() {
@@ -106,7 +109,7 @@ Task<Result<void>> Station::take_over_closed_run() {
         co_return fail(Fault::busy, "somebody else is at it just now");
     CurrentRun last;
     last.path = newest.path;
-    last.closed = last.shut = true;
+    last.closed = last.shut = last.taken_over = true;
     last.outcome = Close{true, contents.run.closing_reason, Fault::none};
     RunSetup setup = setup_of(contents.run);
     last.limits_waived = waives_limits(contents.revisions.preflight);

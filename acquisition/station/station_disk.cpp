@@ -5,6 +5,8 @@
 #include "acquisition/run/resume.hpp"
 #include "acquisition/station/station.hpp"
 
+#include <utility>
+
 namespace axiscal {
 namespace {
 
@@ -29,6 +31,37 @@ Task<void> Station::wait_for_disk() {
         if (co_await try_disk(path, since)) break;
     }
     waiting_for_disk_ = false;
+}
+
+/// Whoever reads the file holds up the last step, by which it becomes one file: that is no fault of
+/// the disk, and is waited for. The closing row is durable from the first attempt on.
+Task<Result<void>> Station::close_file(bool complete, std::string reason) {
+    bool told = false;
+    for (;;) {
+        Result<void> closed = co_await journal_.close(complete, reason);
+        if (closed || closed.error().fault != Fault::busy || stopping_) co_return closed;
+        if (!std::exchange(told, true))
+            note("The run is closed and safe. " + closed.error().detail + ".");
+        co_await scheduler_.sleep_for(try_every);
+    }
+}
+
+/// At a start nobody waits for a reader: wait_for_readers() does what is left.
+Task<Result<void>> Station::close_file_for_now(bool complete, std::string reason) {
+    Result<void> closed = co_await journal_.close(complete, std::move(reason));
+    if (closed || closed.error().fault != Fault::busy) co_return closed;
+    note("The run is closed and safe. " + closed.error().detail + ".");
+    co_await journal_.let_go();
+    co_return Result<void>{};
+}
+
+/// A closed run has its certificate once it is one file: its bytes are what the certificate names.
+Task<void> Station::wait_for_readers() {
+    while (!stopping_) {
+        const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
+        if (tidied || tidied.error().fault != Fault::busy) co_return;
+        co_await scheduler_.sleep_for(try_every);
+    }
 }
 
 Task<std::optional<Error>> Station::disk_trouble() {
@@ -95,7 +128,7 @@ Task<Result<void>> Station::go_on_after_disk(std::shared_ptr<const RunRecord> on
 Task<Result<void>> Station::close_after_disk() {
     const Close wanted =
         run_->outcome.value_or(Close{false, "The disk failed.", Fault::not_durable});
-    const auto closed = co_await journal_.close(wanted.complete, wanted.reason);
+    const auto closed = co_await close_file(wanted.complete, wanted.reason);
     if (!closed) co_return closed;
     co_return co_await finish_after_disk();
 }
@@ -105,6 +138,7 @@ Task<Result<void>> Station::finish_after_disk() {
     const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
     if (!tidied) co_return tidied;
     run_->shut = true;
+    run_->not_shut.reset();
     if (run_->outcome && run_->outcome->complete) co_await certify(run_->header.run_id, run_->path);
     co_return Result<void>{};
 }

@@ -3,6 +3,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/station/held.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
 
@@ -98,10 +99,8 @@ Task<Result<std::string>> Station::drift(DriftRequest request) {
     const bool of_bar = drift_is_of_bar(request);
     if (auto ready = ready_for_drift(of_bar); !ready)
         co_return tl::unexpected<Error>(ready.error());
-    arming_ = true;
-    auto opened = co_await open_drift(std::move(request), of_bar);
-    arming_ = false;
-    co_return opened;
+    const Held arming{arming_};
+    co_return co_await open_drift(std::move(request), of_bar);
 }
 
 Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request) const {
@@ -143,8 +142,9 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
     statements.statements = request.statements;
     const std::string plane =
         config_.circular ? std::string{name_of(config_.circular->setup.plan.plane)} : "";
-    const std::string name = (plane.empty() ? plane : plane + "-") + "ballbar-drift";
+    const std::string name = (plane.empty() ? plane : plane + "-") + "ballbar";
     AXISCAL_TRY(RunRecord header, header_without_axis(bar_drift_pass, name, statements));
+    header.run_id += "-drift";
     header.statements.axis = plane;
     header.laser = {};
     header.laser.instrument = config_.ballbar->instrument;
@@ -157,6 +157,9 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
 
 Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar) {
     AXISCAL_CO_TRY(RestingTest order, of_bar ? drift_of_bar(request) : drift_of_axis(request));
+    // No certificate: a number of the station file is none of it.
+    if (!request.statements.contains("certificate_number"))
+        order.header.statements.certificate_number.clear();
     order.header.calibrations = calibrations_of(supervisor_, order.header.channels);
     const std::string id = order.header.run_id;
     std::string path = config_.state_directory + "/runs/" + id + std::string{run_file_ending};
@@ -173,8 +176,9 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
     drift_.emplace(CurrentDrift{
         id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}});
     if (of_bar) drift_->bar.emplace(SampleHistory::Limits{2 * config_.capture.window});
-    note("Drift test " + id + " has begun: leave " + (of_bar ? "machine and ballbar" : "the axis") +
-         " alone.");
+    journal_.note(order_of("drift", request.by));
+    note("Drift test " + id + " has begun, ordered by " + in_words(request.by) + ": leave " +
+         (of_bar ? "machine and ballbar" : "the axis") + " alone.");
     spawn(scheduler_, record_drift(id));
     co_return id;
 }
@@ -202,9 +206,9 @@ void Station::note_drift() {
     if (!readings.empty()) journal_.note(std::move(readings));
 }
 
-Task<void> Station::close_drift(bool complete, std::string reason) {
-    if (std::exchange(drift_->closing, true)) co_return;
-    const Result<void> closed = co_await journal_.close(complete, reason);
+Task<Result<void>> Station::close_drift(bool complete, std::string reason) {
+    if (std::exchange(drift_->closing, true)) co_return Result<void>{};
+    const Result<void> closed = co_await close_file(complete, reason);
     if (!closed) {
         reason = "The run file could not be closed: " + disk_in_words(closed.error());
         co_await journal_.let_go(); // the next test or run has a file of its own
@@ -215,6 +219,8 @@ Task<void> Station::close_drift(bool complete, std::string reason) {
     drift_->complete = complete && closed;
     drift_->closed = true;
     if (drift_->complete) co_await certify(drift_->run_id, drift_->path);
+    if (closed) co_return closed;
+    co_return fail(Fault::not_durable, drift_->reason, closed.error().cause);
 }
 
 DriftView Station::drift_view() const {

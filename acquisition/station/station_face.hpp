@@ -5,6 +5,7 @@
 #include "acquisition/run/run_events.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
+#include "analysis/circular/circular_setup.hpp"
 #include "analysis/run_attachments.hpp"
 #include "analysis/run_record.hpp"
 #include "analysis/run_revisions.hpp"
@@ -29,6 +30,7 @@ struct ChannelView {
     std::optional<double> value;
     std::optional<double> age_s;  ///< of the last sample, good or not
     bool used = false;            ///< laser, or part of the run's environment
+    std::string role;             ///< axis | ballbar | environment; empty: not used
     std::string quality = "none"; ///< good | stale | signal_error | beam_lost | absent | none
 };
 
@@ -44,6 +46,12 @@ struct AxisView {
     bool still = false;
 };
 
+/// The circle that is driven, or the first one before it is begun.
+struct CircleView {
+    PlannedCircle circle;
+    bool begun = false;
+};
+
 struct RunStatus {
     std::string run_id, pass,
         state; ///< state: tying datum | armed | settling | stopped | complete | incomplete
@@ -54,7 +62,9 @@ struct RunStatus {
     std::optional<double> next_nominal_mm;
     std::optional<Direction> next_direction;
     std::optional<int> next_approach;                      ///< 0-based
+    std::optional<CircleView> circle;                      ///< of a circular test alone
     int retakes_asked = 0, retakes_left = 0, excluded = 0; ///< points
+    int skipped = 0;                                       ///< points, and not taken since
     std::optional<double> seconds_left;
     std::optional<double> last_deviation_um;
     std::optional<double> last_synchronisation_um; ///< of the last point; empty: not stated
@@ -97,12 +107,14 @@ struct ArmRequest {
     bool datum_by_cnc = false;                     ///< wait for the CNC's prepare command instead
     std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...
     std::map<std::string, std::string> overrides;  ///< reason by name of a pre-flight check
+    Orderer by;
 };
 
 /// What a person wants taken again, or left out.
 struct RevisionRequest {
     PointSelection selection;
     std::string reason;
+    Orderer by;
 };
 
 /// What will be taken again.
@@ -147,6 +159,7 @@ struct DriftRequest {
     Duration duration = std::chrono::minutes{30}, interval = std::chrono::seconds{1};
     std::optional<double> place_mm; ///< default: the end of the travel far from the interferometer
     std::map<std::string, std::string> statements;
+    Orderer by;
 };
 
 /// Answers of the state-changing calls. Loop-bound.
@@ -162,7 +175,10 @@ public:
     /// next one, marked manual. @errors Fault::bad_request unless the station reads a polygon; the
     /// reason why the point is refused.
     virtual Result<void> type_reading(double seconds_of_arc) = 0;
-    virtual Result<void> abort(std::string reason) = 0;
+    /// Returns when the run, or the drift test, is closed. @errors Fault::busy while a record is
+    /// still on its way to the disk, Fault::not_durable where the file could not be closed: nothing
+    /// more is taken then, and the station closes it as soon as it can.
+    virtual Task<Result<void>> abort(std::string reason, Orderer by) = 0;
     /// What arming would meet now. @errors Fault::bad_request for an override that is none.
     [[nodiscard]] virtual Result<std::vector<PreflightRecord>>
     preflight(const ArmRequest& request) const = 0;

@@ -3,6 +3,7 @@
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/rotary_plan.hpp"
 #include "drivers/registry.hpp"
+#include "drivers/shared_wires.hpp"
 
 #include <algorithm>
 #include <array>
@@ -147,6 +148,8 @@ tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string
     station.config = read_station(*document);
     station.instruments =
         make_instruments(station.config.instruments, station.config.instrument_options);
+    refuse_shared_wires(station.config.instruments, station.config.instrument_options,
+                        station.config.trigger.serial_path);
     load_tapes(station);
     std::vector<Refusal> refusals = refusals_of(*document, station);
     if (!refusals.empty()) return tl::unexpected(std::move(refusals));

@@ -125,20 +125,17 @@ Result<void> Station::type_reading(double seconds_of_arc) {
                         (reads_faces() ? "autocollimator" : "length") +
                         " by itself: 'axiscal trigger' captures the next point");
     if (!recording() || !datum_) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
-    manual_refusal_.reset();
-    run_->refusal.reset();
     if (open_window_ == 0) {
         TriggerEvent event;
         event.at = scheduler_.now();
         event.origin = TriggerOrigin::manual;
-        feed_with_air(event);
+        if (auto refusal = ask(event).refusal) return tl::unexpected<Error>(*std::move(refusal));
     }
-    if (manual_refusal_) return tl::unexpected<Error>(*manual_refusal_);
     const std::uint64_t window = std::exchange(open_window_, 0);
     if (window == 0) return fail(Fault::busy, "the last reading is on its way to the disk");
     const MonotonicTime now = scheduler_.now();
-    feed_with_air(WindowResult{window, typed_capture(seconds_of_arc, now), now});
-    if (run_->refusal) return tl::unexpected<Error>(*run_->refusal);
+    auto answer = ask(WindowResult{window, typed_capture(seconds_of_arc, now), now});
+    if (answer.refusal) return tl::unexpected<Error>(*std::move(answer.refusal));
     return {};
 }
 

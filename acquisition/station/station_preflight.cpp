@@ -50,6 +50,8 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         {}};
     if (config_.axis.angle)
         facts.run_out = stated(request, "run_out", config_.axis.angle->setup.run_out);
+    facts.boot_known = boot_id_.known();
+    facts.may_sleep = sleep_lock_.refusal();
     facts.polygon = reads_polygon();
     const bool asked = request.pass == circular_pass || !roles_.laser;
     facts.circular = asked && roles_.ballbar && config_.circular;
@@ -85,6 +87,8 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     if (const auto reading = history_.newest(); reading && reading->value())
         facts.laser_age = now - reading->at;
     facts.laser_samples = history_.between(now - drift_reach(config_.preflight), now);
+    const auto within = history_.between(now - config_.preflight.drift_window, now);
+    facts.laser_range = metre(history_.summary_of(within).spread_m());
     return facts;
 }
 

@@ -3,6 +3,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
 #include "drivers/spawn.hpp"
 
@@ -19,6 +20,9 @@ Result<void> Station::run_may_be_revised() const {
                     "an earlier order could not be written, and only a new start of axiscald tells "
                     "what the run file holds of it");
     if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
+    if (circular_)
+        return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
+                                         "again");
     if (drift_open()) return fail(Fault::busy, "a drift test is going on; let it end");
     if (run_->closing) return fail(Fault::busy, "the run is being closed; ask again");
     return {};
@@ -54,25 +58,35 @@ Result<void> Station::set_up_stands() const {
     return watch_.check(scheduler_.now(), config_.axis.air.oldest);
 }
 
-/// Makes durable what the machine has just decided; on failure all is as it was before.
-Task<Result<void>> Station::keep_revision(RunMachine before) {
-    const auto retake = std::exchange(new_retake_, std::nullopt);
-    const auto exclusion = std::exchange(new_exclusion_, std::nullopt);
-    const bool reopens = (retake && retake->reopens) || (exclusion && exclusion->reopens);
-    Result<void> kept;
+Task<Result<void>> Station::write_revision(Answer order, OrderRecord ordered) {
+    const bool reopens =
+        (order.retake && order.retake->reopens) || (order.exclusion && order.exclusion->reopens);
     if (reopens) {
-        std::optional<RetakeRecord> order;
-        if (retake) order = retake->retake;
+        std::optional<RetakeRecord> retake;
+        if (order.retake) retake = std::move(order.retake->retake);
         std::vector<ExclusionRecord> left_out;
-        if (exclusion) left_out = exclusion->exclusions;
-        kept = co_await journal_.reopen_closed(run_->path, std::move(order), std::move(left_out));
-    } else {
-        if (retake) journal_.note(retake->retake);
-        if (exclusion) journal_.note(exclusion->exclusions);
-        kept = co_await journal_.flush();
+        if (order.exclusion) left_out = std::move(order.exclusion->exclusions);
+        std::vector<OrderRecord> orders{std::move(ordered)};
+        co_return co_await journal_.reopen_closed(run_->path, std::move(retake),
+                                                  std::move(left_out), std::move(orders));
     }
-    if (!kept) {
-        machine_.emplace(std::move(before));
+    if (order.retake) journal_.note(std::move(order.retake->retake));
+    if (order.exclusion) journal_.note(std::move(order.exclusion->exclusions));
+    journal_.note(std::move(ordered));
+    co_return co_await journal_.flush();
+}
+
+/// Makes durable what the machine has just decided; on failure the order is taken back, and nothing
+/// else: what came in meanwhile, a commit that failed too, stays.
+Task<Result<void>> Station::keep_revision(Answer order, Orderer by) {
+    OrderRecord ordered =
+        order.retake ? order_of("retake", by, std::to_string(order.retake->retake.number))
+                     : order_of("exclude", by);
+    auto kept = co_await write_revision(std::move(order), std::move(ordered));
+    if (kept) {
+        feed(RevisionKept{scheduler_.now()});
+    } else {
+        feed(RevisionLost{scheduler_.now()});
         revision_unknown_ = kept.error().fault != Fault::refused; // then nothing was written
     }
     co_return kept;
@@ -90,6 +104,18 @@ void Station::run_is_open_again() {
     log_environment_anew();
 }
 
+/// A program of points taken again begins with it, whatever was shown meanwhile.
+Task<void> Station::show_last_number() {
+    const RunView view = machine_->view();
+    if (view.last_durable == 0) co_return;
+    auto receipt = view.last_skipped ? co_await journal_.receipt_for_skip(view.last_durable,
+                                                                          view.last_durable_step)
+                                     : co_await journal_.receipt_for(view.last_durable_step);
+    if (!receipt) co_return; // its next commit brings one
+    last_receipt_ = *receipt;
+    publish_done(view.last_durable, view.last_skipped);
+}
+
 Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
     if (auto taken = co_await take_over_closed_run(); !taken)
         co_return tl::unexpected<Error>(taken.error());
@@ -97,23 +123,24 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
     const bool was_closed = run_->closed;
     if (was_closed)
         if (auto stands = set_up_stands(); !stands) co_return tl::unexpected<Error>(stands.error());
-    manual_refusal_.reset();
-    RunMachine before = *machine_;
-    feed_with_air(Retake{request.selection, request.reason, scheduler_.now()});
-    if (manual_refusal_) co_return tl::unexpected<Error>(*manual_refusal_);
-    const std::vector<RetakePoint> points = new_retake_->retake.points;
-    revising_ = true;
-    auto kept = co_await keep_revision(std::move(before));
-    revising_ = false;
+    Answer order = ask(Retake{request.selection, request.reason, scheduler_.now()});
+    if (order.refusal) co_return tl::unexpected<Error>(*order.refusal);
+    const std::vector<RetakePoint> points = order.retake->retake.points;
+    const Held revising{revising_};
+    auto kept = co_await keep_revision(std::move(order), request.by);
     if (!kept) co_return tl::unexpected<Error>(kept.error());
-    if (was_closed) run_is_open_again();
+    if (was_closed) {
+        run_is_open_again();
+        co_await show_last_number();
+    }
     RetakeAnswer answer;
     answer.last_request = machine_->view().last_durable;
     for (const RetakePoint& point : points)
         answer.points.push_back(
             {point.step, run_->header.plan.points[static_cast<std::size_t>(point.planned_step)]});
     note(counted(static_cast<long>(answer.points.size()), "point") + " of run " +
-         run_->header.run_id + " to be taken again: " + request.reason);
+         run_->header.run_id + " to be taken again: " + request.reason + "; ordered by " +
+         in_words(request.by));
     co_return answer;
 }
 
@@ -121,28 +148,26 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
     if (auto taken = co_await take_over_closed_run(); !taken)
         co_return tl::unexpected<Error>(taken.error());
     if (auto may = run_may_be_revised(); !may) co_return tl::unexpected<Error>(may.error());
-    manual_refusal_.reset();
-    RunMachine before = *machine_;
-    feed(Exclude{request.selection, request.reason, scheduler_.now()});
-    if (manual_refusal_) co_return tl::unexpected<Error>(*manual_refusal_);
-    const int count = static_cast<int>(new_exclusion_->exclusions.size());
-    revising_ = true;
-    auto kept = co_await keep_revision(std::move(before));
-    if (kept && run_->closed) {
-        mark_another_boot(run_->header.boot_id);
+    Answer order = ask(Exclude{request.selection, request.reason, scheduler_.now()});
+    if (order.refusal) co_return tl::unexpected<Error>(*order.refusal);
+    const int count = static_cast<int>(order.exclusion->exclusions.size());
+    const bool was_closed = run_->closed;
+    const Held revising{revising_};
+    auto kept = co_await keep_revision(std::move(order), request.by);
+    if (kept && was_closed) {
+        if (run_->taken_over) mark_another_boot(run_->header.boot_id);
         kept = co_await close_again();
     }
-    revising_ = false;
     if (!kept) co_return tl::unexpected<Error>(kept.error());
     note(counted(count, "reading") + " of run " + run_->header.run_id +
-         " left out: " + request.reason);
+         " left out: " + request.reason + "; ordered by " + in_words(request.by));
     co_return count;
 }
 
 /// The run stays closed to the CNC; only its file was opened for a moment.
 Task<Result<void>> Station::close_again() {
     run_->shut = false;
-    auto closed = co_await journal_.close(true, run_->outcome->reason);
+    auto closed = co_await close_file(true, run_->outcome->reason);
     if (!closed) co_return closed; // the disk is waited for
     run_->shut = true;
     run_->certificate.clear();

@@ -19,20 +19,39 @@ constexpr Duration after_the_start = std::chrono::seconds{1};
 
 void Station::feed(RunInput input) {
     if (!machine_) return;
-    inputs_.push_back(std::move(input));
+    inputs_.push_back({std::move(input), nullptr});
+    take_up_inputs();
+}
+
+void Station::take_up_inputs() {
     if (std::exchange(handling_, true)) return;
     while (!inputs_.empty()) {
-        const RunInput next = std::move(inputs_.front());
+        const Input next = std::move(inputs_.front());
         inputs_.pop_front();
-        handle(next);
+        answering_ = next.answer;
+        handle(next.input);
+        answering_.reset();
     }
     handling_ = false;
 }
 
-void Station::feed_with_air(RunInput input) {
-    if (!machine_) return;
+/// From a request of the console, never from within an action.
+Station::Answer Station::ask(RunInput input) {
+    const auto answer = std::make_shared<Answer>();
+    refresh_air();
+    inputs_.push_back({std::move(input), answer});
+    take_up_inputs();
+    return *answer;
+}
+
+void Station::refresh_air() {
     if (const auto scale = live_scale_now()) live_scale_ = *scale; // also while nothing is captured
     feed(EnvironmentNow{scale_within_limits()});
+}
+
+void Station::feed_with_air(RunInput input) {
+    if (!machine_) return;
+    refresh_air();
     feed(std::move(input));
 }
 
@@ -67,9 +86,10 @@ void Station::perform(CloseWindow action) {
 /// From which side the axis came, an autocollimator cannot see.
 Task<void> Station::watch_window(OpenWindow window) {
     const std::optional<ApproachClaim> claim = reads_faces() ? std::nullopt : window.approach;
+    StillWindowSearch still{window.from, config_.capture};
     while (open_window_ == window.window && !stopping_) {
         const MonotonicTime now = scheduler_.now();
-        const WindowSearch search = find_still_window(history_, window.from, now, config_.capture);
+        const WindowSearch search = still.look(history_, now);
         Result<Capture> found = fail(Fault::none, "");
         if (search.failure)
             found = tl::unexpected(*search.failure);
@@ -120,20 +140,48 @@ void Station::settle(Result<JournalReceipt> receipt) {
 }
 
 void Station::perform(Acknowledge action) {
-    if (last_receipt_ && last_receipt_->sequence() == action.sequence)
+    publish_done(action.sequence, action.skipped);
+    if (action.skipped) warn_of_skip(action);
+}
+
+void Station::publish_done(std::uint16_t sequence, bool skipped) {
+    if (!last_receipt_ || last_receipt_->sequence() != sequence) return;
+    if (skipped)
+        port_->acknowledge_skip(*last_receipt_);
+    else
         port_->acknowledge(*last_receipt_);
 }
 
+/// At once: the certificate needs this point, and nobody looks at a run that seems to go well.
+void Station::warn_of_skip(const Acknowledge& action) {
+    const PlannedPoint point = machine_->planned_at(action.step);
+    const bool up = point.direction == Direction::positive;
+    note("Warning: request " + std::to_string(action.sequence) +
+         " of the CNC skipped a point: target " + std::to_string(point.target_index + 1) + " " +
+         (up ? "upwards" : "downwards") + ", cycle " + std::to_string(point.approach + 1) +
+         ". It stays open: 'axiscal retake --target " + std::to_string(point.target_index + 1) +
+         " --direction " + (up ? "up" : "down") + " --cycle " + std::to_string(point.approach + 1) +
+         " --reason ...' takes it, without it the run is not complete.");
+}
+
 void Station::perform(RepublishDone action) {
-    perform(Acknowledge{action.sequence, -1});
+    publish_done(action.sequence, action.skipped);
 }
 
 void Station::perform(const Refuse& action) {
-    const Error error{action.fault, action.sentence, {}, {}};
+    Error error{action.fault, action.sentence, {}, {}};
+    if (answering_) answering_->refusal = error;
+    if (action.origin == TriggerOrigin::manual) return refused_manually(action, std::move(error));
     run_->refusal = error;
-    if (action.origin != TriggerOrigin::manual) return refuse_on_port(action.sequence, error);
-    manual_refusal_ = error;
+    refuse_on_port(action.sequence, error);
+}
+
+/// Where somebody waits for the answer, the refusal is that person's alone. Of a capture, or of the
+/// arming, that ends later the run tells.
+void Station::refused_manually(const Refuse& action, Error error) {
+    if (answering_) return;
     note("Refused: " + describe(error));
+    (action.sequence == 0 ? run_->not_tied : run_->refusal) = std::move(error);
 }
 
 void Station::perform(RecordEvent action) {
@@ -143,13 +191,13 @@ void Station::perform(RecordEvent action) {
 
 void Station::perform(RecordRetake action) {
     action.retake.utc_ns = scheduler_.clock_tie().utc_ns;
-    new_retake_ = std::move(action);
+    if (answering_) answering_->retake = std::move(action);
 }
 
 void Station::perform(RecordExclusion action) {
     for (ExclusionRecord& exclusion : action.exclusions)
         exclusion.utc_ns = scheduler_.clock_tie().utc_ns;
-    new_exclusion_ = std::move(action);
+    if (answering_) answering_->exclusion = std::move(action);
 }
 
 void Station::perform(SetState action) {
@@ -159,12 +207,16 @@ void Station::perform(SetState action) {
 
 void Station::perform(Close action) {
     run_->closing = true;
+    run_->broken_off = !action.complete && !action.answers_cnc;
     open_window_ = 0;
+    if (!action.complete)
+        port_->publish_no_run(action.answers_cnc ? RunEnd::once_answered : RunEnd::at_once);
+    publish_to_port();
     spawn(scheduler_, close_run(std::move(action)));
 }
 
 Task<void> Station::close_run(Close action) {
-    const Result<void> closed = co_await journal_.close(action.complete, action.reason);
+    const Result<void> closed = co_await close_file(action.complete, action.reason);
     if (!closed) note("The run file could not be closed: " + describe(closed.error()));
     note("Run " + run_->header.run_id +
          (action.complete ? " is complete." : " is closed as incomplete: " + action.reason));
@@ -172,6 +224,7 @@ Task<void> Station::close_run(Close action) {
     run_->closed = true;
     run_->closing = false;
     run_->shut = closed.has_value();
+    if (!closed) run_->not_shut = closed.error();
     set_up_lost_.clear();
     interruption_.clear();
     last_reading_.reset();
@@ -191,6 +244,7 @@ bool Station::lacks_certificate(const RunSummary& run) const {
 /// The closed ones are looked into one by one and late: beside the loop, and behind whoever waited
 /// for the station. What this daemon measures, or takes over meanwhile, it certifies by itself.
 Task<void> Station::certify_left_over(StoredRuns stored) {
+    co_await wait_for_readers();
     for (const RunSummary& run : stored.looked_into)
         if (lacks_certificate(run)) co_await certify(run.run_id, run.path);
     co_await scheduler_.sleep_for(after_the_start);

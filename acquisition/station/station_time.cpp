@@ -1,6 +1,7 @@
 // What only time decides, and when nothing does: an idle station sleeps until somebody rings.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/capture/wording.hpp"
 #include "drivers/spawn.hpp"
 
 #include <utility>
@@ -45,8 +46,28 @@ std::optional<MonotonicTime> Station::outbox_due() const {
     return judged_outbox_ + (empty ? look_into_empty_outbox_every : judge_outbox_every);
 }
 
+/// While a person may still want the run: until its file is shut.
+void Station::keep_awake() {
+    sleep_lock_.want(run_open() || (run_ && !run_->shut) || drift_open());
+}
+
+/// The lock may be refused, and root may suspend in spite of it.
+void Station::notice_sleep() {
+    constexpr Duration noticeable = std::chrono::milliseconds{500};
+    const Duration slept = scheduler_.asleep() - slept_;
+    if (slept < noticeable) return;
+    slept_ += slept;
+    std::string told =
+        "The computer was suspended for " + in_seconds(slept) + "; nothing was recorded meanwhile.";
+    if (recording() || drift_open())
+        perform(RecordEvent{{EventKind::note, scheduler_.now(), 0, told, Fault::none, 0}});
+    note(std::move(told));
+}
+
 void Station::look_at_the_time() {
     const MonotonicTime now = scheduler_.now();
+    notice_sleep();
+    keep_awake();
     if (now - judged_ >= judge_every) {
         supervisor_.judge();
         judge_environment();

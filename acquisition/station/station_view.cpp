@@ -2,9 +2,11 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/stillness.hpp"
+#include "acquisition/capture/wording.hpp"
 #include "acquisition/run/live_position.hpp"
 #include "acquisition/station/patience.hpp"
 #include "analysis/rotary/rotary_position.hpp"
+#include "config/version.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +33,11 @@ void Station::publish_to_port() {
                 run_->header.plan.targets[static_cast<std::size_t>(view.next->target_index)].in(mm);
         }
         status.run_complete = view.complete;
-        status.feed_hold = view.stopped;
-        status.may_move = port_state_ != PortState::settling && !view.stopped;
+        const bool stopped = view.stopped && !view.closed;
+        status.feed_hold = stopped;
+        status.may_move = port_state_ != PortState::settling && !stopped;
     }
+    status.run_broken_off = run_ && run_->broken_off;
     if (circular_ && run_->closed) status.run_complete = run_->outcome && run_->outcome->complete;
     port_->publish(status);
 }
@@ -47,8 +51,7 @@ AxisView Station::axis_view() const {
     const auto newest = history_.newest();
     if (!newest || now - newest->at > laser_limit) return axis;
     const MonotonicTime begin = newest->at - config_.capture.window;
-    const StillnessVerdict verdict =
-        judge_window(history_.between(begin, newest->at), begin, newest->at, config_.capture);
+    const StillnessVerdict verdict = judge_window(history_, begin, newest->at, config_.capture);
     axis.still = verdict.still;
     if (verdict.statistics.n > 1) {
         axis.spread_um = verdict.statistics.spread.in(um);
@@ -128,6 +131,11 @@ RunStatus Station::run_status() const {
         tell(run_->no_certificate->fault, describe(*run_->no_certificate));
     else if (run_->refusal && !run_->closed)
         tell(run_->refusal->fault, describe(*run_->refusal));
+    else if (view.without_point > 0)
+        tell(Fault::none, "Warning: " + counted(view.without_point, "point") +
+                              " skipped by the CNC, and not taken since: 'axiscal retake' takes "
+                              "what is missing, 'axiscal abort' ends the run without.");
+    run.skipped = view.without_point;
     return run;
 }
 
@@ -149,9 +157,13 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     view.kind = channel.kind;
     view.medium = channel.medium;
     const std::vector<int> environment = roles_.environment();
-    view.used = channel.id == roles_.laser || channel.id == roles_.ballbar ||
-                channel.id == roles_.autocollimator ||
-                std::ranges::find(environment, channel.id) != environment.end();
+    if (channel.id == roles_.laser || channel.id == roles_.autocollimator)
+        view.role = "axis";
+    else if (channel.id == roles_.ballbar)
+        view.role = "ballbar";
+    else if (std::ranges::find(environment, channel.id) != environment.end())
+        view.role = "environment";
+    view.used = !view.role.empty();
     const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
     if (!sample) return view;
     const Duration age = scheduler_.now() - sample->at;
@@ -167,7 +179,7 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
 StationStatus Station::status() const {
     StationStatus status;
     status.station = config_.station;
-    status.version = AXISCAL_VERSION;
+    status.version = software_version();
     status.utc = iso8601_utc(scheduler_.clock_tie().utc_ns);
     status.axis = axis_view();
     for (const StationChannel& channel : supervisor_.channels()) {

@@ -1,12 +1,14 @@
 #include "acquisition/station/supervisor.hpp"
 
 #include "analysis/channel_correction.hpp"
+#include "analysis/quantity/valid_text.hpp"
 #include "drivers/link/arrival.hpp"
 #include "drivers/link/can_link.hpp"
 #include "drivers/link/usb_link.hpp"
 #include "drivers/spawn.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <set>
 #include <utility>
 
@@ -161,19 +163,28 @@ struct Supervisor::Seat final : SampleSink {
                                   "the correction at its end is used");
         return channel.correction + correction_at(points, value);
     }
-    void identify(const Identity& identity) override { view.identity = identity; }
+    /// Here and in note() and end_with() an instrument's own words enter: bytes of a wire.
+    void identify(const Identity& identity) override {
+        view.identity = {valid_text(identity.maker), valid_text(identity.model),
+                         valid_text(identity.serial), valid_text(identity.firmware)};
+    }
     /// What ended a connection that had given values is told however soon it comes after another
     /// note. What only one try of the outage met, an adapter that has not let go yet, is none of
     /// its reasons; and that nothing answers is one, in whatever words the next try says it.
     void end_with(const Error& error) {
-        std::string sentence = describe(error);
+        std::string sentence = valid_text(describe(error));
         const bool stays = std::exchange(ended_with, sentence) == sentence;
         const bool still_silent =
             error.fault == Fault::link_timeout && told_fault == Fault::link_timeout;
         const bool begins = !std::exchange(outage_told, true);
         if (begins) told_at.reset();
-        if (begins || (stays && !still_silent)) return note(error.fault, std::move(sentence));
+        if (begins || (stays && !still_silent)) {
+            note(error.fault, std::move(sentence));
+            kept_is_outage = true;
+            return;
+        }
         keep(error.fault, std::move(sentence));
+        kept_is_outage = true;
         ++view.repeats;
     }
     void keep(Fault fault, std::string sentence) {
@@ -187,10 +198,12 @@ struct Supervisor::Seat final : SampleSink {
         note(Fault::link_closed, "the tape is at its end");
     }
     void note(Fault fault, std::string sentence) override {
+        sentence = valid_text(sentence);
         const MonotonicTime now = supervisor.scheduler_.now();
         const bool again = fault == told_fault && sentence == told_note;
         const bool too_soon = told_at && now - *told_at < between_notes;
         keep(fault, std::move(sentence));
+        kept_is_outage = false;
         if (again || too_soon) return void(++view.repeats);
         view.repeats = 0;
         told_at = now;
@@ -206,8 +219,9 @@ struct Supervisor::Seat final : SampleSink {
     int first_channel = 0;
     InstrumentView view;
     std::optional<MonotonicTime> last_sample, last_good; ///< on this connection
-    bool outage_told = false; ///< what ended the last connection that gave values
-    std::string ended_with;   ///< the last try
+    bool outage_told = false;    ///< what ended the last connection that gave values
+    bool kept_is_outage = false; ///< the view's note tells why a connection ended
+    std::string ended_with;      ///< the last try
     std::optional<MonotonicTime> told_at;
     Fault told_fault = Fault::none; ///< what the listener heard last
     std::string told_note;
@@ -244,13 +258,23 @@ void Supervisor::start() {
         spawn(scheduler_, keep_running(*seat));
 }
 
+/// What a driver throws is a bug of it and ends its connection: neither the others nor the loop.
+Task<Result<void>> Supervisor::run_once(Seat& seat) {
+    const InstrumentContext context{&scheduler_, &seat.links, &seat};
+    try {
+        co_return co_await seat.instrument->run(context);
+    } catch (const std::exception& bug) {
+        co_return fail(Fault::internal, "The driver ended with: " + std::string{bug.what()} +
+                                            ". Please report it with a tape (axiscal record).");
+    }
+}
+
 Task<void> Supervisor::keep_running(Seat& seat) {
     Duration pause{};
     for (;;) {
         const MonotonicTime begun = scheduler_.now();
-        const InstrumentContext context{&scheduler_, &seat.links, &seat};
         seat.links.forget();
-        const Result<void> ended = co_await seat.instrument->run(context);
+        const Result<void> ended = co_await run_once(seat);
         ++seat.view.restarts;
         seat.last_sample.reset();
         seat.last_good.reset();
@@ -286,6 +310,7 @@ void Supervisor::set_state(Seat& seat, InstrumentState state) {
         seat.told_note.clear();
         seat.told_at.reset();
         seat.outage_told = false;
+        if (std::exchange(seat.kept_is_outage, false)) seat.keep(Fault::none, {});
     }
     seat.view.state = state;
     seat.view.since = scheduler_.now();

@@ -93,6 +93,7 @@ public:
 
 private:
     struct Seat;
+    Task<Result<void>> run_once(Seat& seat);
     Task<void> keep_running(Seat& seat);
     /// @returns it was plugged in meanwhile
     Task<bool> pause_after(const Seat& seat, Duration pause);

@@ -50,11 +50,23 @@ std::string words_for_scale_mismatch(double mismatch, const WordsContext& contex
            ", alike in both senses.";
 }
 
+namespace {
+
+/// In the unit that leaves a number people read: "21.84 ns", never "2.184e-05 ms".
+std::string time_words(double seconds) {
+    constexpr double a_tenth_of_ms = 1e-4, a_tenth_of_us = 1e-7;
+    const double size = std::fabs(seconds);
+    if (size >= a_tenth_of_ms || size == 0) return digits(size * 1e3) + " ms";
+    return size >= a_tenth_of_us ? digits(size * 1e6) + " us" : digits(size * 1e9) + " ns";
+}
+
+} // namespace
+
 std::string words_for_servo_lag(double difference_s, const WordsContext& context) {
     const int slower = difference_s > 0 ? 0 : 1;
     const bool first = slower == 0;
     return moving(slower, context) + " lags " + other(slower, context) + " by " +
-           digits(std::fabs(difference_s) * 1e3) + " ms: an ellipse with its long axis at " +
+           time_words(difference_s) + ": an ellipse with its long axis at " +
            (first ? "45/225" : "135/315") + " deg in counter-clockwise and at " +
            (first ? "135/315" : "45/225") + " deg in clockwise sense, growing with the feed.";
 }

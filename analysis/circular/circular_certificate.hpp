@@ -59,6 +59,7 @@ struct CircularCertificate {
     std::string file_sha256;              ///< of the closed run file, or of the case
     std::string result_digest;            ///< of canonical_bytes(parameters); filled by the caller
     std::vector<std::string> remarks;
+    std::string replaces; ///< the certificate that this one replaces; empty: it is the first
     /// U of one figure, where every term that counts in it is stated: with one left out it would be
     /// too small. Null otherwise.
     [[nodiscard]] const CircularFigureUncertainty* uncertainty_of(std::string_view key) const;

@@ -93,6 +93,7 @@ Result<CircularMeasurement> measurement_of(CircularRun run) {
     std::vector<RetakeRecord> no_retakes; // circles are driven anew instead
     measured.clock_remark =
         remark_on_clock(tell_times_by_one_clock(run.opened, run.events, no_retakes, run.closed));
+    tell_orders_by_one_clock(run.opened, run.events, run.orders);
     measured.started_utc = iso8601_utc(run.opened.utc_ns);
     measured.finished_utc = iso8601_utc(run.closed.utc_ns);
     measured.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)

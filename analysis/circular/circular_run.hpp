@@ -65,6 +65,7 @@ struct CircularRun {
     std::vector<CircleCapture> circles;  ///< in the order driven, warm-up included
     std::vector<EventRecord> events;
     std::vector<PreflightRecord> preflight; ///< what was checked before it
+    std::vector<OrderRecord> orders;        ///< who armed it, overrode a check, aborted it
 };
 
 /// One trace of each sense: readings of all repeats averaged at the angles of the first, linearly

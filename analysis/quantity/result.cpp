@@ -108,9 +108,16 @@ Fault fault_from_name(std::string_view name) {
 }
 
 std::string describe(const Error& error) {
-    std::string text{fault_sentence(error.fault)};
-    if (!error.field.empty()) text += " [" + error.field + "]";
-    if (!error.detail.empty()) text += " " + error.detail;
+    // A detail of these two says all: one would be told that all is well, or that some operation
+    // failed.
+    const bool says_little = error.fault == Fault::none || error.fault == Fault::io;
+    std::string text;
+    if (!says_little || error.detail.empty()) text = fault_sentence(error.fault);
+    const auto add = [&text](const std::string& words) {
+        text += (text.empty() ? "" : " ") + words;
+    };
+    if (!error.field.empty()) add("[" + error.field + "]");
+    if (!error.detail.empty()) add(error.detail);
     if (error.cause) text += " (" + error.cause.message() + ")";
     return text;
 }

@@ -77,7 +77,7 @@ std::string_view fault_sentence(Fault fault);
 std::uint16_t cnc_result_code(Fault fault);
 /// Inverse of fault_name; Fault::internal for an unknown name.
 Fault fault_from_name(std::string_view name);
-/// "sentence (detail: cause)" on one line.
+/// "sentence [field] detail (cause)"; of Fault::io and none the sentence only where no detail is.
 std::string describe(const Error& error);
 
 } // namespace axiscal

@@ -9,7 +9,7 @@ namespace axiscal {
 
 using Duration = std::chrono::nanoseconds;
 
-/// Tag clock of CLOCK_MONOTONIC. It has no now(): time comes from a Scheduler, real or virtual.
+/// Tag clock of CLOCK_BOOTTIME: monotonic, and it counts the time of a suspend. It has no now(): time comes from a Scheduler, real or virtual.
 struct MonotonicClock {
     using duration = Duration;
     using rep = duration::rep;

@@ -17,6 +17,16 @@ std::size_t readings_of(const RunAt20C& run) {
     return directions * run.targets().size() * run.forward().front().size();
 }
 
+/// The kernel draws the same n of every target and direction.
+Result<void> check_equal_rows(const RunAt20C& run) {
+    const std::size_t n = run.forward().front().size();
+    for (const auto* side : {&run.forward(), &run.backward()})
+        if (std::ranges::any_of(*side, [n](const auto& row) { return row.size() != n; }))
+            return refuse(Fault::bad_case, "readings",
+                          "differ in number between targets: a simulation draws the same n");
+    return {};
+}
+
 void add_rows(SessionModel& model,
               const std::vector<std::vector<double>>& rows,
               bool forward,
@@ -209,6 +219,7 @@ Result<MonteCarloResult> simulate_sessions(const RunAt20C& run,
                                            const PositioningResult& result,
                                            const SessionErrors& errors,
                                            const MonteCarloRequest& request) {
+    AXISCAL_CHECK(check_equal_rows(run));
     constexpr int fewest = 1000, most = 10'000'000;
     constexpr double most_readings = 2e9;
     if (request.trials < fewest || request.trials > most)

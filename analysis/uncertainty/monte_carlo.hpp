@@ -58,7 +58,8 @@ struct MonteCarloResult {
 /// evaluate_positioning(), which made `result` from `run`. Every reading has its own draw of the
 /// environment, so E counts it at two targets: the budget's EveModel::difference. Sampling error of
 /// u about u / sqrt(2 trials); the quantile function adds 1e-9.
-/// @errors Fault::bad_case "trials" outside the bounds.
+/// @errors Fault::bad_case "trials" outside the bounds; "readings" that differ in number between
+/// targets or directions.
 Result<MonteCarloResult> simulate_sessions(const RunAt20C& run,
                                            const PositioningResult& result,
                                            const SessionErrors& errors,

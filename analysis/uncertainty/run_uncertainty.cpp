@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -99,13 +100,21 @@ void add_scale(UncertaintyStatement& s, const RunRecord& run, std::vector<std::s
             2 * std::sqrt(3.0) * scale.standard_uncertainty->in(um_per_m_kelvin);
 }
 
-UncertaintyStatement statement_of(const RunRecord& run, std::vector<std::string>& remarks) {
+/// Between the outermost targets in use.
+Length span_of(const RunPlan& plan, const std::vector<int>& targets) {
+    const auto place = [&](int i) { return plan.targets[static_cast<std::size_t>(i)]; };
+    const auto [low, high] = std::ranges::minmax(targets, {}, place);
+    return place(high) - place(low);
+}
+
+UncertaintyStatement statement_of(const RunRecord& run,
+                                  const std::vector<int>& targets,
+                                  std::vector<std::string>& remarks) {
     const UncertaintySetup setup = run.uncertainty.value_or(UncertaintySetup{});
     if (run.plan.axis_kind == AxisKind::rotary) return statement_of_angle(setup);
     UncertaintyStatement s;
     s.axis_kind = run.plan.axis_kind;
-    const auto [low, high] = std::ranges::minmax(run.plan.targets);
-    s.length_m = (high - low).in(metre);
+    s.length_m = span_of(run.plan, targets).in(metre);
     s.device_U = over_length(setup.device_U, *s.length_m);
     if (s.device_U) s.device_k = setup.device_k;
     s.device_width = over_length(setup.device_width, *s.length_m);
@@ -172,20 +181,23 @@ std::uint64_t simulation_seed_of(const RunRecord& run) {
 } // namespace
 
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k) {
-    return uncertainty_of(run, edition_k, run.plan.approaches);
+    ReadingsInUse all{run.plan.approaches, std::vector<int>(run.plan.targets.size())};
+    std::iota(all.targets.begin(), all.targets.end(), 0);
+    return uncertainty_of(run, edition_k, all);
 }
 
-RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, int approaches) {
+RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, const ReadingsInUse& used) {
     RunUncertainty out;
     std::vector<std::string> remarks;
-    if (!run.plan.targets.empty()) out.statement = statement_of(run, remarks);
+    if (!used.targets.empty()) out.statement = statement_of(run, used.targets, remarks);
     out.missing = missing_terms_of(out.statement, run.scale.has_value());
     if (!run.uncertainty) return out;
-    if (approaches < run.plan.approaches)
-        remarks.push_back("Uncertainty: the budget is made with n = " + std::to_string(approaches) +
-                          ", the fewest readings that remain of a target and direction.");
+    if (used.approaches < run.plan.approaches)
+        remarks.push_back(
+            "Uncertainty: the budget is made with n = " + std::to_string(used.approaches) +
+            ", the fewest readings that remain of a target and direction.");
     out.remarks = std::move(remarks);
-    auto budget = make_budget(out.statement, approaches, static_cast<int>(run.plan.targets.size()),
+    auto budget = make_budget(out.statement, used.approaches, static_cast<int>(used.targets.size()),
                               edition_k);
     if (!budget) {
         out.missing.push_back(

@@ -37,9 +37,15 @@ struct RunUncertainty {
 /// standard uncertainty, if that one is. A statement that no budget can be made of (a beam off by a
 /// tenth of L) takes no measured run its certificate: it is named in `missing`.
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k);
-/// The same where readings were excluded: n is `approaches`, the fewest that remain of a target and
-/// direction. Every factor of the budget falls with n, so that no U is too small. A remark says so.
-RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, int approaches);
+/// The readings that the figures are made of.
+struct ReadingsInUse {
+    int approaches = 0;       ///< the fewest of a target and direction
+    std::vector<int> targets; ///< 0-based, of the plan
+};
+/// The same where readings are missing: L is the span of these targets, m their number, n the
+/// fewest readings. Every factor of the budget falls with n, so that no U is too small. A remark
+/// says so.
+RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, const ReadingsInUse& used);
 
 /// Fills `known.simulation`. The seed is the plan's or, of a plan without one, made of the run's id
 /// (FNV-1a), its low 53 bits: the same run gives the same bits anywhere and for ever, and a case

@@ -82,6 +82,11 @@ void CoilAndIndexMap::arm() {
     acknowledge_ = false;
 }
 
+void CoilAndIndexMap::end_run(RunEnd /*end*/) {
+    done_ = no_run_sequence;
+    acknowledge_ = false;
+}
+
 void CoilAndIndexMap::finish(std::uint16_t sequence) {
     done_ = sequence;
     if (coil_.value_or(false) && !undecided_ && delivered_ == sequence) acknowledge_ = true;

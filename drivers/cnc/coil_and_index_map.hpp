@@ -23,6 +23,7 @@ public:
     /// The end of an undecided edge's grace.
     [[nodiscard]] std::optional<MonotonicTime> due() const override;
     void arm() override;
+    void end_run(RunEnd end) override;
     /// Nothing to show: the acknowledge stays low and the CNC holds until its own time-out.
     void refuse(std::uint16_t sequence, Fault fault) override;
     void show(const PortStatus& status) override;
@@ -42,7 +43,7 @@ private:
     void deliver(MapNews& news);
 
     Duration index_grace_;
-    std::uint16_t index_ = 0, done_ = never_armed;
+    std::uint16_t index_ = 0, done_ = no_run_sequence;
     std::optional<std::uint16_t> delivered_; ///< index of the last edge reported
     std::optional<Edge> undecided_;
     std::optional<bool> coil_; ///< empty: not seen since the start

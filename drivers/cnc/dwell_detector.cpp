@@ -1,6 +1,5 @@
 #include "drivers/cnc/dwell_detector.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace axiscal {
@@ -21,10 +20,10 @@ bool DwellDetector::position(MonotonicTime at, double position_mm) {
     switch (state_) {
     case State::off: return false;
     case State::armed:
-        if (within(*target_mm_, position_mm, 0)) enter({at, position_mm});
+        if (within(*target_mm_, position_mm, 0)) enter({at, position_mm, 0});
         return false;
     case State::in_window:
-        keep({at, position_mm});
+        keep({at, position_mm, 0});
         if (!within(*target_mm_, position_mm, 0)) {
             arm();
             return false;
@@ -44,10 +43,12 @@ bool DwellDetector::position(MonotonicTime at, double position_mm) {
     return false;
 }
 
-void DwellDetector::enter(const Reading& reading) {
+void DwellDetector::enter(Reading reading) {
     state_ = State::in_window;
     entered_at_ = reading.at;
-    recent_.assign(1, reading);
+    reading.number = 0;
+    for (auto* readings : {&recent_, &lows_, &highs_})
+        readings->assign(1, reading);
 }
 
 void DwellDetector::finished() {
@@ -70,17 +71,29 @@ void DwellDetector::reset() {
     arm();
 }
 
-void DwellDetector::keep(const Reading& reading) {
+void DwellDetector::keep(Reading reading) {
     if (reading.at - recent_.back().at > limits_.stability_period / 4) return enter(reading);
-    recent_.push_back(reading);
-    while (recent_.size() > 1 && recent_[1].at <= reading.at - limits_.stability_period)
+    reading.number = recent_.back().number + 1;
+    while (!lows_.empty() && lows_.back().position_mm >= reading.position_mm)
+        lows_.pop_back();
+    while (!highs_.empty() && highs_.back().position_mm <= reading.position_mm)
+        highs_.pop_back();
+    for (auto* readings : {&recent_, &lows_, &highs_})
+        readings->push_back(reading);
+    forget_before(reading.at - limits_.stability_period);
+}
+
+void DwellDetector::forget_before(MonotonicTime begin) {
+    while (recent_.size() > 1 && recent_[1].at <= begin)
         recent_.pop_front();
+    for (auto* readings : {&lows_, &highs_})
+        while (readings->front().number < recent_.front().number)
+            readings->pop_front();
 }
 
 bool DwellDetector::still(MonotonicTime now) const {
     if (recent_.front().at > now - limits_.stability_period) return false;
-    const auto [low, high] = std::ranges::minmax_element(recent_, {}, &Reading::position_mm);
-    return high->position_mm - low->position_mm <= limits_.stability_range_mm;
+    return highs_.front().position_mm - lows_.front().position_mm <= limits_.stability_range_mm;
 }
 
 bool DwellDetector::within(double target_mm, double position_mm, double margin_mm) const {

@@ -46,10 +46,12 @@ private:
     struct Reading {
         MonotonicTime at;
         double position_mm = 0;
+        std::uint64_t number = 0; ///< since it entered the window
     };
-    void enter(const Reading& reading);
+    void enter(Reading reading);
     void arm();
-    void keep(const Reading& reading);
+    void keep(Reading reading);
+    void forget_before(MonotonicTime begin);
     [[nodiscard]] bool still(MonotonicTime now) const;
     [[nodiscard]] bool within(double target_mm, double position_mm, double margin_mm) const;
 
@@ -60,6 +62,9 @@ private:
     bool gone_ = false;         ///< the axis left while the request was open
     MonotonicTime entered_at_;
     std::deque<Reading> recent_; ///< back to one reading at or before the period's begin
+    /// Of recent_ what is lower (higher) than all after it: the first is the lowest (highest) of
+    /// all, and a reading costs the same however many there are.
+    std::deque<Reading> lows_, highs_;
 };
 
 } // namespace axiscal

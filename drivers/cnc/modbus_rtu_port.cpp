@@ -156,12 +156,15 @@ private:
         const auto pdu = frame.subspan(address_bytes, frame.size() - address_bytes - crc_bytes);
         const auto request = parse_modbus_request(pdu);
         auto verdict = request ? space_.check(*request) : request.error();
-        if (verdict == ModbusException::none && !request->values.empty()) post_write(*request, at);
-        auto image = mailbox_->image_after(posted_writes_, loop_patience);
+        if (verdict == ModbusException::none && !request->values.empty())
+            post_write(*request, at);
+        else
+            post_look();
+        auto image = mailbox_->image_after(posted_, loop_patience);
         if (mailbox_->stopped()) return;
         if (!image) verdict = ModbusException::busy;
-        RegisterImage content = image.value_or(RegisterImage{});
-        content.stamp(monotonic_now());
+        // Stamped by the loop alone: where it stands still, so does DAEMON_HEARTBEAT.
+        const RegisterImage content = image.value_or(RegisterImage{});
         answer_request(context_.get(), frame, verdict, content);
         post([verdict](PortCounters& counters) {
             ++counters.requests;
@@ -169,11 +172,18 @@ private:
         });
     }
 
+    void post_look() {
+        ++posted_;
+        boost::asio::post(loop_, [desk = desk_, mailbox = mailbox_] {
+            desk->look();
+            mailbox->count();
+        });
+    }
     void post_write(const ModbusRequest& request, MonotonicTime at) {
-        ++posted_writes_;
+        ++posted_;
         boost::asio::post(loop_, [desk = desk_, mailbox = mailbox_, request, at] {
             desk->write(request, at); // on_change puts the new image into the mailbox
-            mailbox->count_write();
+            mailbox->count();
         });
     }
     template <class Count> void post(Count count) {
@@ -193,7 +203,7 @@ private:
     std::shared_ptr<RtuMailbox> mailbox_;
     ModbusContext context_;
     std::array<std::uint8_t, kernel_buffer> came_{};
-    std::uint64_t posted_writes_ = 0;
+    std::uint64_t posted_ = 0; ///< requests, to be answered by the loop
 };
 
 } // namespace

@@ -114,8 +114,7 @@ bool ModbusTcpPort::is_stranger(const tcp::socket& socket) {
     boost::system::error_code gone;
     const auto remote = socket.remote_endpoint(gone);
     const std::string from = gone ? "" : remote.address().to_string();
-    const auto names_it = [&from](const AddressRange& range) { return range.covers(from); };
-    if (std::ranges::any_of(config_.allowed_clients, names_it)) return false;
+    if (any_covers(config_.allowed_clients, from)) return false;
     ++desk_->counters.strangers;
     if (!from.empty() && std::exchange(last_stranger_, from) != from)
         desk_->note(Fault::refused, describe() + " turned " + from +

@@ -23,10 +23,6 @@ struct AddressSpace {
     [[nodiscard]] ModbusException check(const ModbusRequest& request) const;
 };
 
-/// What `done` shows before the first run is armed: not 0, for a program waits for 0 to know that
-/// the station is armed.
-inline constexpr std::uint16_t never_armed = 65535;
-
 inline constexpr int largest_table = 33;
 
 /// The readable content at one moment. A plain value: it may be handed to another thread.
@@ -60,12 +56,16 @@ public:
     /// As things stand, tick() has something to decide from then on; empty: nothing ever.
     [[nodiscard]] virtual std::optional<MonotonicTime> due() const { return std::nullopt; }
     virtual void arm() = 0;
+    /// No run takes requests any more.
+    virtual void end_run(RunEnd end) = 0;
     virtual void refuse(std::uint16_t sequence, Fault fault) = 0;
     virtual void show(const PortStatus& status) = 0;
 
 protected:
     friend class TriggerDesk; // the one way to `finish` leads through a JournalReceipt
     virtual void finish(std::uint16_t sequence) = 0;
+    /// Finished without a point, where the shape can say so.
+    virtual void finish_skip(std::uint16_t sequence) { finish(sequence); }
 };
 
 /// sequence_block, single_register or coil_and_index; null for dwell, which has no registers.

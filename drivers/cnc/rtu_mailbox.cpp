@@ -17,16 +17,16 @@ void RtuMailbox::put(const RegisterImage& image) {
     image_ = image;
 }
 
-void RtuMailbox::count_write() {
+void RtuMailbox::count() {
     const std::lock_guard lock{mutex_};
-    ++writes_;
+    ++requests_;
     changed_.notify_all();
 }
 
-std::optional<RegisterImage> RtuMailbox::image_after(std::uint64_t writes, Duration patience) {
+std::optional<RegisterImage> RtuMailbox::image_after(std::uint64_t requests, Duration patience) {
     std::unique_lock lock{mutex_};
-    const bool arrived =
-        changed_.wait_for(lock, patience, [this, writes] { return stopped_ || writes_ >= writes; });
+    const bool arrived = changed_.wait_for(
+        lock, patience, [this, requests] { return stopped_ || requests_ >= requests; });
     if (!arrived || stopped_) return std::nullopt;
     return image_;
 }

@@ -18,11 +18,11 @@ public:
 
     /// The loop: what is to be read from now on.
     void put(const RegisterImage& image);
-    /// The loop: one more posted write is in the image.
-    void count_write();
-    /// The line's thread: the image once `writes` posted writes are in it, stamped by the caller.
-    /// Empty when the loop did not come round in time.
-    std::optional<RegisterImage> image_after(std::uint64_t writes, Duration patience);
+    /// The loop: one more posted request is answered by the image.
+    void count();
+    /// The line's thread: the image once it answers so many posted requests, as the loop stamped
+    /// it. Empty when the loop did not come round in time.
+    std::optional<RegisterImage> image_after(std::uint64_t requests, Duration patience);
 
     void stop();
     [[nodiscard]] bool stopped() const;
@@ -36,7 +36,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     RegisterImage image_;
-    std::uint64_t writes_ = 0;
+    std::uint64_t requests_ = 0;
     bool stopped_ = false;
     int stop_signal_; ///< eventfd
 };

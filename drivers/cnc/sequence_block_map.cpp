@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -53,7 +54,7 @@ std::uint16_t permit_word(const PortStatus& status) {
 SequenceBlockMap::SequenceBlockMap(bool low_word_first, bool watch_heartbeat)
     : low_word_first_{low_word_first}
     , watch_heartbeat_{watch_heartbeat} {
-    words_[acknowledged_sequence] = never_armed;
+    words_[acknowledged_sequence] = no_run_sequence;
     SequenceBlockMap::show(PortStatus{});
 }
 
@@ -107,9 +108,12 @@ void SequenceBlockMap::take_edge(MonotonicTime at, MapNews& news) {
     const bool first_seen = !last_request_;
     if (last_request_ == sequence) return;
     last_request_ = sequence;
+    if (std::exchange(ends_with_request_, false)) words_[acknowledged_sequence] = no_run_sequence;
+    show_permission();
     if (sequence == 0) return;
     words_[result] = 0;
     words_[fault_sequence] = 0;
+    show_permission();
     auto event = decode();
     if (!event) {
         refuse(sequence, Fault::bad_command);
@@ -140,17 +144,31 @@ std::optional<TriggerEvent> SequenceBlockMap::decode() const {
 
 void SequenceBlockMap::arm() {
     armed_ = true;
-    words_[acknowledged_sequence] = words_[result] = words_[fault_sequence] = 0;
+    finish(0);
+}
+
+void SequenceBlockMap::end_run(RunEnd end) {
+    const bool stands = words_[command_sequence] == words_[acknowledged_sequence];
+    ends_with_request_ = end == RunEnd::once_answered && stands;
+    if (!ends_with_request_) words_[acknowledged_sequence] = no_run_sequence;
 }
 
 void SequenceBlockMap::finish(std::uint16_t sequence) {
+    ends_with_request_ = false;
     words_[acknowledged_sequence] = sequence;
     words_[result] = words_[fault_sequence] = 0;
+    show_permission();
+}
+
+void SequenceBlockMap::finish_skip(std::uint16_t sequence) {
+    finish(sequence);
+    words_[result] = skipped_without_point;
 }
 
 void SequenceBlockMap::refuse(std::uint16_t sequence, Fault fault) {
     words_[result] = cnc_result_code(fault);
     words_[fault_sequence] = sequence;
+    show_permission();
 }
 
 void SequenceBlockMap::show(const PortStatus& status) {
@@ -158,16 +176,30 @@ void SequenceBlockMap::show(const PortStatus& status) {
     const double position_scale = rotary ? counts_per_degree : counts_per_mm;
     const double deviation_scale =
         rotary ? deviation_counts_per_millidegree : deviation_counts_per_um;
-    words_[state] = static_cast<std::uint16_t>(status.state);
+    shown_ = status;
+    show_permission();
     put_long(measured_position, long_word(status.measured_mm, position_scale));
     put_long(deviation, long_word(status.deviation_um, deviation_scale));
     words_[next_target] = index_word(status.next_target);
     put_long(next_nominal, long_word(status.next_nominal_mm, position_scale));
-    words_[permit] = permit_word(status);
     words_[air_temperature] = environment_word(status.air_degC, 100);
     words_[air_pressure] = environment_word(status.pressure_Pa, 0.1);
     words_[air_humidity] = environment_word(status.humidity_percent, 10);
     words_[material_temperature] = environment_word(status.material_degC, 100);
+}
+
+/// A request that was refused, or whose run was broken off, holds until the CNC takes it back.
+void SequenceBlockMap::show_permission() {
+    const std::uint16_t standing = words_[command_sequence];
+    const bool refused = standing != 0 && words_[fault_sequence] == standing;
+    PortStatus told = shown_;
+    if (refused || (shown_.run_broken_off && standing != 0)) {
+        told.may_move = false;
+        told.feed_hold = true;
+    }
+    if (refused && told.state != PortState::error) told.state = PortState::hold;
+    words_[state] = static_cast<std::uint16_t>(told.state);
+    words_[permit] = permit_word(told);
 }
 
 std::int32_t SequenceBlockMap::long_at(int word) const {

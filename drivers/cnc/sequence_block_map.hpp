@@ -36,6 +36,8 @@ inline constexpr int words = 33, cnc_words = 10, daemon_words = words - daemon_h
 inline constexpr std::uint16_t absent = 0x8000;           ///< -32768 in an environment word
 inline constexpr std::uint32_t absent_long = 0x8000'0000; ///< in measured_position .. next_nominal
 inline constexpr std::uint16_t absent_index = 0xFFFF;     ///< in next_target
+/// RESULT of an acknowledged CMD 3; the other numbers are those of cnc_result_code().
+inline constexpr std::uint16_t skipped_without_point = 13;
 } // namespace sequence_block
 
 class SequenceBlockMap : public RegisterMap {
@@ -52,11 +54,13 @@ public:
     /// When CNC_HEARTBEAT will have stood still for too long, where that is watched.
     [[nodiscard]] std::optional<MonotonicTime> due() const override;
     void arm() override;
+    void end_run(RunEnd end) override;
     void refuse(std::uint16_t sequence, Fault fault) override;
     void show(const PortStatus& status) override;
 
 protected:
     void finish(std::uint16_t sequence) override;
+    void finish_skip(std::uint16_t sequence) override;
 
 private:
     void hear_heartbeat(MonotonicTime at, MapNews& news);
@@ -64,7 +68,11 @@ private:
     [[nodiscard]] std::optional<TriggerEvent> decode() const;
     [[nodiscard]] std::int32_t long_at(int word) const;
     void put_long(int word, std::uint32_t bits);
+    /// STATE and PERMIT, from what the station shows and where the CNC stands.
+    void show_permission();
 
+    PortStatus shown_;
+    bool ends_with_request_ = false; ///< done becomes no_run_sequence with the next number
     std::array<std::uint16_t, sequence_block::words> words_{};
     std::optional<std::uint16_t> last_request_; ///< empty: none seen since the start
     std::optional<MonotonicTime> heard_at_;

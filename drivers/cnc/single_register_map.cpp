@@ -38,6 +38,11 @@ void SingleRegisterMap::arm() {
     done_ = 0;
 }
 
+/// This CNC has no command to end a run: whoever else did, it is told at once.
+void SingleRegisterMap::end_run(RunEnd /*end*/) {
+    done_ = no_run_sequence;
+}
+
 void SingleRegisterMap::refuse(std::uint16_t /*sequence*/, Fault /*fault*/) {}
 void SingleRegisterMap::show(const PortStatus& /*status*/) {}
 

@@ -12,6 +12,7 @@ public:
     MapNews write(const ModbusRequest& request, MonotonicTime at) override;
     MapNews tick(MonotonicTime now) override;
     void arm() override;
+    void end_run(RunEnd end) override;
     /// Nothing to show: the CNC holds until its own time-out.
     void refuse(std::uint16_t sequence, Fault fault) override;
     void show(const PortStatus& status) override;
@@ -21,7 +22,7 @@ protected:
 
 private:
     std::optional<std::uint16_t> last_request_; ///< empty: none seen since the start
-    std::uint16_t done_ = never_armed;
+    std::uint16_t done_ = no_run_sequence;
     bool armed_ = false;
 };
 

@@ -37,6 +37,20 @@ void TriggerDesk::acknowledge(const JournalReceipt& receipt) {
     changed();
 }
 
+void TriggerDesk::acknowledge_skip(const JournalReceipt& receipt) {
+    map_->finish_skip(receipt.sequence());
+    changed();
+}
+
+void TriggerDesk::end_run(RunEnd end) {
+    map_->end_run(end);
+    changed();
+}
+
+void TriggerDesk::look() const {
+    if (on_change) on_change();
+}
+
 void TriggerDesk::refuse(std::uint16_t sequence, Fault fault) {
     map_->refuse(sequence, fault);
     changed();

@@ -28,6 +28,10 @@ public:
     void note(Fault fault, std::string sentence);
     void arm();
     void acknowledge(const JournalReceipt& receipt);
+    void acknowledge_skip(const JournalReceipt& receipt);
+    void end_run(RunEnd end);
+    /// For a reader on another thread: on_change is called with what is shown now.
+    void look() const;
     void refuse(std::uint16_t sequence, Fault fault);
     void publish(const PortStatus& status);
     /// Lets the map decide what only time decides, and sleeps while there is nothing; until
@@ -52,6 +56,10 @@ class MappedPort : public TriggerPort {
 public:
     void publish_armed() override { desk_->arm(); }
     void acknowledge(const JournalReceipt& receipt) override { desk_->acknowledge(receipt); }
+    void acknowledge_skip(const JournalReceipt& receipt) override {
+        desk_->acknowledge_skip(receipt);
+    }
+    void publish_no_run(RunEnd end) override { desk_->end_run(end); }
     void refuse(std::uint16_t sequence, Fault fault) override { desk_->refuse(sequence, fault); }
     void publish(const PortStatus& status) override { desk_->publish(status); }
     [[nodiscard]] PortCounters counters() const override { return desk_->counters; }

@@ -1,5 +1,6 @@
 #include "drivers/laser/ids_message.hpp"
 
+#include "config/json_text.hpp"
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -24,7 +25,7 @@ std::optional<IdsValue> value_of(const Json& node) {
 std::string words_of(const Json& error) {
     const bool told =
         error.is_object() && error.contains("message") && error["message"].is_string();
-    return told ? error["message"].get<std::string>() : error.dump();
+    return told ? error["message"].get<std::string>() : json_text(error);
 }
 
 std::string written(double index) {
@@ -40,7 +41,7 @@ ids_request(std::string_view method, const std::vector<int>& parameters, std::in
     // In the order in which the maker's own programs write it.
     const nlohmann::ordered_json request{
         {"jsonrpc", "2.0"}, {"method", method}, {"params", parameters}, {"id", id}, {"api", 2}};
-    return request.dump() + "\n";
+    return json_text(request) + "\n";
 }
 
 Result<IdsReply> parse_ids_reply(std::string_view line) {

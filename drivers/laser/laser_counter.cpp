@@ -6,7 +6,7 @@
 //
 // [event]  read() gives whole struct counter_event, 24 bytes: timestamp and value of 64 bits, the
 //          watch (component type, scope, parent, id; event; channel), status, one byte to fill.
-//          The timestamp is the kernel's monotonic clock, the one that stamps everything here.
+//          The timestamp is CLOCK_MONOTONIC.
 // [watch]  ADD_WATCH for the count (type COUNT, scope COUNT, its number as parent) on an event,
 // then
 //          ENABLE.
@@ -89,6 +89,7 @@ private:
     bool counted_before_ = false, clock_told_ = false, unread_ = false;
     std::optional<double> last_metres_;
     MonotonicTime last_at_{};
+    Duration asleep_{}; ///< of the computer; each reading of it is at most the truth
 };
 
 bool Counter::is_ours(const CounterRecord& record) const {
@@ -100,7 +101,8 @@ bool Counter::is_ours(const CounterRecord& record) const {
 /// Of another clock's events nothing is known but that they were before their arrival: no u(t).
 PlacedTime
 Counter::instant_of(const CounterRecord& record, MonotonicTime read_at, SampleSink& sink) {
-    const MonotonicTime stamped = monotonic_from_ns(record.at_ns);
+    // The kernel stamps by CLOCK_MONOTONIC, which a suspend stops.
+    const MonotonicTime stamped = monotonic_from_ns(record.at_ns) + asleep_;
     const Duration away = read_at > stamped ? read_at - stamped : stamped - read_at;
     if (away <= clock_tolerance) return {stamped, stamp_uncertainty};
     if (!std::exchange(clock_told_, true))
@@ -165,6 +167,7 @@ Task<Result<void>> Counter::run(InstrumentContext context) {
             continue;
         }
         if (!arrived) co_return tl::unexpected<Error>(arrived.error());
+        asleep_ = std::max(asleep_, context.scheduler->asleep());
         for (const CounterRecord& record : framer.feed(arrived->bytes))
             take(record, arrived->read_at, *context.sink);
     }

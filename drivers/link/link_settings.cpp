@@ -33,6 +33,23 @@ Result<LinkSettings> parse_tcp(std::string_view place, LinkSettings settings) {
     return settings;
 }
 
+bool is_windows_port(std::string_view path) {
+    return path.size() > 3 && (path.starts_with("COM") || path.starts_with("com")) &&
+           path.find_first_not_of("0123456789", 3) == std::string_view::npos;
+}
+
+Result<void> check_serial_path(std::string_view path) {
+    if (path.starts_with('/')) return {};
+    const std::string named = "\"" + std::string{path} + "\" ";
+    return fail(Fault::bad_configuration,
+                named +
+                    (is_windows_port(path) ? "is a port's name on Windows; Linux names it by a "
+                                             "file"
+                                           : "is no full path of a serial port") +
+                    ": write \"serial:/dev/serial/by-id/...\" or \"serial:/dev/ttyUSB0\"; "
+                    "axiscal devices lists what is plugged in");
+}
+
 } // namespace
 
 std::string LinkSettings::describe() const {
@@ -52,6 +69,7 @@ Result<LinkSettings> parse_link(std::string_view text, LinkSettings defaults) {
     if (!serial || text.size() == serial_prefix.size())
         return fail(Fault::bad_configuration,
                     "write \"serial:/dev/serial/by-id/...\" or \"tcp:host:port\"");
+    AXISCAL_CHECK(check_serial_path(text.substr(serial_prefix.size())));
     defaults.kind = LinkSettings::Kind::serial;
     defaults.path = text.substr(serial_prefix.size());
     return defaults;

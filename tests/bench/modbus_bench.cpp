@@ -9,6 +9,7 @@
 #include "tests/support/port_bench.hpp"
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
 
 #include <modbus.h>
 
@@ -41,18 +42,42 @@ void libmodbus_server(int listener) {
     }
 }
 
+/// The port on a loop and a thread of its own. It ends before what its loop uses: a thread that was
+/// left behind would run on a loop that the end of the program has destroyed.
+class TriggerDoor {
+public:
+    TriggerDoor()
+        : port_{std::make_unique<SequenceBlockMap>(false, false), any_port(), ClientPatience{}}
+        , running_{port_, scheduler_} {
+        while (port_.bound_port() == 0)
+            loop_.run_one();
+        thread_ = std::thread{[this] { loop_.run(); }};
+    }
+    ~TriggerDoor() {
+        boost::asio::post(loop_, [this] { running_.cancel(); });
+        thread_.join(); // the loop has nothing left to do
+    }
+    TriggerDoor(const TriggerDoor&) = delete;
+    TriggerDoor& operator=(const TriggerDoor&) = delete;
+    [[nodiscard]] int bound_port() const { return port_.bound_port(); }
+
+private:
+    static TriggerConfig any_port() {
+        TriggerConfig config;
+        config.port = 0;
+        return config;
+    }
+
+    boost::asio::io_context loop_;
+    AsioScheduler scheduler_{loop_};
+    ModbusTcpPort port_;
+    testing::RunningPort running_;
+    std::thread thread_;
+};
+
 int start_trigger_port() {
-    static boost::asio::io_context loop;
-    static AsioScheduler scheduler{loop};
-    TriggerConfig config;
-    config.port = 0;
-    static ModbusTcpPort port{std::make_unique<SequenceBlockMap>(false, false), config,
-                              ClientPatience{}};
-    static testing::RunningPort running{port, scheduler};
-    while (port.bound_port() == 0)
-        loop.run_one();
-    std::thread{[] { loop.run(); }}.detach();
-    return port.bound_port();
+    static TriggerDoor door;
+    return door.bound_port();
 }
 
 Work asking(int (*start_server)()) {

@@ -33,15 +33,43 @@ def machine():
             f"kernel {platform.release().split('-')[0]}, g++ {compiler}")
 
 
+def benchmarks(program, cpu, words):
+    """([figures], why it did not end well or None) of one process; no figures where it died before it had told them."""
+    ran = subprocess.run(["taskset", "-c", cpu, program, *words], capture_output=True, text=True, check=False)
+    said = ran.stderr.strip().splitlines()[-1:]
+    died = f"ended with {ran.returncode} {' '.join(said)}".rstrip() if ran.returncode != 0 else None
+    try:
+        return json.loads(ran.stdout)["benchmarks"], died
+    except (ValueError, KeyError):
+        return [], died or "told no figures"
+
+
+def names_of_rows(program, wanted):
+    """Each with its works: NAME/this, NAME/limit, ..."""
+    listed = subprocess.run([program, "--benchmark_list_tests=true", f"--benchmark_filter={wanted}"], capture_output=True, text=True, check=True)
+    works = [line.removesuffix("/manual_time") for line in listed.stdout.splitlines() if "/" in line]
+    return list(dict.fromkeys(work.rsplit("/", 1)[0] for work in works))
+
+
 def run_ours(program, cpu, seconds, wanted):
-    command = ["taskset", "-c", cpu, program, "--benchmark_format=json", f"--benchmark_min_time={seconds}",
-               f"--benchmark_repetitions={REPETITIONS}", "--benchmark_enable_random_interleaving=true",
-               f"--benchmark_filter={wanted}"]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
-    if ran.returncode != 0:
-        sys.exit(f"{program} ended with {ran.returncode}: {ran.stderr.strip()}")
+    """(rows, [what did not end well]). All in one process, whose order is random; where it died in the middle each row is run in a
+    process of its own, so that one row cannot take the others with it."""
+    words = ["--benchmark_format=json", f"--benchmark_min_time={seconds}", f"--benchmark_repetitions={REPETITIONS}",
+             "--benchmark_enable_random_interleaving=true"]
+    found, died = benchmarks(program, cpu, [*words, f"--benchmark_filter={wanted}"])
+    told = [f"{program} {died}"] if died else []
+    if died and not found:
+        for name in names_of_rows(program, wanted):
+            of_row, died = benchmarks(program, cpu, [*words, f"--benchmark_filter=^{re.escape(name)}/"])
+            found += of_row
+            if died:
+                told.append(f"{name}: {died}")
+    return rows_of(found), told
+
+
+def rows_of(found):
     rows = {}
-    for one in sorted(json.loads(ran.stdout)["benchmarks"], key=lambda one: one["family_index"]):
+    for one in sorted(found, key=lambda one: one["family_index"]):
         if one["run_type"] != "iteration":
             continue
         name, kind = one["run_name"].removesuffix("/manual_time").rsplit("/", 1)
@@ -52,7 +80,7 @@ def run_ours(program, cpu, seconds, wanted):
     for row in rows.values():
         if "peer" in row:
             row["peers"].append((row["peer"], row["peer label"]))
-    return rows
+    return {name: row for name, row in rows.items() if "this" in row or "count" in row}
 
 
 def run_peers(folder, cpu, wanted, rows):
@@ -110,15 +138,15 @@ def main():
     wanted = sys.argv[5] if len(sys.argv) > 5 else "."
     print(f"{machine()}; pinned to processor {cpu}, fastest of {REPETITIONS} interleaved repetitions")
     with stall.told(cpu):
-        rows = run_ours(program, cpu, seconds, wanted)
+        rows, died = run_ours(program, cpu, seconds, wanted)
         told = run_peers(pathlib.Path(peers), cpu, wanted, rows) if peers != "-" else ["peers did not run: tools/bench --peers"]
     head = ["name", "this", "limit", "best peer", "ratio", "goal"]
     table = [head, ["---"] * len(head), *(cells(name, row) for name, row in rows.items())]
     widths = [max(map(len, column)) for column in zip(*table)]
     for line in table:
         print("| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths)) + " |")
-    print("\n".join([*other_peers(rows), *told]))
-    return 1 if any("MISSED" in line[-1] for line in table) else 0
+    print("\n".join([*other_peers(rows), *told, *died]))
+    return 1 if died or any("MISSED" in line[-1] for line in table) else 0
 
 
 sys.exit(main())

@@ -74,7 +74,7 @@ private:
     Task<void> answer(TriggerEvent event) {
         const MonotonicTime end = began_ + (samples - 1) * sample_period;
         const auto window = history_.between(began_, end);
-        const StillWindow still{began_, end, measure_window(window)};
+        const StillWindow still{began_, end, statistics_of(summary_of(window))};
         auto capture = make_capture(history_, still, std::nullopt, config_);
         if (!capture) std::abort();
         PointRecord point;

@@ -13,6 +13,7 @@ import select
 import shutil
 import signal
 import socket
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -21,6 +22,9 @@ import threading
 import time
 import unittest
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import run_files  # noqa: E402
+
 BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 EXAMPLE = os.path.join(SOURCE, "config", "station.example.toml")
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
@@ -28,7 +32,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
-            "abort": ["--reason"], "analyze": ["FILE"], "program": ["--dialect", "--out", "--retake"],
+            "abort": ["--reason"], "analyze": ["FILE"], "result": ["RUN", "--config", "--tolerances", "--travel"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
@@ -173,6 +177,142 @@ class Analyze(Scratch):
         self.assertEqual(json.loads(self.expect(0, "analyze", RUN).stdout)["parameters"], document["parameters"])
 
 
+def figures_of(targets):
+    """ISO 230-2 with k = 2 over [(up, down)], lists of deviations; spread needs two readings in each."""
+    up, down = [[statistics.mean(side[k]) for side in targets] for k in (0, 1)]
+    gaps, means = [u - d for u, d in zip(up, down)], [(u + d) / 2 for u, d in zip(up, down)]
+    figures = {"E": max(up + down) - min(up + down), "E_forward": max(up) - min(up),
+               "E_backward": max(down) - min(down), "M": max(means) - min(means),
+               "B": max(map(abs, gaps)), "B_mean": statistics.mean(gaps)}
+    if min(len(readings) for side in targets for readings in side) < 2:
+        return figures
+    s = [[2 * statistics.stdev(side[k]) for side in targets] for k in (0, 1)]
+    high, low = [[m + d for m, d in zip((up, down)[k], s[k])] for k in (0, 1)], \
+                [[m - d for m, d in zip((up, down)[k], s[k])] for k in (0, 1)]
+    return {**figures, "R_forward": 2 * max(s[0]), "R_backward": 2 * max(s[1]),
+            "R": max(max(a + b + abs(g), 2 * a, 2 * b) for a, b, g in zip(*s, gaps)),
+            "A_forward": max(high[0]) - min(low[0]), "A_backward": max(high[1]) - min(low[1]),
+            "A": max(high[0] + high[1]) - min(low[0] + low[1])}
+
+
+class Result(Scratch):
+    """Of the reference run, five targets and five approaches each way, and of what is left when it was aborted."""
+
+    def aborted(self, taken, complete=False):
+        """The first `taken` points alone, closed as incomplete."""
+        rows, points = [], 0
+        for table, values in run_files.linear(RUN):
+            values = list(values)
+            if table in ("point", "synchronisation"):
+                points += table == "point"
+                if points > taken:
+                    continue
+            if table == "closing":
+                values[0], values[1] = int(complete), "" if complete else "aborted by the operator: a chip"
+            rows.append((table, values))
+        os.makedirs(os.path.join(self.folder, "runs"), exist_ok=True)
+        path = os.path.join(self.folder, "runs", f"cut-{taken}.axiscal")
+        run_files.write(path, SOURCE, rows)
+        return path
+
+    def readings(self):
+        """{(target, direction): deviations} of the whole run, at 20 degC."""
+        deviations = json.loads(self.expect(0, "analyze", RUN).stdout)["run"]["deviations"]
+        return {(i, k): rows[i] for k, rows in enumerate((deviations["forward"], deviations["backward"]))
+                for i in range(5)}
+
+    def left_of(self, taken):
+        """The same of the first points: the standard cycle goes up over the targets, then down."""
+        left = {place: [] for place in self.readings()}
+        order = [(i if k == 0 else 4 - i, k, j) for j in range(5) for k in (0, 1) for i in range(5)]
+        for i, k, j in order[:taken]:
+            left[i, k].append(self.readings()[i, k][j])
+        return left
+
+    def check(self, taken, targets):
+        left = self.left_of(taken)
+        summary = json.loads(self.expect(0, "result", self.aborted(taken), "--json").stdout)
+        due = figures_of([(left[i, 0], left[i, 1]) for i in targets])
+        self.assertEqual(set(summary["parameters"]), set(due))
+        for key, figure in due.items():
+            self.assertAlmostEqual(summary["parameters"][key]["value"], figure, delta=1e-12, msg=key)
+            self.assertIsNone(summary["parameters"][key]["verdict"])
+        known = summary["completeness"]
+        self.assertEqual((known["status"], known["expected"]), ("partial", 50))
+        self.assertEqual(known["used"], sum(len(left[i, k]) for i in targets for k in (0, 1)))
+        self.assertEqual(known["used"] + sum(entry["count"] for entry in known["left_out"]), 50)
+        return summary
+
+    def test_an_aborted_run_counts_with_the_readings_that_it_has(self):
+        summary = self.check(33, range(5))
+        self.assertEqual(summary["unit"], "mm")
+        self.assertEqual(summary["completeness"]["left_out"][0], {
+            "target": 0, "position": summary["completeness"]["left_out"][0]["position"], "direction": "positive",
+            "approaches": [4], "count": 1, "why": "not measured: aborted by the operator: a chip",
+            "target_omitted": False})
+
+    def test_a_target_from_one_side_alone_is_named_and_one_reading_gives_no_spread(self):
+        summary = self.check(8, [2, 3, 4])
+        omitted = {entry["target"] for entry in summary["completeness"]["left_out"] if entry["target_omitted"]}
+        self.assertEqual(omitted, {0, 1})
+        self.assertIn("one reading", summary["not_evaluated"]["R"])
+        self.assertEqual(self.check(12, range(5))["not_evaluated"].keys(),
+                         {"A", "A_forward", "A_backward", "R", "R_forward", "R_backward"})
+
+    def test_a_whole_run_has_the_figures_of_its_certificate_each_with_its_uncertainty(self):
+        path = self.aborted(50, complete=True)
+        summary = json.loads(self.expect(0, "result", path, "--json").stdout)
+        document = json.loads(self.expect(0, "analyze", path).stdout)
+        self.assertEqual(summary["completeness"],
+                         {"status": "complete", "expected": 50, "used": 50, "left_out": []})
+        self.assertEqual(document["completeness"], summary["completeness"])
+        for key, parameter in document["parameters"].items():
+            self.assertEqual(summary["parameters"][key]["value"], parameter["value"])
+            self.assertEqual(summary["parameters"][key]["U"], parameter["expanded_uncertainty"]["value"])
+
+    def test_limits_give_verdicts_and_a_partial_result_has_none(self):
+        limits = self.file("limits.json", json.dumps({"name": "agreed", "source": "order 17", "unit": "um", "limits": [
+            {"parameter": "A", "limit": 1e6}, {"parameter": "B", "limit": 0.001}]}))
+        whole = self.expect(0, "result", self.aborted(50, complete=True), "--tolerances", limits, "--json")
+        parameters = json.loads(whole.stdout)["parameters"]
+        self.assertEqual(parameters["A"]["verdict"], "pass")
+        self.assertIn(parameters["B"]["verdict"], ("fail", "not_provable"))
+        self.assertIsNone(parameters["E"]["verdict"])
+        partial = self.expect(0, "result", self.aborted(33), "--tolerances", limits, "--json")
+        self.assertTrue(all(figure["verdict"] is None for figure in json.loads(partial.stdout)["parameters"].values()))
+
+    def test_it_fits_a_terminal_and_says_partial(self):
+        for taken in (8, 33, 50):
+            told = self.expect(0, "result", self.aborted(taken, complete=taken == 50)).stdout
+            self.assertEqual("PARTIAL" in told, taken != 50, told)
+            for line in told.splitlines():
+                self.assertLessEqual(len(line), 80, line)
+
+    def test_without_a_run_it_is_the_newest_of_the_station_and_3_without_any(self):
+        config = self.file("station.toml", re.sub(r'# state_directory = "[^"]*"', f'state_directory = "{self.folder}"',
+                                                  example_text()))
+        self.assertIn("no run was measured yet", self.expect(3, "result", "--config", config).stderr)
+        self.aborted(33)
+        for words in ([], ["cut-33"]):
+            got = self.expect(0, "result", *words, "--config", config, "--json")
+            self.assertEqual(json.loads(got.stdout)["completeness"]["used"], 33)
+        self.assertIn("cut-34", self.expect(3, "result", "cut-34", "--config", config).stderr)
+        self.assertIn("no reading", self.expect(3, "result", self.aborted(0)).stderr)
+
+    def test_a_partial_result_on_paper_has_no_number(self):
+        path = self.aborted(33)
+        papers = json.loads(self.expect(0, "export", path, "--out", self.folder, "--json").stdout)
+        with open(papers["json"], encoding="utf-8") as file:
+            document = json.load(file)
+        self.assertEqual(document["completeness"]["status"], "partial")
+        self.assertIsNone(document["run"]["statements"]["certificate_number"])
+        self.assertIsNone(document["run"]["next_calibration_due"])
+        self.assertFalse(any("target_uncertainty" in figure for figure in document["parameters"].values()))
+        self.assertEqual(self.expect(0, "verify", path, "--certificate", papers["json"]).returncode, 0)
+        with open(papers["csv"], encoding="utf-8") as file:
+            self.assertIn("# completeness,partial,used 33,of 50", file.read())
+
+
 class StationFile(Scratch):
     def test_the_example_is_accepted(self):
         path = self.file("station.toml", example_text())
@@ -199,7 +339,7 @@ class StationFile(Scratch):
         # sgin is no key and sign is missing; nothing that is right is complained of beside them
         self.assertEqual(sorted(refusal["key"] for refusal in refusals),
                          ["axis.kind", "axis.sgin", "axis.sign", "capture.spread_limit", "cycle.overrun",
-                          "instrument[0].driver"], refusals)
+                          'instrument "laser".driver'], refusals)
 
     def test_a_missing_file_is_refused(self):
         self.expect(3, "check-config", os.path.join(self.folder, "nothing.toml"))
@@ -794,7 +934,8 @@ class Screen(Scratch):
         self.addCleanup(self.door.shutdown, socket.SHUT_RDWR)  # ends accept()
         self.child, self.terminal = pty.fork()
         if self.child == 0:
-            os.execv(os.path.join(BIN, "axiscal"), ["axiscal", "watch", "--socket", self.path])
+            os.execve(os.path.join(BIN, "axiscal"), ["axiscal", "watch", "--socket", self.path],
+                      {**os.environ, "TERM": "xterm", "NO_COLOR": "1"})
         self.addCleanup(os.close, self.terminal)
         self.before = termios.tcgetattr(self.terminal)
         self.shown = ""
@@ -856,7 +997,7 @@ class Screen(Scratch):
         status = self.end()
         self.assertTrue(os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGINT, status)
         self.assertEqual(termios.tcgetattr(self.terminal), self.before)
-        # Nothing that would have to be undone: no other screen, no hidden cursor, no colour.
+        # Nothing that would have to be undone: no other screen, no hidden cursor; NO_COLOR: no colour.
         self.assertEqual(set(re.findall(r"\x1b\[[^A-Za-z]*[A-Za-z]", self.shown)), {"\x1b[H", "\x1b[2J"})
 
     def test_each_frame_tells_the_next_target_the_strength_and_the_time_left(self):

@@ -13,8 +13,8 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import run_file_window
 
-SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4", "5")]
-IDENTITY, FORMAT = 0x4158434C, 6
+SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4", "5", "7")]
+IDENTITY, FORMAT = 0x4158434C, 7
 NAMES_OF_COLUMNS = "record_columns.hpp"
 
 
@@ -38,7 +38,7 @@ def canonical(table, values):
 
 
 def new_file(path, source):
-    """An empty run file of format 6, with every table."""
+    """An empty run file of format 7, with every table."""
     base = sqlite3.connect(path)
     for name in SCHEMAS:
         with open(os.path.join(source, "acquisition", "journal", name), encoding="utf-8") as schema:
@@ -103,13 +103,13 @@ def write(path, source, rows):
 
 
 def with_packed_windows(rows):
-    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 6 has them."""
+    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 7 has them."""
     return [(table, [*values[:-1], run_file_window.packed(list(struct.iter_unpack("<qdQ", values[-1])))])
             if table == "point" else (table, values) for table, values in rows]
 
 
 def read(path):
-    """The rows of the reference run, which is of format 1, as format 6 has them."""
+    """The rows of the reference run, which is of format 1, as format 7 has them."""
     with contextlib.closing(sqlite3.connect(path)) as base:
         return with_packed_windows([row for _, row in sorted(rows_of(base).items())])
 
@@ -133,7 +133,7 @@ def with_synchronisation(rows):
 
 
 def linear(reference):
-    """The reference run in format 6, with all that a header can hold of a positioning run."""
+    """The reference run in format 7, with all that a header can hold of a positioning run."""
     rows = with_synchronisation(read(reference))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),
@@ -151,6 +151,8 @@ def linear(reference):
     armed = next(i for i, row in enumerate(rows) if row[0] == "datum")
     rows[armed:armed] = [("preflight", [name, 1, 0, "Held.", ""])
                          for name in ("instruments", "soak", "agreement", "strength", "certificates")]
+    rows[armed:armed] = [("ordered", ["arm", "", 10**9, 10**18, "socket", 1000, "jo", "Jo Miller"]),
+                         ("ordered", ["override", "soak", 10**9, 10**18, "token", None, "", ""])]
     return rows
 
 
@@ -173,6 +175,7 @@ def revised(reference):
 
     order, points = taken([3, 6, 13], 50, 1)
     rows += [("retake", [1, at_ns, utc_ns, "coolant on the mirror"]), *order,
+             ("ordered", ["retake", "1", at_ns, utc_ns, "socket", 1000, "jo", ""]),
              ("exclusion", [20, at_ns, utc_ns, "a door was open"]),
              ("exclusion", [22, at_ns, utc_ns, "a door was open"]), *points, closed(1)]
     order, points = taken([16], 53, 2)

@@ -33,7 +33,7 @@ NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement
 # A row of these leaves no trace in others, or stands where several can: then each is named.
 ALIKE = {"environment", "event", "exclusion", "closing", "preflight", "uncertainty_target", "instrument",
          "channel_calibration", "channel_correction", "alignment", "alignment_place", "eve_source", "rotary",
-         "rotary_deviation", "linear_scale_sensor", "probing_touch"}
+         "rotary_deviation", "linear_scale_sensor", "probing_touch", "ordered"}
 
 
 def other(value):
@@ -56,7 +56,7 @@ class Verify(unittest.TestCase):
         self.path = os.path.join(self.folder, "run.axiscal")
 
     def make_whole(self, path):
-        """The reference run in format 6, with rows of every kind that a positioning run has and a result."""
+        """The reference run in format 7, with rows of every kind that a positioning run has and a result."""
         run_files.write(path, SOURCE, run_files.linear(RUN))
         told = self.verify(path)
         self.assertEqual(told["findings"], [])

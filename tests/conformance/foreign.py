@@ -5,6 +5,7 @@ foreign.py AXISCAL CASES PROGRAMS
 """
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import tempfile
 import unittest
 
 AXISCAL, CASES, PROGRAMS = (os.path.abspath(word) for word in sys.argv[1:4])
-RIGHT = f"{sys.executable} -B {PROGRAMS}/positioning.py"
+RIGHT = shlex.join([sys.executable, "-B", f"{PROGRAMS}/positioning.py"])
 WRONG = RIGHT + " --as-known-tools"
 POSITIONING = ["positioning-hand-*", "positioning-ess-*"]
 HAND = "positioning-hand-1"
@@ -51,7 +52,7 @@ class Foreign(unittest.TestCase):
 
     def test_the_kit_can_be_pointed_at_axiscal_itself(self):
         here = kit("--only", HAND).stdout
-        self.assertEqual(kit("--only", HAND, "--against", f"{AXISCAL} analyze -").stdout, here)
+        self.assertEqual(kit("--only", HAND, "--against", shlex.join([AXISCAL, "analyze", "-"])).stdout, here)
 
     def test_a_crash_garbage_or_a_hang_fails_that_case_and_the_next_is_run(self):
         for command, word in (("kill -SEGV $$", "Segmentation fault"), ("echo nonsense", "no result"),

@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
         fuzz::require(!request.error().detail.empty(), "a refusal has a reason");
     }
-    told(abort_reason_from_json(body));
+    told(abort_request_from_json(body));
     told(typed_reading_from_json(body));
     judge_alignment(body);
     judge_drift(body);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every codec is searched for inputs that break it (tests/fuzz, tools/soak).
 
-A codec is a header of drivers/ whose opening comment calls it pure ("Pure"): bytes or text in,
+A codec is a header of drivers/ or acquisition/console/ whose opening comment calls it pure ("Pure"): bytes or text in,
 values out. It must be included by a target of tests/fuzz, or stand below with the reason why not.
 Orders of the JSON API (`..._from_json` of acquisition/console) must be called by one. Each target
 has a line in CMakeLists.txt and inputs under corpus/, and each folder of inputs has its target.
@@ -49,7 +49,7 @@ def complaints(codecs, orders, targets, kept, sources):
     for header in sorted(set(codecs) - reached - set(NO_CODEC)):
         yield f"{header} is a codec without a target in tests/fuzz"
     for header in sorted(set(NO_CODEC) - set(codecs)):
-        yield f"tests/guards/fuzz_targets.py: {header} is no pure header of drivers/"
+        yield f"tests/guards/fuzz_targets.py: {header} is no pure header of drivers/ or acquisition/console/"
     for order in sorted(orders):
         if not re.search(rf"\b{order}\(", text):
             yield f"{order} reads what others send and is called by no target of tests/fuzz"
@@ -86,7 +86,8 @@ def main():
         return self_test()
     root = pathlib.Path(sys.argv[1])
     fuzz = root / "tests/fuzz"
-    codecs = [str(path.relative_to(root)) for path in sorted((root / "drivers").rglob("*.hpp"))
+    headers = [*(root / "drivers").rglob("*.hpp"), *(root / "acquisition/console").glob("*.hpp")]
+    codecs = [str(path.relative_to(root)) for path in sorted(headers)
               if is_pure(path.read_text(encoding="utf-8"))]
     orders = {name for path in (root / "acquisition/console").glob("*.hpp")
               for name in ORDER.findall(path.read_text(encoding="utf-8"))}

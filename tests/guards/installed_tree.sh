@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# `cmake --install` into a scratch root: all that a station needs is there, and the programs run.
-#   installed_tree.sh BUILD_DIR SOURCE_DIR VERSION
+# The packages unpacked into a scratch root: all that a station needs is there, and the programs run.
+#   installed_tree.sh PACKAGES SOURCE_DIR VERSION BUILD_DIR
 set -euo pipefail
-build=$1 source=$2 version=$3
+packages=$1 source=$2 version=$3 build=$4
 root=$(mktemp -d)
 trap 'rm -rf "$root"' EXIT
 fail() { echo "FAILED: $*"; exit 1; }
 
-DESTDIR=$root cmake --install "$build" --prefix /usr >"$root/install.log" \
-    || { cat "$root/install.log"; fail "cmake --install"; }
+for package in axiscal axiscal-publish axiscal-doc; do
+    dpkg-deb -x "$packages/${package}_$version"_*.deb "$root" || fail "no package $package of version $version"
+done
 
-wanted=(/usr/share/doc/axiscal/LICENSE /usr/share/doc/axiscal/LICENSES/GPL-3.0-or-later.txt
+wanted=(/usr/share/doc/axiscal/copyright /usr/share/doc/axiscal-publish/copyright
     /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done

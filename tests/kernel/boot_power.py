@@ -24,6 +24,7 @@ import bench  # noqa: E402  (the bench of the whole-run tests, here with its sta
 CUTS = int(os.environ.get("AXISCAL_CUTS", "10"))
 STATE = Path("/mnt/state")
 POINTS = 20
+ANOTHER_BOOT = "The datum is lost: the computer was restarted since."
 DISK, NOTES, AFTER = "/dev/vda", "/dev/vdb", "/dev/vdc"
 NOTE, ORDER, ANSWER, ANSWER_BYTES = 0, 4096, 8192, 4096  # as lossy_disk.py has them
 READ_REGISTERS, ACK_SEQ = 3, 18  # docs/trigger.md, sequence-block
@@ -227,9 +228,14 @@ def again(station):
     station.start_daemon()
     bench.wait_until("the run of before is closed",
                      lambda: any("closed as incomplete" in note for note in station.status()["notes"]), 60)
-    print(station.status()["notes"])
+    notes = station.status()["notes"]
+    print(notes)
     station.end("axiscald")
     (path,) = station.run_files()
+    expect(any(note.endswith(f"is closed as incomplete: {ANOTHER_BOOT}") for note in notes), f"{notes}")
+    with contextlib.closing(sqlite3.connect(f"file:{path}?immutable=1", uri=True)) as file:
+        told = file.execute("SELECT complete, reason FROM closing").fetchall()
+    expect(told == [(0, ANOTHER_BOOT)], f"the file says {told}")
     expect(not station.verified(path)["complete"], "an interrupted run calls itself complete")
     expect(sorted(rows_of(path)) == list(range(1, 11)), f"{sorted(rows_of(path))}")
     station.unmount()

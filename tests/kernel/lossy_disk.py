@@ -21,7 +21,9 @@ import random
 import socket
 import struct
 import subprocess
+import tempfile
 import threading
+from pathlib import Path
 
 SIZE = 32 << 20  # bytes; a run of 20 points and its certificate are 2 MB
 # What a disk writes at once or not at all: the physical sector of today's. On one that tears at 512 bytes
@@ -200,7 +202,9 @@ class Server:
     """Serves while the with-block lasts; words() are what QEMU needs to see the three disks."""
 
     def __init__(self, folder, environment, seed):
-        self.path = folder / "disks.sock"
+        self.folder = folder
+        self.meeting = tempfile.TemporaryDirectory(prefix="axiscal-disks-")  # a socket's name has 107 characters at most
+        self.path = Path(self.meeting.name) / "disks.sock"
         image = folder / "empty.ext4"
         with open(image, "wb") as file:
             file.truncate(SIZE)
@@ -233,6 +237,6 @@ class Server:
     def __exit__(self, *_):
         """The record stays beside the logs: any cut can be made again from it (Record, Disks)."""
         self.door.close()
-        self.path.unlink()
-        with open(self.path.with_name("record.pickle"), "wb") as file:
+        self.meeting.cleanup()
+        with open(self.folder / "record.pickle", "wb") as file:
             pickle.dump((self.disks.seed, self.disks.record), file)

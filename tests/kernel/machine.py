@@ -13,6 +13,7 @@ import contextlib
 import fcntl
 import lzma
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -78,12 +79,12 @@ def build_initrd(version):
     order = []
     for module in FIRST_MODULES:
         for line in run("modprobe", "-S", version, "-d", RIG / "unpacked", "--show-depends", module).splitlines():
-            file = Path(line.split()[1]) if line.startswith("insmod") else None
+            file = Path(line.removeprefix("insmod ").strip()) if line.startswith("insmod ") else None
             if file and file.name not in order:
                 order.append(file.name)
                 shutil.copy(file, tree / "modules")
     (tree / "modules/order").write_text("\n".join(order) + "\n")
-    run("sh", "-c", f"find . | cpio -o -H newc --quiet | gzip -1 >{RIG}/initrd.gz", cwd=tree)
+    run("sh", "-c", 'find . | cpio -o -H newc --quiet | gzip -1 >"$0"', RIG / "initrd.gz", cwd=tree)
 
 
 def build():
@@ -101,6 +102,7 @@ def build():
 
 
 def folder_words(tag, path, read_only):
+    path = str(path).replace(",", ",,")  # QEMU's own way to write a comma
     device = f"local,id={tag},path={path},security_model=none,multidevs=remap"
     return ["-fsdev", device + (",readonly=on" if read_only else ""),
             "-device", f"virtio-9p-pci,fsdev={tag},mount_tag={tag}"]
@@ -116,13 +118,20 @@ def lay_secrets(share):
             (etc / name).write_text(line)
 
 
-def boot(share, command, limit_s, append="", devices=(), memory_mb=1536, accelerator=COUNTED):
+def covered(folders):
+    """Those of the folders that the guest's own /tmp, /run and /var/tmp would hide, outermost first."""
+    below = [folder for folder in sorted(set(map(str, folders))) if re.match(r"/(tmp|run|var/tmp)/", folder)]
+    return [folder for folder in below if not any(folder.startswith(f"{outer}/") for outer in below)]
+
+
+def boot(share, command, limit_s, append="", devices=(), memory_mb=1536, accelerator=COUNTED, visible=()):
     """Runs `command` (a shell line) as root in a fresh guest; returns its exit status. `share` is
     /hostshare inside: overlay/ is laid over the root first; console.log and what the guest writes
-    stay there; `devices` are further words for QEMU. None: the guest did not reach its end within limit_s
-    (console.log tells)."""
+    stay there; `devices` are further words for QEMU; `visible` are folders of the host that the guest must see,
+    wherever they lie. None: the guest did not reach its end within limit_s (console.log tells)."""
     build()
     lay_secrets(share)
+    (share / "visible_folders").write_text("".join(f"{folder}\n" for folder in covered(visible)))
     shutil.copy(HERE / "guest-init", share)
     (share / "guest-init").chmod(0o755)
     (share / "command.sh").write_text(
@@ -131,7 +140,7 @@ def boot(share, command, limit_s, append="", devices=(), memory_mb=1536, acceler
     )
     words = ["qemu-system-x86_64", *accelerator, "-M", "q35",
              "-m", str(memory_mb), "-nodefaults", "-no-reboot", "-display", "none",
-             "-serial", f"file:{share}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
+             "-serial", "chardev:console", "-chardev", f"file,id=console,path={str(share).replace(',', ',,')}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
              "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),
              *folder_words("hostroot", "/", True), *folder_words("share", share, False),
              *folder_words("modules", RIG / "unpacked/lib/modules", True),

@@ -1,8 +1,8 @@
-"""Lays the installed tree and a systemd target for the checks over the guest's root."""
+"""Lays the tree of the packages and a systemd target for the checks over the guest's root."""
 
-import os
 import shutil
 import subprocess
+from pathlib import Path
 
 # The target is all that this computer starts: sysinit (udev, journal, sysusers, tmpfiles), then the
 # checks. What else the host has enabled stays out.
@@ -25,14 +25,16 @@ MASKED = ("timers.target", "paths.target", "sockets.target", "systemd-timesyncd.
 
 
 def lay(share, programs):
-    """Installs the build whose programs these are; returns the words for the kernel's command line."""
+    """Unpacks the packages that were made of these programs; returns the words for the kernel's command line."""
     overlay = share / "overlay"
     overlay.mkdir()
-    build = os.path.dirname(os.path.abspath(programs))
-    done = subprocess.run(["cmake", "--install", build, "--prefix", "/usr"], env={**os.environ, "DESTDIR": str(overlay)},
-                          capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"cmake --install: {done.stdout}{done.stderr}")
+    packages = sorted((Path(programs).resolve().parent / "packages").glob("axiscal*.deb"))
+    if not packages:
+        raise RuntimeError("no packages were made of this build: ctest -R Package.AreMade")
+    for package in packages:
+        done = subprocess.run(["dpkg-deb", "-x", package, overlay], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise RuntimeError(f"{package}: {done.stdout}{done.stderr}")
     if (overlay / "lib").exists():  # Debian's /lib is a link to /usr/lib
         shutil.copytree(overlay / "lib", overlay / "usr/lib", dirs_exist_ok=True)
         shutil.rmtree(overlay / "lib")

@@ -27,7 +27,7 @@ struct Steps {
     std::atomic<std::int64_t> first_program;
     std::atomic<std::uint64_t> met; ///< steps like kill_what
     char folder[longest_path];      ///< real path; steps elsewhere are not counted
-    char kill_what[words];          ///< "pwrite x.axiscal-wal", each digit a 0
+    char kill_what[words];          ///< "pwrite x.axiscal-wal", each digit a 0; empty: any step
     char log[most_logged][words];
 };
 

@@ -199,7 +199,7 @@ def door(b):
     meter = Meter(b.folder / "meter")
     b.environment = {
         "AXISCAL_LOOP_METER": str(meter.path),
-        "LD_PRELOAD": os.environ["AXISCAL_METER"],
+        "LD_PRELOAD": b.preloadable(os.environ["AXISCAL_METER"]),
         "ASAN_OPTIONS": "verify_asan_link_order=0",
     }
     b.begin_run()
@@ -241,6 +241,107 @@ def door(b):
     expect(b.run()["step"] == b.run()["steps"] == 50, f"{b.run()}")
     rows = certificate["run"]["deviations"]
     expect([len(row) for row in rows["forward"] + rows["backward"]] == [5] * 10, f"{rows}")
+
+
+# Heads that a daemon must answer or hang up on; none of them may move a thing.
+HEADS = [
+    b"GET /v1/status HTTP/1.1\r\nHost: \xff\r\n\r\n",
+    b"GET /v1/status HTTP/1.1\r\nHost: localhost\r\nOrigin: http://\xff\r\n\r\n",
+    b"GET /v1/status HTTP/1.1\r\nHost: \xed\xa0\x80\xf4\x90\r\n\r\n",
+    b"GET /v1/stream?points=\xff HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    b"GET /v1/\xff HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    b"POST /v1/run/abort HTTP/1.1\r\nHost: localhost\r\nContent-Length: 2\r\n\r\n{}",
+    b"POST /v1/run/abort HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer \xff\r\nContent-Length: 2\r\n\r\n{}",
+    b"POST /v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99999999999999\r\n\r\n",
+    b"POST /v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\nfffffffffffffffff\r\n",
+    b"DELETE / HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",  # a TLS client
+    b"GET /v1/status HTTP/1.1\r\n" + b"X: y\r\n" * 4000 + b"\r\n",
+    b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n",
+    b"\r\n\r\n",
+    b"\x00" * 300,
+]
+
+
+class RudeReader:
+    """One client of the console; as Rude, a blunder a turn."""
+
+    def __init__(self, port, kind, dice):
+        self.port, self.kind, self.dice = port, kind, dice
+        self.wire, self.blunders, self.next_at = None, 0, 0.0
+
+    def turn(self, now):
+        if now < self.next_at:
+            return
+        if self.wire is None:
+            self.wire = socket.socket()
+            self.wire.setblocking(False)
+            self.wire.connect_ex(("127.0.0.1", self.port))
+            self.next_at = now + 0.01
+            return
+        getattr(self, self.kind)(now)
+
+    def say(self, data):
+        try:
+            self.wire.send(data)
+            while self.wire.recv(1 << 16):
+                pass
+        except OSError:
+            pass
+
+    def leave(self):
+        if self.wire is not None:
+            self.wire.close()
+        self.wire = None
+
+    def head(self, now):
+        self.say(self.dice.choice(HEADS))
+        self.blunders += 1
+        self.next_at = now + 0.02
+        if self.dice.random() < 0.5:
+            self.leave()
+
+    def noise(self, now):
+        self.say(self.dice.choice([b"", b"GET /v1/status HTTP/1.1\r\nHost: "]) + self.dice.randbytes(self.dice.randint(1, 900)))
+        self.blunders += 1
+        self.next_at = now + 0.02
+        self.leave()
+
+    def loris(self, now):
+        self.say(b"G")
+        self.next_at = now + 0.4
+
+    def idle(self, now):
+        self.next_at = now + 0.5
+        self.say(b"")
+
+
+@sentence("ConsoleUnderAbuseLosesNoRequestOfTheTechnicianAndNoPoint")
+def console(b):
+    b.station["console"]["port"] = bench.free_port()
+    b.begin_run()
+    pid = b.processes["axiscald"].pid
+    before = open_files(pid)
+    dice = random.Random(20261121)
+    kinds = ["head"] * 15 + ["noise"] * 10 + ["loris"] * 10 + ["idle"] * 70  # more than the door takes
+    crowd = [RudeReader(b.station["console"]["port"], kind, random.Random(dice.random())) for kind in kinds]
+    for one in crowd[25:]:  # first those that only sit there
+        one.turn(time.monotonic())
+    asked = 0
+    while b.run()["state"] != "complete":  # each turn a request of the technician, over the socket
+        expect(b.run()["sentence"] == "", b.run()["sentence"])
+        for one in crowd:
+            one.turn(time.monotonic())
+        asked += 1
+    blunders = sum(one.blunders for one in crowd)
+    expect(blunders > 100, f"{blunders} blunders in {asked} turns")
+    for one in crowd:
+        one.leave()
+    bench.wait_until("the crowd is gone", lambda: open_files(pid) <= before, 40)
+    certificate = b.finish()
+    expect(b.run()["step"] == b.run()["steps"] == 20, f"{b.run()}")
+    expect(len(certificate["positions"]) == 5, "the figures")
+    print(f"{blunders} blunders, {asked} turns of the technician")
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ def live(b):
     ours, theirs = pty.openpty()
     shown = subprocess.Popen(
         [b.program("axiscal"), "align", "--spot-offset", "0.8"],
-        env={**os.environ, "AXISCAL_SOCKET": b.socket},
+        env={**os.environ, "AXISCAL_SOCKET": b.socket, "TERM": "xterm"},
         stdin=theirs, stdout=theirs, stderr=theirs,
     )
     os.close(theirs)

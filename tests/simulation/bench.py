@@ -185,6 +185,13 @@ class Bench:
         expect(found, f"{name} is not in {os.environ['AXISCAL_PATH']}")
         return found
 
+    def preloadable(self, library):
+        """A name of the library that LD_PRELOAD takes: a space in it, as in that of a checkout, would divide it in two."""
+        link = self.folder / Path(library).name
+        link.unlink(missing_ok=True)
+        link.symlink_to(library)
+        return str(link)
+
     def log_file(self, name):
         """Where the next program writes what it says."""
         return self.folder / f"{name}.{len(self.logs)}.log"

@@ -51,6 +51,17 @@ def checks(b):
         door.close()
 
 
+class NoCertificate(AssertionError):
+    """The station says why."""
+
+
+def written(b):
+    refused = [note for note in b.status()["notes"] if "No certificate for run" in note]
+    if refused:
+        raise NoCertificate(refused[-1])
+    return b.run()["certificate"]
+
+
 def measure(b, meanwhile=lambda b: None, before=lambda b: None):
     """Drives every circle of the plan, `before` happening with the machine at rest beside the first, `meanwhile`
     after arming; gives back the certificate."""
@@ -75,7 +86,7 @@ def measure(b, meanwhile=lambda b: None, before=lambda b: None):
 
     wait_until("every circle was driven", ended, 90)
     expect(b.run()["step"] == program["circles"], f"{b.run()}")
-    wait_until("the certificate is written", lambda: b.run()["certificate"], 240)
+    wait_until("the certificate is written", lambda: written(b), 240)
     certificate = b.certificate()
     again = json.loads(b.axiscal("analyze", b.run()["file"]))  # next year's recomputation
     expect(again["diagnosis"] == certificate["diagnosis"], "analyze finds what the certificate says")
@@ -271,10 +282,21 @@ def shown_stream(b, points):
         door.close()
 
 
+def records_thrown_away(b, before):
+    """By the simulator, since its status `before`: how many, whether or not they were the run's."""
+    now = b.sim("status")["ballbar"]
+    count = now["records_dropped"] - before["records_dropped"]
+    if now["dropped"] > before["dropped"]:
+        print(f"the simulator threw {count} records away: this computer is too busy to judge figures")
+    return count
+
+
 @sentence("LaserAt50KilohertzIsStoredSampleForSampleInFewBytes")
 def fifty_kilohertz(b):
     """The bar's counter is a laser at 50 kHz that once counts records and does not send them. A record of so
-    few (1 ms, 0.1 mm of path) may be missing anywhere, at the feed-in, too."""
+    few (1 ms, 0.1 mm of path) may be missing anywhere, at the feed-in, too. On a busy computer a pty of 8 kB does
+    not carry 50 kHz, and the simulator, which keeps 3 s of it, throws records away. It counts that: then the figures
+    are not judged, but that the station has marked the result."""
     with_ballbar(b, overshoot="90 deg")
     b.scenario["ballbar"]["rate_hz"] = float(LASER_HZ)
     armed = {}
@@ -283,9 +305,14 @@ def fifty_kilohertz(b):
         armed.update(b.sim("status")["ballbar"])
         b.sim(f"skip-bar {LEFT_OUT}")
 
-    answer = measure(b, leave_out)
-    expect_hidden(answer)
+    try:
+        answer = measure(b, leave_out)
+    except NoCertificate as refusal:
+        thrown_away = records_thrown_away(b, armed)
+        expect(thrown_away > 0 and "no sample may be missing" in str(refusal), f"{thrown_away} were: {refusal}")
+        return
     sent = b.sim("status")["ballbar"]
+    thrown_away = records_thrown_away(b, armed)
     path = b.run()["file"]
     blocks = rows(path, "SELECT block, first_count, samples, missing, before, begin_ns, end_ns, low, high"
                         " FROM stream_block ORDER BY block")
@@ -301,12 +328,19 @@ def fifty_kilohertz(b):
     expect(stored == last - first + 1 - missing, f"{stored} of {first}..{last}, {missing} missing")
     expect(any(one["before"] == "gap" and one["missing"] >= LEFT_OUT for one in blocks),
            f"what was left out is no gap: {missing}")
+    told = [one for one in answer["run"]["remarks"] if one.startswith(f"{missing} readings are missing in the stream")]
+    expect(len(told) == 1, f"{missing} are missing: {answer['run']['remarks']}")
+    if thrown_away:
+        return
+    expect(missing == LEFT_OUT, f"{missing} are missing, {LEFT_OUT} were left out: the station lost the others")
+    expect_hidden(answer)
     # Record k belongs to the instant k / rate of the same clock. The daemon knows it from arrivals alone: a
     # millisecond of frames at either end, and what a busy computer adds.
     span_s = (blocks[-1]["end_ns"] - blocks[0]["begin_ns"]) * 1e-9
     expect(abs(span_s - (last - first) / LASER_HZ) < 0.005, f"{span_s} s for {last - first} periods")
     nominal = rows(path, "SELECT nominal_rate_hz FROM stream")[0]["nominal_rate_hz"]
-    expect(abs(nominal / LASER_HZ - 1) < 0.5, f"{nominal} Hz seen before arming, by arrivals alone")
+    if armed["latest_s"] < 0.1:  # else records did not arrive as they were counted
+        expect(abs(nominal / LASER_HZ - 1) < 0.5, f"{nominal} Hz seen before arming, by arrivals alone")
     rate = answer["run"]["capture"]["sample_rate_hz"]
     expect(rate == LASER_HZ, f"{rate} Hz over the run")
     size = os.path.getsize(path)  # with everything else that is in it

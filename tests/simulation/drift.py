@@ -1,7 +1,10 @@
 """A drift test of a machine that creeps, and the budget of the run after it."""
 
+import contextlib
 import csv
 import json
+import math
+import sqlite3
 from pathlib import Path
 
 import bench
@@ -11,15 +14,27 @@ CREEP_UM_PER_H = 600.0  # of the axis at rest; the station is not told
 DURATION_S, INTERVAL_S = 12.0, 0.5
 
 
-def expect_every_channel(found, shown, truth_um):
+def recorded_ranges(file):
+    """{(instrument, channel): largest - smallest} of what the run file holds, as stored."""
+    with contextlib.closing(sqlite3.connect(f"file:{file}?mode=ro", uri=True)) as base:
+        return {(instrument, name): range_ for instrument, name, range_ in base.execute(
+            "SELECT instrument, name, max(value) - min(value) FROM environment"
+            " JOIN channel ON channel.id = environment.channel GROUP BY channel.id")}
+
+
+def expect_every_channel(found, shown, truth_um, file):
     """Whatever the station shows is told, with a range, a slope and, of a length, its E_VE."""
+    recorded = recorded_ranges(file)
     told = {(one["instrument"], one["channel"]): one for one in found["channels"]}
     expect(set(told) == {(one["instrument"], one["name"]) for one in shown}, f"{sorted(told)}")
     for one in shown:
         channel = told[one["instrument"], one["name"]]
         if one["value"] is None:
             continue
-        expect(channel["readings"] > 0 and channel["range"]["value"] >= 0, f"{channel}")
+        expect(channel["readings"] > 0, f"{channel}")
+        scale = {"um": 1e6, "mm": 1e3}.get(channel["unit"], 1)  # lengths are stored in metres
+        wanted = recorded[one["instrument"], one["name"]] * scale
+        expect(math.isclose(channel["range"]["value"], wanted, rel_tol=1e-6, abs_tol=1e-9), f"{wanted}: {channel}")
         expect(channel["readings"] < 2 or channel["slope_per_h"] is not None, f"{channel}")
         expect(("E_VE" in channel) == (channel["quantity"] == "displacement"), f"{channel}")
     laser = told["laser", "axis 1"]
@@ -53,7 +68,7 @@ def drift(b):
     expect(abs(eve - truth) < 0.1, f"E_VE {eve} um, the axis crept {truth} um")
     expect(found["test"]["readings"] == DURATION_S / INTERVAL_S, f"{found['test']}")
     expect(found["run"]["statements"]["operator"] == "Shift 2", f"{found['run']['statements']}")
-    expect_every_channel(found, b.status()["channels"], truth)
+    expect_every_channel(found, b.status()["channels"], truth, ended["file"])
     expect(found["budget"]["takes"] == "E_VE" and "channels" in found["budget"]["informative"],
            f"{found['budget']}")
     expect((folder / "certificate.pdf").read_bytes().startswith(b"%PDF-"), "there is no PDF")

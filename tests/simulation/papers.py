@@ -3,7 +3,10 @@
 import hashlib
 import json
 import shutil
+import sqlite3
 import subprocess
+import sys
+from contextlib import closing
 from pathlib import Path
 
 import bench
@@ -70,6 +73,37 @@ def published(b):
     expect(publish(b) == [], "nothing is left to publish")
     expect(digests(b.share / run_id) == copied, "the second pass changed the copy")
     expect(not list(b.share.glob(".*")), "temporary files are left on the share")
+
+
+@sentence("RunRewrittenWholeIsToldByItsSignatureAndItsReceipt")
+def rewritten(b):
+    b.begin_run()
+    b.finish()
+    run_id, run_file = b.run()["id"], b.run()["file"]
+    publish(b)
+    state = Path(run_file).parent.parent
+    proofs = ["--public-key", state / "public-keys.pem", "--receipt", state / "published" / run_id / "receipt.json"]
+
+    def judged(path, code):
+        done = subprocess.run([b.program("axiscal"), "verify", path, "--json", *proofs], capture_output=True,
+                              text=True, timeout=60, check=False)
+        expect(done.returncode == code, f"exit {done.returncode}: {done.stdout}{done.stderr}")
+        told = json.loads(done.stdout)
+        return told["signature"], told["anchor"]
+
+    expect((state / "signing.key").stat().st_mode & 0o777 == 0o600, "the key is its owner's alone")
+    expect(judged(run_file, 0) == ("good", "match"), "the run as it was closed")
+    expect(judged(state / "published" / run_id / Path(run_file).name, 0) == ("good", "match"), "and as published")
+
+    sys.path.insert(0, str(Path(__file__).parent.parent / "cli"))
+    import run_files  # the chain a second time, from the page alone
+
+    forged = shutil.copy(run_file, b.folder / "forged.axiscal")
+    with closing(sqlite3.connect(forged)) as base, base:
+        base.execute("UPDATE point SET reading_m=reading_m+0.000001 WHERE step=3")
+        base.execute("DELETE FROM result")
+        run_files.chain_anew(base)
+    expect(judged(forged, 8) == ("bad", "differs"), "a chain that fits, around another reading")
 
 
 @sentence("ShareThatIsAwayKeepsTheResultWaiting")

@@ -2,8 +2,10 @@
 
 import contextlib
 import json
+import os
 import signal
 import sqlite3
+import subprocess
 from pathlib import Path
 
 import bench
@@ -27,7 +29,7 @@ def after_the_run(b):
     b.begin_run()
     first = b.finish()
     first_folder = Path(b.run()["certificate"])
-    order = take_again(b, "--target", 2, "--cycle", 1, "--reason", "coolant on the mirror")
+    order = take_again(b, "--target", 2, "--cycle", 1, "--reason", "coolant on the mirror", "--by", "Jo Miller")
     expect(len(order["points"]) == 2 and order["last_request"] == 20, f"{order}")
     second = b.finish()
     run = b.run()
@@ -43,8 +45,18 @@ def after_the_run(b):
     expect(len(told) == 1 and "P2 ↑ 1" in told[0], f"{second['run']['remarks']}")
     expect(Path(run["certificate"]).name.endswith("-r2"), run["certificate"])
     expect((first_folder / "certificate.pdf").exists(), "the first certificate is not touched")
+    numbers = [one["certificate"]["number"] for one in (first, second)]
+    expect(numbers[0].endswith("-0001") and numbers[1].endswith("-0002"), f"one number a paper: {numbers}")
+    expect(first["certificate"]["replaces"] is None, f"{first['certificate']}")
+    expect(second["certificate"]["replaces"] == numbers[0], f"{second['certificate']}")
+    drawn = subprocess.run(["pdftotext", "-layout", Path(run["certificate"]) / "certificate.pdf", "-"],
+                           capture_output=True, text=True, timeout=60, check=True).stdout
+    expect(f"Certificate No. {numbers[1]}, replaces {numbers[0]}" in drawn, drawn[:600])
+    orders = [(one["order"], one["about"], one["uid"], one["by"]) for one in second["run"]["orders"]]
+    expect(orders == [("arm", None, os.getuid(), None), ("retake", "1", os.getuid(), "Jo Miller")], f"{orders}")
     csv = (Path(run["certificate"]) / "certificate.csv").read_text()
     expect(csv.count("# superseded") == 2, csv[:2000])
+    expect(f"# replaces,{numbers[0]}" in csv and f"# certificate_number,{numbers[1]}" in csv, csv[:600])
     checked = json.loads(b.axiscal("verify", "--json", run["file"]))
     expect(checked["intact"], f"{checked['findings']}")
 
@@ -153,7 +165,7 @@ def preflight(b):
     told = " ".join(certificate["run"]["remarks"])
     for words in ("a test", "the new one is on its way", "2020-01-01"):
         expect(words in told, f"'{words}' is not said: {told}")
-    expect(len(certificate["run"]["preflight"]) == 10, f"{certificate['run']['preflight']}")
+    expect(len(certificate["run"]["preflight"]) == 11, f"{certificate['run']['preflight']}")
 
 
 if __name__ == "__main__":

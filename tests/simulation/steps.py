@@ -21,19 +21,22 @@ def label_of(step):
 class Steps:
     """One file shared with every program that loads the library."""
 
-    FIELDS = ["count", "kill_at", "tear", "fail_error", "fail_kinds", "failed", "first_program"]
+    FIELDS = ["count", "kill_at", "tear", "fail_error", "fail_kinds", "failed", "first_program", "met"]
 
     def __init__(self, bench):
         path = bench.folder / "steps"
         path.write_bytes(bytes(HEAD.size + WORDS * LOGGED))
         with open(path, "r+b") as file:
             self.memory = mmap.mmap(file.fileno(), 0)
-        folder = os.path.realpath(bench.station["station"]["state_directory"])
-        self.memory[64 : 64 + len(folder)] = folder.encode()
-        library = os.path.join(os.environ["AXISCAL_PATH"], "write_steps.so")
+        self.watch(bench.station["station"]["state_directory"])
+        library = bench.preloadable(os.path.join(os.environ["AXISCAL_PATH"], "write_steps.so"))
         bench.environment.update(LD_PRELOAD=library, AXISCAL_STEPS=str(path))
         # The sanitizers want to be the first library; they need not be.
         bench.environment["ASAN_OPTIONS"] = "verify_asan_link_order=0"
+
+    def watch(self, folder):
+        """Steps in this folder count, elsewhere they do not."""
+        self.memory[64 : 64 + 256] = os.path.realpath(folder).encode().ljust(256, b"\0")
 
     def __getitem__(self, field):
         return struct.unpack_from("<Q", self.memory, 8 * self.FIELDS.index(field))[0]
@@ -47,10 +50,13 @@ class Steps:
         self["fail_error"] = error
 
     def kill_before(self, label, nth, tear):
-        """The nth step with this label (see label_of) is not done any more, or by half."""
+        """The nth step from now on with this label (see label_of; empty: any) is not done any more, or by half.
+        0: none is."""
         at = struct.calcsize("<8Q256s")
-        self.memory[at : at + len(label)] = label.encode()
-        self["kill_at"], self["tear"] = nth, tear
+        self["kill_at"] = 0
+        self.memory[at : at + WORDS] = label.encode().ljust(WORDS, b"\0")
+        self["met"], self["tear"] = 0, tear
+        self["kill_at"] = nth
 
     def log(self):
         """What each step was: ("pwrite", "x.axiscal-wal", 4096)."""

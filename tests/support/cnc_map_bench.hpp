@@ -13,6 +13,7 @@ namespace axiscal::testing {
 template <class Map> class MapBench : public Map {
 public:
     using Map::finish;
+    using Map::finish_skip;
     using Map::Map;
 
     MapNews write_word(int address, std::uint16_t value, MonotonicTime at = {}) {

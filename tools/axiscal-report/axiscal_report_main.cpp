@@ -7,11 +7,14 @@
 
 #include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/journal/signing_key.hpp"
 #include "acquisition/publish/circular_run_file.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
 #include "acquisition/publish/run_certificate.hpp"
+#include "config/version.hpp"
 #include "tools/axiscal/circular_case_certificate.hpp"
+#include "tools/describe/describe.hpp"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -30,23 +33,32 @@ struct Options {
     std::string to; ///< any folder; both get <run-id>/ in one rename
 };
 
+/// The first evaluation is the station's own report, numbered and signed with what lies beside its
+/// outbox; an export changes nothing.
+Result<void> seal(const Options& options, const RunSummary& run) {
+    if (!options.to.empty()) return {};
+    const std::filesystem::path outbox = std::filesystem::absolute(options.outbox);
+    const auto state = (outbox / "").lexically_normal().parent_path().parent_path();
+    AXISCAL_TRY(const auto key, read_station_key(state.string(), read_machine_id()));
+    if (run.drift) return seal_drift(options.run_file, key.get());
+    if (run.probing) return seal_probing(options.run_file, key.get());
+    return seal_result(options.run_file, {key.get(), state.string()});
+}
+
 Result<void> draw_drift(const Options& options, const std::string& folder) {
-    if (options.to.empty()) AXISCAL_CHECK(seal_drift(options.run_file));
     AXISCAL_TRY(const DriftDocument document, drift_of_run_file(options.run_file));
     return write_drift_files(document, options.run_file, folder);
 }
 
 Result<void> draw_probing(const Options& options, const std::string& folder) {
-    if (options.to.empty()) AXISCAL_CHECK(seal_probing(options.run_file));
     AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(options.run_file));
     return write_probing_files(document, options.run_file, folder);
 }
 
-/// The first evaluation is the station's own report; an export changes nothing.
 Result<void> draw(const Options& options, const RunSummary& run, const std::string& folder) {
+    AXISCAL_CHECK(seal(options, run));
     if (run.drift) return draw_drift(options, folder);
     if (run.probing) return draw_probing(options, folder);
-    if (options.to.empty()) AXISCAL_CHECK(seal_result(options.run_file));
     AXISCAL_TRY(const bool circular, is_circular_run(options.run_file));
     if (circular) {
         AXISCAL_TRY(const CircularCertificate certificate,
@@ -110,7 +122,7 @@ std::string paths_line(const std::string& entry, const std::string& run_file, bo
     line["pdf"] = entry + "/" + certificate_pdf_name;
     line[of_case ? "case" : "run_file"] =
         entry + "/" + std::filesystem::path(run_file).filename().string();
-    return line.dump();
+    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 bool is_refusal(Fault fault) {
@@ -145,7 +157,8 @@ int run(int argc, char** argv) {
     places->add_option("--outbox", options.outbox, "the station's outbox");
     places->add_option("--to", options.to, "any folder");
     places->require_option(1);
-    app.set_version_flag("--version", AXISCAL_VERSION);
+    app.set_version_flag("--version", software_version());
+    describe_on_request(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -2,6 +2,7 @@
 
 #include "control_socket.hpp"
 #include "simulator.hpp"
+#include "tools/describe/describe.hpp"
 #include "truth.hpp"
 #include "wire/can/can_bus.hpp"
 #include "wire/usb/usb_hub.hpp"
@@ -159,7 +160,10 @@ int run(int argc, char** argv) {
     sigaction(SIGINT, &action, nullptr);
 
     Options options;
-    CLI::App app{"A machine with hidden errors, its instruments on the wire and its CNC."};
+    CLI::App app{"A machine with hidden errors, its instruments on the wire and its CNC.",
+                 "axiscal-simulate"};
+    app.set_version_flag("--version", AXISCAL_VERSION);
+    describe_on_request(app);
     app.add_option("--scenario", options.scenario, "scenario file, .toml or .json");
     app.add_option("--program", options.program, "part program (.gcode: Marlin, else LinuxCNC)");
     app.add_option("--truth", options.truth, "write the hidden truth of the program here");

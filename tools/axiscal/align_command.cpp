@@ -1,14 +1,15 @@
 #include "tools/axiscal/align_command.hpp"
 
+#include "config/json_text.hpp"
 #include "tools/axiscal/daemon_reply.hpp"
 #include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/terminal/terminal.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <optional>
 #include <poll.h>
-#include <unistd.h>
 
 namespace axiscal {
 namespace {
@@ -31,7 +32,9 @@ class AlignmentFrames {
 public:
     explicit AlignmentFrames(bool json)
         : json_{json}
-        , screen_{!json && ::isatty(STDOUT_FILENO) != 0} {}
+        , screen_{!json && output_is_screen()} {
+        if (!json && !screen_) std::cout << hint << std::flush;
+    }
     void show(const Reply& reply) {
         if (json_) {
             std::cout << reply.body << std::flush;
@@ -39,13 +42,14 @@ public:
         }
         const std::string text = alignment_text(Json::parse(reply.body));
         if (screen_)
-            std::cout << "\x1b[H\x1b[2J" << text << "Enter keeps this, q and Enter drops it.\n";
+            std::cout << new_screen << text << hint;
         else if (const std::string first = text.substr(0, text.find('\n')); first != last_)
             std::cout << (last_ = first) << "\n";
         std::cout << std::flush;
     }
 
 private:
+    static constexpr const char* hint = "Enter keeps this, q and Enter drops it.\n";
     bool json_, screen_;
     std::string last_;
 };
@@ -55,7 +59,7 @@ Result<Reply> order(const StationClient& client,
                     std::optional<double> spot_offset_mm = {}) {
     Json body{{"action", action}};
     if (spot_offset_mm) body["spot_offset_mm"] = *spot_offset_mm;
-    return client.post("/v1/alignment", body.dump());
+    return client.post("/v1/alignment", json_text(body));
 }
 
 int print(const Result<Reply>& reply, bool json) {

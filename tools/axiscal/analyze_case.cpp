@@ -1,5 +1,6 @@
 #include "tools/axiscal/analyze_case.hpp"
 
+#include "config/json_text.hpp"
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
@@ -79,7 +80,7 @@ CaseAnswer answer_array(const CaseText& text) {
         answer.error_line += " (" + std::to_string(refused) + " of " +
                              std::to_string(text.document.size()) + " cases refused)";
     }
-    answer.output = results.dump(2) + "\n";
+    answer.output = json_text(results, 2) + "\n";
     return answer;
 }
 

@@ -1,5 +1,7 @@
 #include "tools/axiscal/case_text.hpp"
 
+#include "analysis/quantity/text_encoding.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -166,6 +168,9 @@ Result<CaseText> read_case_text(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     Builder builder;
     if (json::sax_parse(text, &builder)) return builder.take();
+    if (const auto wrong = wrong_encoding(text))
+        return refuse(Fault::bad_case, "json",
+                      "line " + std::to_string(wrong->line) + ": " + wrong->reason);
     // the second reading marks what is no JSON number and finds the reason of a refusal
     AXISCAL_TRY(const std::string marked, mark_not_finite(text));
     Builder again;

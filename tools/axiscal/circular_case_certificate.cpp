@@ -2,6 +2,8 @@
 
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/publish/result_digest.hpp"
+#include "analysis/quantity/valid_text.hpp"
+#include "config/version.hpp"
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/circular_input.hpp"
@@ -18,18 +20,6 @@ Result<std::string> whole_file(const std::string& path) {
     std::ifstream file{path, std::ios::binary};
     if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
     return std::string{std::istreambuf_iterator<char>{file}, {}};
-}
-
-/// A folder's name: never empty, never beginning with a dot.
-std::string folder_name(const std::string& words) {
-    constexpr std::string_view allowed =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
-    constexpr std::size_t longest = 100;
-    std::string name = words.substr(0, longest);
-    for (char& c : name)
-        if (allowed.find(c) == std::string_view::npos) c = '-';
-    if (name.empty() || name.front() == '.') name.insert(0, "case-");
-    return name;
 }
 
 Result<CircularInput> input_of(const std::string& text) {
@@ -56,8 +46,9 @@ Result<CircularCertificate> circular_certificate_of_case(const std::string& case
     CircularMeasurement measured = measurement_of(std::move(input));
     const std::string& id = measured.run.run_id;
     measured.run.run_id =
-        folder_name(id.empty() ? std::filesystem::path(case_file).stem().string() : id);
-    measured.run.software_version = AXISCAL_VERSION;
+        id_of_name(id.empty() ? std::filesystem::path(case_file).stem().string() : id, "case",
+                   longest_run_id);
+    measured.run.software_version = software_version();
     AXISCAL_TRY(CircularCertificate certificate,
                 evaluate_measurement(std::move(measured), std::move(sha256)));
     certificate.result_digest = result_digest(certificate.parameters);

@@ -1,5 +1,7 @@
 #include "tools/axiscal/conformance.hpp"
 
+#include "config/json_text.hpp"
+#include "config/version.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/conformance/foreign_program.hpp"
 #include "tools/axiscal/conformance/kit.hpp"
@@ -22,7 +24,7 @@ Result<std::string> answer_of(const ConformanceOrder& order, const std::string& 
 }
 
 CaseVerdict verdict_of(const ConformanceOrder& order, const ConformanceCase& asked) {
-    const auto answer = answer_of(order, asked.input.dump() + "\n");
+    const auto answer = answer_of(order, json_text(asked.input) + "\n");
     return answer ? judge_answer(asked, *answer) : judge_silence(asked, answer.error().detail);
 }
 
@@ -52,8 +54,10 @@ int command_conformance(const ConformanceOrder& order, bool json) {
         if (!json) std::cout << text_of_verdict(verdicts.back(), order.brief) << std::flush;
     }
     const Tally tally = tally_of(verdicts);
-    const std::string program = order.command.empty() ? "axiscal " AXISCAL_VERSION : order.command;
-    std::cout << (json ? json_of_verdicts(verdicts, program).dump(2) + "\n" : text_of_tally(tally));
+    const std::string program =
+        order.command.empty() ? std::string{"axiscal "} + software_version() : order.command;
+    std::cout << (json ? json_text(json_of_verdicts(verdicts, program), 2) + "\n"
+                       : text_of_tally(tally));
     return tally.all_agree() ? exit_ok : exit_disagrees;
 }
 

@@ -1,7 +1,10 @@
 #include "tools/axiscal/daemon_commands.hpp"
 
+#include "analysis/quantity/counted.hpp"
+#include "config/json_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/status_text.hpp"
+#include "tools/axiscal/terminal/terminal.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +14,6 @@
 #include <fstream>
 #include <iostream>
 #include <thread>
-#include <unistd.h>
 #include <utility>
 
 namespace axiscal {
@@ -105,13 +107,14 @@ public:
     Frames(bool json, bool until_published)
         : json_{json}
         , until_published_{until_published}
-        , screen_{!json && ::isatty(STDOUT_FILENO) != 0} {}
+        , screen_{!json && output_is_screen()}
+        , colour_{output_takes_colour()} {}
 
     void show(const std::string& body, const Json& status) {
         if (json_)
             std::cout << body;
         else if (screen_)
-            std::cout << "\x1b[H\x1b[2J" << status_text(status);
+            std::cout << new_screen + screen_text(status_parts(status), size_of_screen(), colour_);
         else if (const std::string news = news_of(status); news != std::exchange(last_, news))
             std::cout << progress_line(status) << "\n";
         std::cout << std::flush;
@@ -126,9 +129,9 @@ private:
     /// In a log a line is worth a new point or a new sentence.
     static std::string news_of(const Json& status) {
         const Json& run = status.at("run");
-        return run.is_null() ? "" : run.at("step").dump() + run.at("sentence").dump();
+        return run.is_null() ? "" : json_text(run.at("step")) + json_text(run.at("sentence"));
     }
-    bool json_, until_published_, screen_;
+    bool json_, until_published_, screen_, colour_;
     std::string last_;
 };
 
@@ -194,21 +197,23 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
               {"datum_by_cnc", order.datum_by_cnc},
               {"statements", order.statements}};
     if (!order.overrides.empty()) body["overrides"] = order.overrides;
+    if (!order.by.empty()) body["by"] = order.by;
     if (order.datum_mm) body["datum_mm"] = *order.datum_mm;
     if (!order.program.empty())
         if (const auto read = read_program_header(order.program, body); !read)
             return std::cerr << read.error().detail << "\n", exit_refused;
     if (order.seed) body["seed"] = *order.seed;
-    return ask(client.post("/v1/run", body.dump()), json, [](const Json& reply) {
+    return ask(client.post("/v1/run", json_text(body)), json, [](const Json& reply) {
         return "Armed: run " + reply.at("run").get<std::string>() +
-               ". Start the part program; 'axiscal watch' shows the progress.\n";
+               ". The part program that waits at its datum goes on by itself (start it now if it "
+               "was not started); 'axiscal watch' shows the progress.\n";
     });
 }
 
 int command_preflight(const StationClient& client, const ArmOrder& order, bool json) {
     const Json body{
         {"pass", order.pass}, {"statements", order.statements}, {"overrides", order.overrides}};
-    const auto reply = client.post("/v1/preflight", body.dump());
+    const auto reply = client.post("/v1/preflight", json_text(body));
     bool holds = true;
     const int code =
         ask(reply, json, [](const Json& answer) { return checks_text(answer.at("checks")); });
@@ -220,6 +225,7 @@ namespace {
 
 Json body_of(const RevisionOrder& order) {
     Json body{{"reason", order.reason}};
+    if (!order.by.empty()) body["by"] = order.by;
     if (order.target) body["target"] = *order.target - 1;
     if (order.cycle) body["cycle"] = *order.cycle - 1;
     if (!order.direction.empty())
@@ -240,13 +246,16 @@ std::string retake_text(const Json& answer) {
 } // namespace
 
 int command_retake(const StationClient& client, const RevisionOrder& order, bool json) {
-    return ask(client.post("/v1/run/retake", body_of(order).dump()), json, retake_text);
+    return ask(client.post("/v1/run/retake", json_text(body_of(order))), json, retake_text);
 }
 
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json) {
-    return ask(client.post("/v1/run/exclude", body_of(order).dump()), json, [](const Json& answer) {
-        return answer.at("excluded").dump() +
-               " readings are left out of every figure; they stay in the file and are drawn.\n";
+    return ask(client.post("/v1/run/exclude", json_text(body_of(order))), json, [](const Json& answer) {
+        const auto excluded = answer.at("excluded").get<long>();
+        return counted(excluded, "reading") +
+               (excluded == 1 ? " is left out of every figure; it stays in the file and is drawn.\n"
+                              : " are left out of every figure; they stay in the file and are "
+                                "drawn.\n");
     });
 }
 
@@ -258,13 +267,18 @@ int command_trigger(const StationClient& client, bool json) {
 
 int command_reading(const StationClient& client, double seconds_of_arc, bool json) {
     const Json body{{"arcsec", seconds_of_arc}};
-    return ask(client.post("/v1/run/reading", body.dump()), json,
+    return ask(client.post("/v1/run/reading", json_text(body)), json,
                [](const Json&) { return std::string{"The reading is taken.\n"}; });
 }
 
-int command_abort(const StationClient& client, const std::string& reason, bool json) {
-    const Json body = reason.empty() ? Json::object() : Json{{"reason", reason}};
-    return ask(client.post("/v1/run/abort", body.dump()), json, [](const Json&) {
+int command_abort(const StationClient& client,
+                  const std::string& reason,
+                  const std::string& by,
+                  bool json) {
+    Json body = Json::object();
+    if (!reason.empty()) body["reason"] = reason;
+    if (!by.empty()) body["by"] = by;
+    return ask(client.post("/v1/run/abort", json_text(body)), json, [](const Json&) {
         return std::string{"The run is closed as incomplete; its file is kept.\n"};
     });
 }

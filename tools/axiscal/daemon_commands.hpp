@@ -22,6 +22,7 @@ struct ArmOrder {
     std::string program; ///< file whose header names seed and pass
     bool datum_by_cnc = false;
     std::map<std::string, std::string> statements, overrides;
+    std::string by; ///< who orders; empty: the daemon knows the user alone
 };
 int command_arm(const StationClient& client, const ArmOrder& order, bool json);
 /// Every check before arming with its verdict; 4 when one of them fails.
@@ -30,13 +31,17 @@ int command_preflight(const StationClient& client, const ArmOrder& order, bool j
 struct RevisionOrder {
     std::optional<int> target, cycle; ///< counted from 1
     std::string direction;            ///< "up" | "down" | empty: both
-    std::string reason;
+    std::string reason, by;
 };
 int command_retake(const StationClient& client, const RevisionOrder& order, bool json);
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json);
 int command_trigger(const StationClient& client, bool json);
 /// What the autocollimator shows at the next face of the polygon.
 int command_reading(const StationClient& client, double seconds_of_arc, bool json);
-int command_abort(const StationClient& client, const std::string& reason, bool json);
+/// `by`: who orders it; may be empty, as `reason`.
+int command_abort(const StationClient& client,
+                  const std::string& reason,
+                  const std::string& by,
+                  bool json);
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #include "tools/axiscal/devices_command.hpp"
 
+#include "config/json_text.hpp"
 #include "drivers/registry.hpp"
 #include "tools/axiscal/devices_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
@@ -86,11 +87,10 @@ int command_devices(const StationClient& client, const DevicesRequest& request, 
     const FilePart file = read_file(request.station_file);
     const Json plugged = plugged_json(request, file.wires);
     if (json)
-        std::cout << Json{{"instruments", station.instruments},
-                          {"station", station.note},
-                          {"station_file", file.note},
-                          {"plugged", plugged}}
-                         .dump()
+        std::cout << json_text(Json{{"instruments", station.instruments},
+                                    {"station", station.note},
+                                    {"station_file", file.note},
+                                    {"plugged", plugged}})
                   << "\n";
     else
         print(station, file, plugged, !request.driver.empty());
@@ -101,7 +101,7 @@ int command_far_devices(const StationClient& client, bool json) {
     const StationPart station = ask_station(client);
     if (station.instruments.is_null()) return std::cerr << station.note << "\n", exit_no_contact;
     if (json)
-        std::cout << Json{{"instruments", station.instruments}, {"plugged", nullptr}}.dump()
+        std::cout << json_text(Json{{"instruments", station.instruments}, {"plugged", nullptr}})
                   << "\n";
     else
         std::cout << instruments_text(station.instruments);
@@ -116,7 +116,7 @@ int command_list_drivers(bool json) {
             std::printf("  %-12s %s\n", std::string{driver.name}.c_str(),
                         std::string{driver.summary}.c_str());
     }
-    if (json) std::cout << list.dump() << "\n";
+    if (json) std::cout << json_text(list) << "\n";
     return exit_ok;
 }
 

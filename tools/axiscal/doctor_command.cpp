@@ -1,5 +1,6 @@
 #include "tools/axiscal/doctor_command.hpp"
 
+#include "config/json_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <nlohmann/json.hpp>
@@ -126,9 +127,9 @@ int command_doctor(const DoctorRequest& request, bool json) {
                             {"area", finding.area},
                             {"what", finding.what},
                             {"mend", finding.mend}});
-        std::cout
-            << Json{{"findings", std::move(list)}, {"broken", broken}, {"notes", notes}}.dump()
-            << "\n";
+        std::cout << json_text(
+                         Json{{"findings", std::move(list)}, {"broken", broken}, {"notes", notes}})
+                  << "\n";
     } else {
         print(findings);
         std::printf("%s; %d to know\n",

@@ -1,5 +1,6 @@
 #include "tools/axiscal/drift_command.hpp"
 
+#include "config/json_text.hpp"
 #include "config/measure.hpp"
 #include "tools/axiscal/daemon_reply.hpp"
 #include "tools/axiscal/exit_code.hpp"
@@ -26,7 +27,7 @@ bool put_span(Json& body, const char* key, const std::string& words, const char*
 }
 
 int outcome_of(const Json& drift, bool json) {
-    if (json) std::cout << drift.dump() << "\n";
+    if (json) std::cout << json_text(drift) << "\n";
     const bool complete = drift.at("state") == "complete";
     const std::string certificate = drift.at("certificate"), sentence = drift.at("sentence");
     if (!json)
@@ -64,8 +65,9 @@ int command_drift(const StationClient& client, const DriftOrder& order, bool jso
         !put_span(body, "interval_s", order.interval, "--interval"))
         return exit_usage;
     if (!order.of.empty()) body["of"] = order.of;
+    if (!order.by.empty()) body["by"] = order.by;
     if (order.place_mm) body["place_mm"] = *order.place_mm;
-    const auto reply = client.post("/v1/drift", body.dump());
+    const auto reply = client.post("/v1/drift", json_text(body));
     if (!order.wait)
         return show_reply(reply, json, [](const Json& begun) {
             return "Drift test " + begun.at("run").get<std::string>() +

@@ -15,6 +15,7 @@ struct DriftOrder {
     std::optional<double> place_mm;
     bool wait = false; ///< until the test has ended and its certificate is written
     std::map<std::string, std::string> statements;
+    std::string by; ///< who orders it; may be empty
 };
 /// Exit: 0 begun, or complete with `wait`; 6 ended incomplete; 2 for a duration that is none.
 int command_drift(const StationClient& client, const DriftOrder& order, bool json);

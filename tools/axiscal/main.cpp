@@ -1,9 +1,12 @@
 // The command line. Each command is documented where its arguments are read: `axiscal COMMAND
 // --help`.
 #include "config/measure.hpp"
+#include "config/version.hpp"
 #include "tools/axiscal/arguments/options.hpp"
+#include "tools/describe/describe.hpp"
 
 #include <algorithm>
+#include <clocale>
 #include <iostream>
 
 namespace axiscal {
@@ -19,6 +22,7 @@ constexpr const char* footer = R"(A run, from start to certificate:
   axiscal preflight                                  is all as it must be? axiscal arm asks the same
   axiscal arm --program X-whole.ngc                  tie the reading there; the CNC goes on by itself
   axiscal watch                                      next target, reading, temperatures, time left
+  axiscal result                                     E, A, R, B, M, each with its uncertainty
 )";
 
 /// The first word is no command: says so, with the nearest one there is.
@@ -32,6 +36,25 @@ void hint_at_command(const CLI::App& app, const std::string& word) {
               << (near.empty() ? "" : "; did you mean '" + near + "'?") << "\n";
 }
 
+/// A word behind the command is none of its options: says so for the first, with the nearest.
+void hint_at_option(const CLI::App& app, const std::vector<std::string>& words) {
+    const auto commands = app.get_subcommands(
+        [&](const CLI::App* command) { return command->get_name() == words.front(); });
+    if (commands.empty()) return;
+    std::vector<std::string> known;
+    for (const CLI::Option* option : commands.front()->get_options())
+        for (const std::string& name : option->get_lnames())
+            known.push_back("--" + name);
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (!name.starts_with("--") || std::ranges::find(known, name) != known.end()) continue;
+        if (const std::string near = nearest_word(name, known); !near.empty())
+            std::cerr << "'" << name << "' is no option of axiscal " << words.front()
+                      << "; did you mean '" << near << "'?\n";
+        return;
+    }
+}
+
 int run(int argc, char** argv) {
     CLI::App app{"axiscal: calibrate a machine-tool axis, from the laser to the certificate",
                  "axiscal"};
@@ -41,7 +64,8 @@ int run(int argc, char** argv) {
           {exit_ok, exit_failed, exit_usage, exit_refused, exit_forbidden, exit_no_contact,
            exit_incomplete, exit_disagrees, exit_changed, exit_unwell});
     app.require_subcommand(1);
-    app.set_version_flag("--version", AXISCAL_VERSION);
+    app.set_version_flag("--version", software_version());
+    describe_on_request(app);
     add_run_commands(app, options, chosen);
     add_rest_commands(app, options, chosen);
     add_probing_commands(app, options, chosen);
@@ -53,7 +77,11 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (argc > 1 && argv[1][0] != '-') hint_at_command(app, argv[1]);
+        const std::vector<std::string> words{argv + 1, argv + argc};
+        if (!words.empty() && !words.front().starts_with('-')) {
+            hint_at_command(app, words.front());
+            hint_at_option(app, words);
+        }
         return app.exit(error) == 0 ? exit_ok : exit_usage;
     }
     return chosen();
@@ -63,6 +91,8 @@ int run(int argc, char** argv) {
 } // namespace axiscal
 
 int main(int argc, char** argv) {
+    // Columns of a letter (wcwidth) alone: numbers keep their decimal point. Part of the C library.
+    std::setlocale(LC_CTYPE, "C.UTF-8");
     try {
         return axiscal::run(argc, argv);
     } catch (const std::exception& bug) {

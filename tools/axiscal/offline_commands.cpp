@@ -13,13 +13,16 @@
 #include "acquisition/run/resume.hpp"
 #include "acquisition/run/retake_plan.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "analysis/quantity/counted.hpp"
 #include "config/certificate_dates.hpp"
+#include "config/json_text.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -96,7 +99,7 @@ int print_refusals(const std::vector<Refusal>& refusals, bool json) {
                         {"reason", refusal.reason}});
         if (!json) std::cerr << refusal.describe() << "\n";
     }
-    if (json) std::cout << Json{{"refusals", std::move(list)}}.dump() << "\n";
+    if (json) std::cout << json_text(Json{{"refusals", std::move(list)}}) << "\n";
     return exit_refused;
 }
 
@@ -107,11 +110,26 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     order.feed = config.cycle.feed;
     order.dwell = config.cycle.dwell;
     order.shape = config.trigger.shape;
-    order.answer_limit = config.capture.timeout + std::chrono::seconds{2};
+    order.answer_limit = config.trigger.cnc_timeout;
+    order.capture_timeout = config.capture.timeout;
     if (config.axis.angle) order.rotary = config.axis.angle->setup;
     if (order.shape == TriggerShape::dwell)
         order.least_halt = config.trigger.minimum_halt + config.capture.window;
     return order;
+}
+
+Result<void> write_file(const std::string& path, const std::string& text) {
+    std::ofstream file{path, std::ios::binary | std::ios::trunc};
+    if (file << text << std::flush) return {};
+    return fail(Fault::io, "cannot write " + path, {errno, std::generic_category()});
+}
+
+/// As `axiscal export` does: a folder that is named is wanted.
+Result<void> make_folder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!error || std::filesystem::is_directory(path)) return {};
+    return fail(Fault::io, "cannot make the folder " + path + " of --out", error);
 }
 
 Result<std::string> write_program(const StationConfig& config,
@@ -123,8 +141,7 @@ Result<std::string> write_program(const StationConfig& config,
     AXISCAL_TRY(const std::string text, dialect.write(order));
     const std::string path = request.out_directory + "/" + config.axis.program_axis + "-" +
                              plan.pass + std::string{dialect.extension};
-    std::ofstream file{path, std::ios::binary | std::ios::trunc};
-    if (!(file << text << std::flush)) return fail(Fault::io, "cannot write " + path);
+    AXISCAL_CHECK(write_file(path, text));
     return path;
 }
 
@@ -148,19 +165,16 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
     const std::string path = request.out_directory + "/" + config.axis.program_axis + "-retake-" +
                              std::to_string(contents->revisions.retakes.back().number) +
                              std::string{dialect->extension};
-    std::ofstream file{path, std::ios::binary | std::ios::trunc};
-    if (!(file << *text << std::flush))
-        return complain({Fault::io, "cannot write " + path, {}, {}});
+    if (const auto written = write_file(path, *text); !written) return complain(written.error());
     if (json)
-        std::cout << Json{{"programs",
-                           {{{"file", path},
-                             {"points", order.plan.points.size()},
-                             {"last_request", order.last_request}}}}}
-                         .dump()
+        std::cout << json_text(Json{{"programs",
+                                     {{{"file", path},
+                                       {"points", order.plan.points.size()},
+                                       {"last_request", order.last_request}}}}})
                   << "\n";
     else
-        std::cout << path << ": " << order.plan.points.size()
-                  << " points to be taken again; load and start it, the station is armed\n";
+        std::cout << path << ": " << counted(static_cast<long>(order.plan.points.size()), "point")
+                  << " to be taken again; load and start it, the station is armed\n";
     return exit_ok;
 }
 
@@ -168,11 +182,9 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
 Result<std::string> write_circles(const StationConfig& config, const std::string& folder) {
     const CircularPlan& plan = config.circular->setup.plan;
     const CircularOrder order{plan, config.trigger.shape,
-                              config.capture.timeout + std::chrono::seconds{2}};
+                              config.trigger.cnc_timeout};
     const std::string path = folder + "/" + std::string{name_of(plan.plane)} + "-circular.ngc";
-    std::ofstream file{path, std::ios::binary | std::ios::trunc};
-    if (!(file << write_circular_linuxcnc(order) << std::flush))
-        return fail(Fault::io, "cannot write " + path);
+    AXISCAL_CHECK(write_file(path, write_circular_linuxcnc(order)));
     return path;
 }
 
@@ -205,6 +217,7 @@ int command_program(const ProgramRequest& request, bool json) {
     auto station = load_station(request.station_file);
     if (!station) return print_refusals(station.error(), json);
     StationConfig& config = station->config;
+    if (const auto made = make_folder(request.out_directory); !made) return complain(made.error());
     if (!request.run_file.empty()) return write_retake_program(request, config, json);
     if (request.seed) config.cycle.seed = request.seed;
     std::random_device entropy;
@@ -225,8 +238,9 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!path) return complain(path.error());
         list.push_back(plan_json(plan, *path));
         if (json) continue;
-        std::cout << *path << ": " << plan.points.size() << " points on " << plan.targets.size()
-                  << " targets, datum at " << plan.datum.in(mm) << "\n";
+        std::cout << *path << ": " << counted(static_cast<long>(plan.points.size()), "point")
+                  << " on " << counted(static_cast<long>(plan.targets.size()), "target")
+                  << ", datum at " << plan.datum.in(mm) << "\n";
         if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
         std::cout << (request.datum_by_cnc
                           ? "  load and start it; before or after: axiscal arm --datum-by-cnc "
@@ -239,10 +253,10 @@ int command_program(const ProgramRequest& request, bool json) {
         const auto circles = planned_circles(config.circular->setup.plan).size();
         list.push_back({{"file", *path}, {"pass", "circular"}, {"circles", circles}});
         if (!json)
-            std::cout << *path << ": " << circles
-                      << " circles; when the machine waits at rest: axiscal arm --pass circular\n";
+            std::cout << *path << ": " << counted(static_cast<long>(circles), "circle")
+                      << "; when the machine waits at rest: axiscal arm --pass circular\n";
     }
-    if (json) std::cout << Json{{"programs", std::move(list)}}.dump() << "\n";
+    if (json) std::cout << json_text(Json{{"programs", std::move(list)}}) << "\n";
     return exit_ok;
 }
 
@@ -275,15 +289,15 @@ int command_check_config(const std::string& station_file, bool json) {
                           {"points", plan.points.size()},
                           {"remark", plan.remark}});
         if (!json)
-            std::cout << "pass " << plan.pass << ": " << plan.targets.size() << " targets, "
-                      << plan.points.size() << " points"
+            std::cout << "pass " << plan.pass << ": "
+                      << counted(static_cast<long>(plan.targets.size()), "target") << ", "
+                      << counted(static_cast<long>(plan.points.size()), "point")
                       << (plan.remark.empty() ? "" : "; " + plan.remark) << "\n";
     }
     if (json)
-        std::cout << Json{{"refusals", Json::array()},
-                          {"notes", std::move(warnings)},
-                          {"passes", std::move(passes)}}
-                         .dump()
+        std::cout << json_text(Json{{"refusals", Json::array()},
+                                    {"notes", std::move(warnings)},
+                                    {"passes", std::move(passes)}})
                   << "\n";
     else
         std::cout << station_file << " is accepted.\n";

@@ -1,6 +1,8 @@
 #pragma once
 // The commands that need no daemon.
 
+#include "acquisition/publish/run_verify.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +13,15 @@ namespace axiscal {
 /// A run file or a JSON case, told apart by content; "-" reads a case from standard input.
 /// Run: prints the certificate document. Case: the result document, exit 3 when refused.
 int command_analyze(const std::string& path);
+
+struct ResultRequest {
+    std::string run;              ///< path or id; empty: the newest run of the station
+    std::string station_file;     ///< whose state directory holds the runs
+    std::string tolerances;       ///< JSON of limits; empty: no verdicts
+    std::optional<double> travel; ///< mm or degrees, for the band; absent: span of the targets
+};
+/// E, A, R, B, M with U; exit 3 wherever there is no result.
+int command_result(const ResultRequest& request, bool json);
 
 struct ProgramRequest {
     std::string station_file, dialect,
@@ -27,9 +38,9 @@ int command_program(const ProgramRequest& request, bool json);
 /// the files.
 int command_export(const std::string& file, const std::string& out_directory, bool json);
 
-/// Holds a run file against its hash chain and its certificate; `certificate` empty: the one beside
-/// it. Exit 8 when a row or a figure is not what was written; each is named.
-int command_verify(const std::string& run_file, const std::string& certificate, bool json);
+/// Holds a run file against its hash chain, its certificate, the station's keys and a receipt. Exit
+/// 8 when something is not what was written, signed or published; each is named.
+int command_verify(const std::string& run_file, const VerifyAgainst& against, bool json);
 
 struct SelfTestRequest {
     std::string folder;             ///< of the state: there the disk is measured

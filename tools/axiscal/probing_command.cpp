@@ -5,6 +5,10 @@
 #include "acquisition/publish/probing_document.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "analysis/quantity/valid_text.hpp"
+#include "config/json_text.hpp"
+#include "config/version.hpp"
+#include "drivers/asio_scheduler.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
@@ -37,11 +41,10 @@ int write_program(const ProbingOrder& order, bool json) {
     }
     const int touches = 3 * (order.plan.references + order.plan.touches);
     if (json)
-        std::cout << Json{{"file", order.program},
-                          {"log", order.log},
-                          {"touches", touches},
-                          {"plan", probing_id(order.plan)}}
-                         .dump()
+        std::cout << json_text(Json{{"file", order.program},
+                                    {"log", order.log},
+                                    {"touches", touches},
+                                    {"plan", probing_id(order.plan)}})
                   << "\n";
     else
         std::cout
@@ -55,15 +58,11 @@ int write_program(const ProbingOrder& order, bool json) {
 
 /// The two clocks of this PC, read together.
 ClockTie tie_now() {
-    const auto monotonic = [] {
-        return monotonic_from_ns(
-            std::chrono::nanoseconds{std::chrono::steady_clock::now().time_since_epoch()}.count());
-    };
     ClockTie tie;
-    tie.before = monotonic();
+    tie.before = monotonic_now();
     tie.utc_ns =
         std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
-    tie.after = monotonic();
+    tie.after = monotonic_now();
     return tie;
 }
 
@@ -72,13 +71,15 @@ RunRecord header_of(const StationConfig& config, const ProbingOrder& order) {
     RunRecord run;
     run.opened = tie_now();
     run.run_id = run_id_of(config.station, "probing", run.opened.utc_ns);
-    run.software_version = AXISCAL_VERSION;
+    run.software_version = software_version();
     run.station = config.station;
     run.station_config = config.text;
     run.config_hash = sha256_hex(config.text);
     run.plan.pass = "probing";
     run.statements = config.statements;
-    if (!order.operator_name.empty()) run.statements.operator_name = order.operator_name;
+    run.statements.certificate_number.clear(); // no certificate: the station's numbers are not its
+    if (!order.operator_name.empty())
+        run.statements.operator_name = valid_text(order.operator_name);
     run.laser.instrument = "none";
     return run;
 }
@@ -89,8 +90,8 @@ Result<std::string> make_run_file(const StationConfig& config, const ProbingOrde
     AXISCAL_TRY(const ProbingPlan plan, read_probing_id(program));
     AXISCAL_TRY(const std::string log, text_of_file(order.log));
     AXISCAL_TRY(ProbingRecord record, read_probing_log(plan, log));
-    record.probe = order.probe;
-    record.signal_path = order.signal_path;
+    record.probe = valid_text(order.probe);
+    record.signal_path = valid_text(order.signal_path);
     if (const auto results = evaluate_probing_delay(case_of(record)); !results)
         return tl::unexpected<Error>(results.error());
     const RunRecord header = header_of(config, order);
@@ -132,7 +133,8 @@ int record(const ProbingOrder& order, bool json) {
     const auto document = probing_of_run_file(*path);
     if (!document) return complain(document.error());
     if (json)
-        std::cout << Json{{"file", *path}, {"result", probing_to_json(*document)}}.dump() << "\n";
+        std::cout << json_text(Json{{"file", *path}, {"result", probing_to_json(*document)}})
+                  << "\n";
     else
         std::cout << text_of(*document) << "Run file " << *path
                   << "; 'axiscal export' makes its papers.\n";

@@ -1,8 +1,11 @@
 // `axiscal record`: the daemon's driver and link, with a recorder between.
 #include "acquisition/station/station_loader.hpp"
+#include "analysis/quantity/counted.hpp"
+#include "config/json_text.hpp"
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/link/link_opener.hpp"
 #include "drivers/link/tape_recording.hpp"
+#include "drivers/registry.hpp"
 #include "drivers/spawn.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/tape/tape_header.hpp"
@@ -142,6 +145,17 @@ std::string names_of(const StationConfig& config) {
     return names;
 }
 
+/// Of a driver that opens its line itself the tape is played on a wire, not into the driver.
+std::string
+how_to_try(const std::string& tape, const std::string& driver_name, std::string_view wire) {
+    const auto driver = find_driver(driver_name);
+    if (!driver || (*driver)->no_tape.empty()) return "axiscal replay --print " + tape;
+    const bool by_network = wire.find("tcp") != std::string_view::npos;
+    return "axiscal replay " + tape + (by_network ? " --port 1502" : " --link /tmp/wire") +
+           ", with link = " + (by_network ? "\"tcp:127.0.0.1:1502\"" : "\"serial:/tmp/wire\"") +
+           " in a station file";
+}
+
 int keep(const RecordRequest& request,
          const Recording& recording,
          const StationConfig& config,
@@ -159,16 +173,16 @@ int keep(const RecordRequest& request,
     const auto count = std::ranges::count(transfers, '\n');
     const Listener& listener = recording.listener;
     if (json)
-        std::cout << Json{{"tape", request.tape},
-                          {"transfers", count},
-                          {"samples", listener.samples},
-                          {"last", listener.last}}
-                         .dump()
+        std::cout << json_text(Json{{"tape", request.tape},
+                                    {"transfers", count},
+                                    {"samples", listener.samples},
+                                    {"last", listener.last}})
                   << "\n";
     else
-        std::cout << request.tape << ": " << count << " transfers, " << listener.samples
-                  << " samples of " << listener.identity.model
-                  << ". Try it: axiscal replay --print " << request.tape << "\n";
+        std::cout << request.tape << ": " << counted(count, "transfer") << ", "
+                  << counted(static_cast<long>(listener.samples), "sample") << " of "
+                  << listener.identity.model
+                  << ". Try it: " << how_to_try(request.tape, driver, recording.wire()) << "\n";
     return exit_ok;
 }
 

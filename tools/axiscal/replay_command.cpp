@@ -1,4 +1,5 @@
 // `axiscal replay`: a tape on a wire for another program, or through its driver in virtual time.
+#include "config/json_text.hpp"
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/link/tape_wire.hpp"
 #include "drivers/spawn.hpp"
@@ -166,7 +167,7 @@ int on_a_wire(const ReplayRequest& request, const Tape& tape, bool json) {
     if (!wire) return refused(wire.error(), exit_failed);
     const std::string link = link_text((*wire)->settings());
     if (json)
-        std::cout << Json{{"ready", true}, {"link", link}}.dump() << "\n" << std::flush;
+        std::cout << json_text(Json{{"ready", true}, {"link", link}}) << "\n" << std::flush;
     else
         std::cout << "link = \"" << link << "\""
                   << "\n"

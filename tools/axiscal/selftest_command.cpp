@@ -1,4 +1,5 @@
 // `axiscal selftest`: prints what tools/axiscal/selftest measures.
+#include "config/json_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/selftest/selftest.hpp"
@@ -52,12 +53,11 @@ int command_selftest(const SelfTestRequest& request, bool json) {
         Json ports = Json::array();
         for (const SerialPort& port : test->ports)
             ports.push_back(json_of(port, judge_port(port)));
-        std::cout << Json{{"folder", test->folder},
-                          {"commit", json_of(test->commit, judge_commit(test->commit))},
-                          {"timer", json_of(test->timer, judge_timer(test->timer))},
-                          {"serial", json_of(test->serial, judge_serial(test->serial))},
-                          {"ports", std::move(ports)}}
-                         .dump()
+        std::cout << json_text(Json{{"folder", test->folder},
+                                    {"commit", json_of(test->commit, judge_commit(test->commit))},
+                                    {"timer", json_of(test->timer, judge_timer(test->timer))},
+                                    {"serial", json_of(test->serial, judge_serial(test->serial))},
+                                    {"ports", std::move(ports)}})
                   << "\n";
         return exit_ok;
     }

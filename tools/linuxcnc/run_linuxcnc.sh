@@ -94,7 +94,11 @@ if [ "$(id -u)" = 0 ]; then
     export RTAPI_UID=${RTAPI_UID:-65534} RTAPI_FIFO_PATH=$meeting/fifo
 fi
 
-fill() { sed -e "s#@HOME@#$home#g; s#@PROGRAM@#$program#g; s#@SCRATCH@#$scratch#g; s#@POSITIONS@#$positions#g; s#@SHAPE@#$shape#g" "$1"; }
+# HAL files name the files they need without quotes: they are read from the scratch folder, wherever this checkout lies.
+recipe=$scratch/recipe
+mkdir -p "$recipe"
+cp "$home"/*.hal "$home/headless_display.py" "$recipe"
+fill() { sed -e "s#@HOME@#$recipe#g; s#@PROGRAM@#$program#g; s#@SCRATCH@#$scratch#g; s#@POSITIONS@#$positions#g; s#@SHAPE@#$shape#g" "$1"; }
 fill "$home/$kind.ini.in" >"$scratch/machine.ini"
 [ -z "$block" ] || { printf '\n[BLOCK]\n'; cat "$block"; } >>"$scratch/machine.ini"
 to_station="s/^TCP_IP=.*/TCP_IP=127.0.0.1/; s/^TCP_PORT=.*/TCP_PORT=$port/"

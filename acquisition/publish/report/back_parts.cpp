@@ -2,6 +2,7 @@
 
 #include "acquisition/publish/report/front_parts.hpp"
 #include "acquisition/publish/report/wording.hpp"
+#include "analysis/quantity/counted.hpp"
 
 namespace axiscal {
 namespace {
@@ -17,6 +18,14 @@ bool belongs_on_paper(const EventRecord& event) {
     case EventKind::instrument: return true;
     default: return false;
     }
+}
+
+/// The sentence of the fault once: most texts of instruments hold it already.
+std::string words_of(const EventRecord& event) {
+    std::string words = without_device_paths(event.text);
+    const std::string sentence{fault_sentence(event.fault)};
+    if (event.fault == Fault::none || words.find(sentence) != std::string::npos) return words;
+    return words + (words.empty() ? "" : " · ") + sentence;
 }
 
 } // namespace
@@ -51,11 +60,10 @@ void draw_events(Sheet& sheet, const std::vector<EventRecord>& events, const Clo
     for (const EventRecord& event : events) {
         if (!belongs_on_paper(event) || ++found > most) continue;
         const std::int64_t utc_ns = event.utc_ns ? event.utc_ns : opened.utc_ns_at(event.at);
-        std::string words = event.text;
-        if (event.fault != Fault::none)
-            words += (words.empty() ? "" : " · ") + std::string{fault_sentence(event.fault)};
-        rows.push_back({readable_instant(iso8601_utc(utc_ns)), std::string{name_of(event.kind)},
-                        stated(words)});
+        const std::string words = words_of(event);
+        const std::string kind{name_of(event.kind)};
+        if (!rows.empty() && rows.back()[1] == kind && rows.back()[2] == stated(words)) continue;
+        rows.push_back({readable_instant(iso8601_utc(utc_ns)), kind, stated(words)});
     }
     if (rows.empty()) return;
     sheet.heading("Events");
@@ -64,7 +72,8 @@ void draw_events(Sheet& sheet, const std::vector<EventRecord>& events, const Clo
                  {"What happened", "", Align::left, true}},
                 rows, 7);
     if (found > most)
-        sheet.text(std::to_string(found - most) + " more events: see the run file.", {7});
+        sheet.text(counted(static_cast<long>(found - most), "more event") + ": see the run file.",
+                   {7});
 }
 
 } // namespace axiscal

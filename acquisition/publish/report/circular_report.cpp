@@ -39,6 +39,8 @@ PageFrame frame_of(const CircularCertificate& certificate) {
                  (measured.taken_elsewhere ? " · case file SHA-256 " : " · run file SHA-256 ") +
                  stated(certificate.file_sha256.substr(0, digits_of_hash)) + "… · axiscal " +
                  stated(measured.run.software_version);
+    if (!certificate.replaces.empty())
+        frame.certificate_number += ", replaces " + certificate.replaces;
     frame.preliminary = preliminary_words(certificate);
     return frame;
 }

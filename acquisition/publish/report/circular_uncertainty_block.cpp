@@ -39,13 +39,13 @@ void draw_terms(Sheet& sheet, const CircularCertificate& certificate) {
                             "–", term.counts, "–"});
         else
             rows.push_back({term.name, of_length(known->u_mm), formula_on_paper(known->formula),
-                            term.counts, known->status});
+                            term.counts, footnote_sign(known->status)});
     }
     sheet.table({{"Term", "", Align::left},
                  {"u", "µm"},
                  {"Formula", "", Align::left, true},
                  {"Counts in", "", Align::left},
-                 {"Mark", "", Align::left}},
+                 {"Note", "", Align::left}},
                 rows, 7);
     for (const CircularContribution& known : budget.contributions)
         if (!known.source.empty())
@@ -91,8 +91,9 @@ void draw_circular_uncertainty(Sheet& sheet, const CircularCertificate& certific
                {7.5});
     draw_terms(sheet, certificate);
     draw_figure_uncertainties(sheet, certificate);
-    std::string words = "The terms above hold 1/√n already. S: stands in a source document; R: "
-                        "reconstructed from its structure. U is rounded up on page 1.";
+    std::string words = "The terms above hold 1/√n already. Full widths are those of rectangular "
+                        "distributions (JCGM 100, 4.3.7). U is rounded up on page 1. " +
+                        std::string{footnote_of_derived};
     if (budget->trials > 0)
         words += " u simulated: " + std::to_string(budget->trials) +
                  " trials that disturb every reading and evaluate anew (JCGM 101); drift runs "

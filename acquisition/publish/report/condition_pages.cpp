@@ -134,9 +134,10 @@ void draw_compensation_table(Sheet& sheet, const Certificate& certificate) {
     std::vector<TableRow> rows;
     const auto& targets = certificate.deviations.targets();
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        TableRow cells{std::to_string(i + 1), units.of_position(targets[i])};
+        const int target = certificate.completeness.targets[i];
+        TableRow cells{std::to_string(target + 1), units.of_position(targets[i])};
         for (const auto& [direction, arrow] : directions) {
-            const auto mean = means.find({static_cast<int>(i), direction});
+            const auto mean = means.find({target, direction});
             const bool known = mean != means.end();
             cells.push_back(known ? units.of_deviation(mean->second.before) : "–");
             cells.push_back(known ? units.of_deviation(mean->second.after) : "–");

@@ -111,7 +111,7 @@ void draw_set_aside(Canvas& canvas,
         const auto target = static_cast<std::size_t>(reading.planned.target_index);
         const Colour colour =
             reading.planned.direction == Direction::positive ? forward_blue : backward_vermilion;
-        const double x = frame.px(certificate.deviations.targets()[target]),
+        const double x = frame.px(certificate.planned_targets[target]),
                      y = frame.py(reading.deviation * factor);
         canvas.line({x - arm, y - arm}, {x + arm, y + arm}, {colour, 0.8});
         canvas.line({x - arm, y + arm}, {x + arm, y - arm}, {colour, 0.8});
@@ -156,7 +156,7 @@ double draw_legend(Canvas& canvas,
 void draw_deviation_plot(Canvas& canvas, PageBox box, const Certificate& certificate) {
     const PaperUnits units = paper_units_of(certificate);
     const auto curves = curves_of(certificate, units.deviation_factor);
-    const auto [low, high] = std::ranges::minmax(certificate.deviations.targets());
+    const auto [low, high] = std::ranges::minmax(certificate.planned_targets);
     PlotFrame frame = frame_along(low, high, 0.025);
     frame.y = deviation_ticks(curves, certificate.set_aside, units.deviation_factor);
     const double labels = widest(canvas, frame.y) + 6;

@@ -10,8 +10,10 @@ namespace {
 void draw_title(Sheet& sheet, const Certificate& certificate) {
     const bool bidirectional = !certificate.deviations.backward().empty();
     const RunPlan& plan = certificate.run.plan;
+    const bool partial = certificate.completeness.partial();
     draw_front_title(
-        sheet, {"Calibration certificate", certificate.run.statements.state,
+        sheet, {partial ? "PARTIAL RESULT, no certificate" : "Calibration certificate",
+                certificate.run.statements.state,
                 (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
                     std::string{" positioning, "} + certificate.result.standard +
                     ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
@@ -38,6 +40,10 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certific
         certificate.run.rotary
             ? StatedField{"Run-out of the set-up", stated(certificate.run.rotary->run_out)}
             : StatedField{"Reference temperature", "20 °C; all values hold there"});
+    if (certificate.completeness.partial()) // they have no number, and nothing falls due
+        std::erase_if(fields, [](const StatedField& field) {
+            return field.key == "Certificate number" || field.key == "Next calibration due";
+        });
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
@@ -97,6 +103,13 @@ void draw_uncertainty_notes(Sheet& sheet, const Certificate& certificate) {
         sheet.text("U is above its stated target U_T for " + exceeded + ".", warning);
 }
 
+/// What stands first among the remarks, where nobody can overlook it.
+void draw_partial_notes(Sheet& sheet, const Certificate& certificate) {
+    for (const std::string& words :
+         remarks_on_completeness(certificate.run, certificate.completeness))
+        sheet.text(words, {7.5, true, backward_vermilion});
+}
+
 void draw_parameters(Sheet& sheet, const Certificate& certificate) {
     const PaperUnits units = paper_units_of(certificate);
     const auto both = evaluated(parameters_of_both_directions(certificate.result.parameters));
@@ -144,6 +157,7 @@ std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certif
     auto shortened = draw_identity(sheet, certificate);
     draw_front_instruments(sheet, certificate.run.instruments, run_date_of(certificate.run),
                            shortened);
+    draw_partial_notes(sheet, certificate);
     draw_parameters(sheet, certificate);
     draw_sign_rule(sheet, certificate);
     constexpr double largest_plot = 340;

@@ -1,8 +1,11 @@
 #include "acquisition/publish/report/page.hpp"
 
+#include "analysis/quantity/valid_text.hpp"
+
 #include <array>
 #include <cairo-pdf.h>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <pango/pangocairo.h>
 
@@ -16,36 +19,69 @@ struct GObjectRelease {
 };
 using Layout = std::unique_ptr<PangoLayout, GObjectRelease>;
 
-/// Control characters would break lines or print as boxes; broken UTF-8 would stop Pango.
-std::string printable(std::string_view words) {
-    const std::unique_ptr<gchar, decltype(&g_free)> valid{
-        g_utf8_make_valid(words.data(), static_cast<gssize>(words.size())), &g_free};
-    std::string text{valid.get()};
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    return text;
+struct FontDescriptionFree {
+    void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
+};
+using FontDescription = std::unique_ptr<PangoFontDescription, FontDescriptionFree>;
+
+FontDescription description_of(const TextStyle& style) {
+    FontDescription font{pango_font_description_new()};
+    pango_font_description_set_family(font.get(), face);
+    pango_font_description_set_absolute_size(font.get(), style.size * PANGO_SCALE);
+    pango_font_description_set_weight(font.get(),
+                                      style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    return font;
 }
 
 void set_font(PangoLayout* layout, const TextStyle& style) {
-    PangoFontDescription* font = pango_font_description_new();
-    pango_font_description_set_family(font, face);
-    pango_font_description_set_absolute_size(font, style.size * PANGO_SCALE);
-    pango_font_description_set_weight(font, style.bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-    pango_layout_set_font_description(layout, font);
-    pango_font_description_free(font);
+    pango_layout_set_font_description(layout, description_of(style).get());
     PangoAttrList* attributes = pango_attr_list_new();
     pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
     pango_layout_set_attributes(layout, attributes);
     pango_attr_list_unref(attributes);
 }
 
-Layout make_layout(cairo_t* cr, const std::string& text, const TextStyle& style) {
+bool is_in_font(PangoLayout* layout, const std::string& text) {
+    pango_layout_set_text(layout, text.c_str(), static_cast<int>(text.size()));
+    return pango_layout_get_unknown_glyphs_count(layout) == 0;
+}
+
+/// A name may hold any letter, the certificate's one font does not: such a letter is printed as its
+/// code point, [U+5DE5]. With `all` every letter beyond ASCII is: a sequence may lack its glyph
+/// though each of its letters has one.
+std::string with_code_points(PangoLayout* layout, const std::string& text, bool all) {
+    std::string printed;
+    for (const char *at = text.c_str(), *next = at; *at != 0; at = next) {
+        next = g_utf8_next_char(at);
+        const gunichar letter = g_utf8_get_char(at);
+        const std::string own{at, next};
+        if (letter < 0x80 || (!all && is_in_font(layout, own))) {
+            printed += own;
+            continue;
+        }
+        std::array<char, 16> code{};
+        std::snprintf(code.data(), code.size(), "[U+%04X]", static_cast<unsigned>(letter));
+        printed += code.data();
+    }
+    return printed;
+}
+
+/// Text that is not valid would stop Pango, and control characters would break lines.
+void set_words(PangoLayout* layout, std::string_view words) {
+    const std::string text = valid_text(words);
+    if (is_in_font(layout, text)) return;
+    if (is_in_font(layout, with_code_points(layout, text, false))) return;
+    const std::string plain = with_code_points(layout, text, true);
+    pango_layout_set_text(layout, plain.c_str(), static_cast<int>(plain.size()));
+}
+
+Layout make_layout(cairo_t* cr, std::string_view words, const TextStyle& style) {
     Layout layout{pango_cairo_create_layout(cr)};
     PangoContext* context = pango_layout_get_context(layout.get());
     pango_context_set_language(context, pango_language_from_string("en"));
     pango_context_set_round_glyph_positions(context, FALSE);
     set_font(layout.get(), style);
-    pango_layout_set_text(layout.get(), text.c_str(), -1);
+    set_words(layout.get(), words);
     return layout;
 }
 
@@ -79,10 +115,7 @@ void Canvas::source(Colour colour, double opacity) {
 }
 
 double Canvas::text(PagePoint at, std::string_view words, TextStyle style, Align align) {
-    const std::string safe = printable(words);
-    const Layout layout = make_layout(cr_, safe, style);
-    if (unprintable_.empty() && pango_layout_get_unknown_glyphs_count(layout.get()) > 0)
-        unprintable_ = safe;
+    const Layout layout = make_layout(cr_, words, style);
     int width_units = 0;
     pango_layout_get_size(layout.get(), &width_units, nullptr);
     const double width = points_of(width_units);
@@ -95,7 +128,7 @@ double Canvas::text(PagePoint at, std::string_view words, TextStyle style, Align
 }
 
 double Canvas::width_of(std::string_view words, TextStyle style) {
-    const Layout layout = make_layout(cr_, printable(words), style);
+    const Layout layout = make_layout(cr_, words, style);
     int width_units = 0;
     pango_layout_get_size(layout.get(), &width_units, nullptr);
     return points_of(width_units);
@@ -103,11 +136,8 @@ double Canvas::width_of(std::string_view words, TextStyle style) {
 
 ParagraphExtent Canvas::paragraph(
     PagePoint top_left, double width, std::string_view words, TextStyle style, int lines) {
-    const std::string safe = printable(words);
-    const Layout layout = make_layout(cr_, safe, style);
+    const Layout layout = make_layout(cr_, words, style);
     limit_to(layout.get(), width, lines);
-    if (unprintable_.empty() && pango_layout_get_unknown_glyphs_count(layout.get()) > 0)
-        unprintable_ = safe;
     source(style.colour);
     cairo_move_to(cr_, top_left.x, top_left.y);
     pango_cairo_show_layout(cr_, layout.get());
@@ -117,7 +147,7 @@ ParagraphExtent Canvas::paragraph(
 
 ParagraphExtent
 Canvas::measure_paragraph(double width, std::string_view words, TextStyle style, int lines) {
-    const Layout layout = make_layout(cr_, printable(words), style);
+    const Layout layout = make_layout(cr_, words, style);
     limit_to(layout.get(), width, lines);
     return extent_of(layout.get());
 }
@@ -209,7 +239,7 @@ PdfDocument::PdfDocument(const std::string& title,
     , canvas_{cr_} {
     cairo_pdf_surface_restrict_to_version(surface_, CAIRO_PDF_VERSION_1_5);
     const auto state = [this](cairo_pdf_metadata_t key, const std::string& value) {
-        cairo_pdf_surface_set_metadata(surface_, key, printable(value).c_str());
+        cairo_pdf_surface_set_metadata(surface_, key, valid_text(value).c_str());
     };
     state(CAIRO_PDF_METADATA_TITLE, title);
     state(CAIRO_PDF_METADATA_SUBJECT, subject);
@@ -228,10 +258,6 @@ void PdfDocument::end_page() {
 }
 
 Result<std::string> PdfDocument::finish() {
-    if (!canvas_.unprintable().empty())
-        return fail(Fault::refused, "the certificate's font DejaVu Sans cannot print \"" +
-                                        canvas_.unprintable() +
-                                        "\": write it in Latin, Greek or Cyrillic letters");
     cairo_surface_finish(surface_);
     const cairo_status_t status = cairo_surface_status(surface_);
     if (status != CAIRO_STATUS_SUCCESS)

@@ -61,7 +61,8 @@ public:
     explicit Canvas(cairo_t* cr)
         : cr_{cr} {}
 
-    /// One line of text with its baseline at `at`. Returns its width.
+    /// One line of text with its baseline at `at`. Returns its width. Here and in paragraph() a
+    /// letter that the font lacks is printed as its code point, [U+5DE5].
     double text(PagePoint at, std::string_view words, TextStyle style = {}, Align = Align::left);
     double width_of(std::string_view words, TextStyle style = {});
     /// Wrapped text whose first line's top lies at `top_left`, at most `lines` lines (0: any).
@@ -88,13 +89,9 @@ public:
     /// Filled triangle whose tip shows along `angle_rad`: 0 to the right, counter-clockwise.
     void pointer(PagePoint centre, double angle_rad, Colour colour, double size = 2.6);
 
-    /// The first text that the face cannot show; empty while all is well.
-    [[nodiscard]] const std::string& unprintable() const { return unprintable_; }
-
 private:
     void source(Colour colour, double opacity = 1);
     cairo_t* cr_;
-    std::string unprintable_;
 };
 
 /// A4 PDF kept in memory: equal calls give equal bytes. Not thread-safe.
@@ -109,7 +106,7 @@ public:
     Canvas& canvas() { return canvas_; }
     void end_page();
     [[nodiscard]] int pages() const { return pages_; }
-    /// Closes the document. @errors Fault::io from Cairo; Fault::refused for an unprintable text.
+    /// Closes the document. @errors Fault::io from Cairo.
     Result<std::string> finish();
 
 private:

@@ -7,12 +7,18 @@ namespace {
 
 std::string title_of(const Certificate& certificate) {
     const Statements& said = certificate.run.statements;
+    if (certificate.completeness.partial())
+        return "Partial result of a calibration, axis " + stated(said.axis);
     return "Calibration certificate " + stated(said.certificate_number) + ", axis " +
            stated(said.axis);
 }
 
 /// What is missing, in words that fit a page's head; empty when nothing is.
 std::string preliminary_words(const Certificate& certificate) {
+    const Completeness& readings = certificate.completeness;
+    if (readings.partial())
+        return "PARTIAL: " + std::to_string(readings.used) + " of " +
+               std::to_string(readings.expected) + " planned readings";
     if (!certificate.preliminary) return {};
     if (!certificate.uncertainty.budget) return "PRELIMINARY: no uncertainty budget";
     std::string names;
@@ -24,7 +30,10 @@ std::string preliminary_words(const Certificate& certificate) {
 PageFrame frame_of(const Certificate& certificate) {
     PageFrame frame = page_frame_of(certificate.run, certificate.run_file_sha256);
     frame.subject += ", axis " + stated(certificate.run.statements.axis);
+    if (!certificate.replaces.empty())
+        frame.certificate_number += ", replaces " + certificate.replaces;
     frame.preliminary = preliminary_words(certificate);
+    frame.numbered = !certificate.completeness.partial();
     return frame;
 }
 

@@ -19,7 +19,9 @@ void Sheet::begin_page() {
     canvas().text({right, top + 8}, page, {7.5, true}, Align::right);
     canvas().paragraph({left, top}, width * 0.5, frame_.laboratory, {7.5, true}, 1);
     canvas().paragraph({left + width * 0.52, top}, width * 0.48 - page_room,
-                       "Certificate No. " + frame_.certificate_number, {7.5}, 1);
+                       frame_.numbered ? "Certificate No. " + frame_.certificate_number
+                                       : "No certificate",
+                       {7.5}, 1);
     canvas().paragraph({left, top + 11}, width * 0.5, frame_.subject, small, 1);
     draw_preliminary();
     canvas().line({left, top + 25}, {right, top + 25}, {ink, 0.6});

@@ -15,6 +15,7 @@ struct PageFrame {
     std::string laboratory, certificate_number, subject;
     std::string foot;        ///< run, hash, software
     std::string preliminary; ///< empty when the certificate is final
+    bool numbered = true;    ///< false: a partial result, which has no certificate number
 };
 
 struct TableColumn {

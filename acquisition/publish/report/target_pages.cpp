@@ -7,6 +7,11 @@ namespace {
 
 constexpr std::size_t deviations_in_a_row = 12;
 
+/// Of the plan's targets, from 1.
+std::string number_of(const Certificate& certificate, std::size_t row) {
+    return std::to_string(certificate.completeness.targets[row] + 1);
+}
+
 void append_spread(TableRow& cells,
                    const PositionRow& row,
                    const PaperUnits& units,
@@ -36,7 +41,7 @@ void draw_statistics(Sheet& sheet, const Certificate& certificate) {
             if (backward || std::string_view{head}.ends_with("↑")) columns.push_back({head, unit});
     std::vector<TableRow> rows;
     for (const PositionRow& row : certificate.result.positions) {
-        TableRow cells{std::to_string(rows.size() + 1), units.of_position(row.target),
+        TableRow cells{number_of(certificate, rows.size()), units.of_position(row.target),
                        units.of_deviation(row.mean_forward)};
         if (backward)
             for (const auto& value : {row.mean_backward, row.mean, row.reversal})
@@ -64,23 +69,26 @@ void append_approaches(std::vector<ApproachColumn>& columns,
         columns.push_back({&rows, j, arrow + std::string{" "} + std::to_string(j + 1)});
 }
 
-/// "-" where the reading was excluded; the others keep the place of their approach.
+/// "-" where the reading is in no figure; the others keep the place of their approach. `row_index`:
+/// of the tables of deviations.
 std::string deviation_cell(const ApproachColumn& column,
-                           std::size_t target,
+                           std::size_t row_index,
                            const Certificate& certificate,
                            const PaperUnits& units) {
-    const auto& row = (*column.rows)[target];
+    const auto& row = (*column.rows)[row_index];
     const auto approaches = static_cast<std::size_t>(certificate.run.plan.approaches);
     if (row.size() == approaches) return units.of_deviation(row[column.approach]);
     const bool forward = column.rows == &certificate.deviations.forward();
-    std::size_t before = 0; // excluded approaches of this row before this one
-    for (const SetAside& reading : certificate.set_aside) {
-        const bool here = !reading.superseded &&
-                          static_cast<std::size_t>(reading.planned.target_index) == target &&
-                          (reading.planned.direction == Direction::positive) == forward;
-        const auto approach = static_cast<std::size_t>(reading.planned.approach);
-        if (here && approach == column.approach) return "-";
-        if (here && approach < column.approach) ++before;
+    const int target = certificate.completeness.targets[row_index];
+    std::size_t before = 0; // missing approaches of this row before this one
+    for (const LeftOut& entry : certificate.completeness.left_out) {
+        if (entry.target_index != target || (entry.direction == Direction::positive) != forward)
+            continue;
+        for (const int missing : entry.approaches) {
+            const auto approach = static_cast<std::size_t>(missing);
+            if (approach == column.approach) return "-";
+            if (approach < column.approach) ++before;
+        }
     }
     return units.of_deviation(row[column.approach - before]);
 }
@@ -119,7 +127,7 @@ void draw_block(Sheet& sheet,
     const auto& targets = certificate.deviations.targets();
     std::vector<TableRow> rows;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        TableRow cells{std::to_string(i + 1), units.of_position(targets[i])};
+        TableRow cells{number_of(certificate, i), units.of_position(targets[i])};
         for (std::size_t c = first; c < last; ++c)
             cells.push_back(deviation_cell(approaches[c], i, certificate, units));
         rows.push_back(std::move(cells));

@@ -104,7 +104,7 @@ void draw_terms(Sheet& sheet, const Certificate& certificate) {
         const Contribution* known = certificate.uncertainty.budget->find(line.term);
         if (known)
             rows.push_back({line.name, line.stated, uncertainty_on_paper(known->u),
-                            formula_on_paper(known->formula), known->status});
+                            formula_on_paper(known->formula), footnote_sign(known->status)});
         else
             rows.push_back({line.name, "not stated", "–", "–", "–"});
     }
@@ -112,7 +112,7 @@ void draw_terms(Sheet& sheet, const Certificate& certificate) {
                  {"Stated, or of the run", "", Align::left, true},
                  {"u", unit_of(certificate)},
                  {"Formula", "", Align::left},
-                 {"Mark", "", Align::left}},
+                 {"Note", "", Align::left}},
                 rows);
 }
 
@@ -169,7 +169,7 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
         columns.push_back({"U ≤ U_T", "", Align::left});
     }
     columns.push_back({"Combined as", "", Align::left, true});
-    columns.push_back({"Mark", "", Align::left});
+    columns.push_back({"Note", "", Align::left});
     std::vector<TableRow> rows;
     for (const ParameterGroup& group : groups) {
         const ParameterUncertainty& figure = *group.figure;
@@ -181,7 +181,7 @@ void draw_parameter_uncertainties(Sheet& sheet, const Certificate& certificate) 
             row.emplace_back(!group.target_um ? "no target" : met ? "yes" : "NO");
         }
         row.push_back(formula_on_paper(figure.formula));
-        row.push_back(figure.status);
+        row.push_back(footnote_sign(figure.status));
         rows.push_back(std::move(row));
     }
     sheet.table(columns, rows);
@@ -192,8 +192,9 @@ void draw_legend(Sheet& sheet, const Certificate& certificate) {
     const ParameterUncertainty* both = budget.find("R");
     std::string words =
         "u: standard uncertainty; a full width R(…) and E_VE are those of rectangular "
-        "distributions. U is rounded up on page 1. S: stands in a source document; "
-        "R: reconstructed from its structure.";
+        "distributions (JCGM 100, 4.3.7), combined as the root of the sum of squares (JCGM 100, "
+        "5.1.2). U is rounded up on page 1. " +
+        std::string{footnote_of_derived};
     if (both && both->strict_u)
         words +=
             " u(R) of the source counts the repeatability of both directions as common; strict "

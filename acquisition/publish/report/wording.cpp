@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
+#include <regex>
 
 namespace axiscal {
 namespace {
@@ -145,6 +146,16 @@ std::vector<std::string> reasons_not_evaluated(const PositioningResult& result) 
         return "Not evaluated: " + group.second + ": " + group.first;
     });
     return sentences;
+}
+
+std::string footnote_sign(const std::string& status) {
+    return status == "R" ? "¹" : "";
+}
+
+std::string without_device_paths(const std::string& words) {
+    static const std::regex place{
+        R"((serial |counter |files below )?/(dev|sys|run|tmp)/\S*[^\s.,;:)]( \d+ [5-8][NEO][12])?)"};
+    return std::regex_replace(words, place, "its line");
 }
 
 std::string formula_on_paper(std::string formula) {

@@ -52,6 +52,15 @@ std::vector<ParameterLine> parameters_of_one_direction(const PositioningParamete
 /// "A, A↑: reason" for each reason of `not_evaluated`, symbols in printing order.
 std::vector<std::string> reasons_not_evaluated(const PositioningResult& result);
 
+/// Behind a formula of a budget that stands in no source document (status "R"): a sign that
+/// `footnote_of_derived` explains; empty for one that does.
+std::string footnote_sign(const std::string& status);
+constexpr std::string_view footnote_of_derived = "¹ Derived by these rules from the terms that the "
+                                                 "standard names; not compared with its printed "
+                                                 "example.";
+/// Without what is inside the computer: the file of a serial port and its settings are "its line".
+std::string without_device_paths(const std::string& words);
+
 /// "u_EVE sqrt(2/n)" in the signs of paper: alpha, delta, theta as letters, roots, squares.
 std::string formula_on_paper(std::string formula);
 

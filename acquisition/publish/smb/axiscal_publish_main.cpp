@@ -6,7 +6,10 @@
 #include "acquisition/publish/publisher_report.hpp"
 #include "acquisition/publish/second_hand.hpp"
 #include "acquisition/publish/smb/smb_destination.hpp"
+#include "config/json_text.hpp"
 #include "config/station_config.hpp"
+#include "config/version.hpp"
+#include "tools/describe/describe.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -104,9 +107,8 @@ public:
 
 private:
     void print(const nlohmann::json& line) const {
-        using Handler = nlohmann::json::error_handler_t;
         if (!json_) return;
-        std::fputs((line.dump(-1, ' ', false, Handler::replace) + "\n").c_str(), json_);
+        std::fputs((json_text(line) + "\n").c_str(), json_);
         std::fflush(json_);
     }
     std::FILE* json_; ///< null: not asked for
@@ -237,7 +239,7 @@ std::FILE* own_stdout() {
 }
 
 std::string version_text() {
-    return "axiscal-publish " AXISCAL_VERSION "\nWith " + smb_library_name() +
+    return std::string{"axiscal-publish "} + software_version() + "\nWith " + smb_library_name() +
            " of the Samba project, and therefore as a whole under the GNU General Public License,\n"
            "version 3 or later: LICENSES/GPL-3.0-or-later.txt. Its own sources, as all others of "
            "axiscal, are under Apache-2.0: LICENSE.";
@@ -248,6 +250,7 @@ int run(int count, char** words) {
     Options options;
     describe_options(app, options);
     app.set_version_flag("--version", version_text());
+    describe_on_request(app);
     try {
         app.parse(count, words);
         if (options.config.empty() && options.outbox.empty())

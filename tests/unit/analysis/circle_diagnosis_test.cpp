@@ -336,6 +336,7 @@ TEST(CircleDiagnosis, SaysTheSignsInWords) {
     EXPECT_TRUE(has(words("square", -5e-5, "squareness"), "less than 90 deg"));
     EXPECT_TRUE(has(words("servo", 4e-4, "servo_lag_difference"), "X lags Y by 0.4 ms"));
     EXPECT_TRUE(has(words("servo", -4e-4, "servo_lag_difference"), "Y lags X"));
+    EXPECT_TRUE(has(words("servo", 2.5e-5, "servo_lag_difference"), "X lags Y by 25 us"));
     EXPECT_TRUE(has(words("backlash_x", 0.008, "backlash_x"), "X loses 8 um"));
     EXPECT_TRUE(has(words("backlash_x", 0.008, "backlash_x"), "outward at 0 and 180 deg"));
     EXPECT_TRUE(has(words("backlash_y", -0.003, "backlash_y"), "Y gains 3 um"));

@@ -3,6 +3,7 @@
 // vibration and holes. Seeded. Nothing here comes from the code under test.
 
 #include "acquisition/capture/sample_history.hpp"
+#include "acquisition/capture/stillness.hpp"
 #include "config/station_config.hpp"
 
 #include <cmath>
@@ -23,6 +24,14 @@ inline CaptureConfig quiet_config() {
     config.minimum_samples = 20;
     config.fastest = metre_per_second(1);
     return config;
+}
+
+/// One look, of a search that begins with it.
+inline WindowSearch find_still_window(const SampleHistory& history,
+                                      MonotonicTime from,
+                                      MonotonicTime now,
+                                      const CaptureConfig& config) {
+    return StillWindowSearch{from, config}.look(history, now);
 }
 
 /// Writes samples at 1 kHz. Motion is at constant feed; `wobble` is a servo ripple of 37 Hz during

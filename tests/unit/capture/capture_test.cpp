@@ -9,6 +9,7 @@ namespace {
 
 using testing::at_s;
 using testing::AxisSignal;
+using testing::find_still_window;
 using testing::quiet_config;
 
 /// Captures where the signal stands now; the path is judged from `since`.
@@ -268,8 +269,9 @@ TEST(Capture, RefusesAWindowThatTheHistoryForgot) {
 TEST(Capture, OfADatumClaimsNoApproach) {
     AxisSignal signal;
     signal.stand(1);
-    const StillWindow window{at_s(10.2), at_s(10.7),
-                             measure_window(signal.history.between(at_s(10.2), at_s(10.7)))};
+    const StillWindow window{
+        at_s(10.2), at_s(10.7),
+        statistics_of(summary_of(signal.history.between(at_s(10.2), at_s(10.7))))};
     const auto capture = make_capture(signal.history, window, std::nullopt, quiet_config());
     ASSERT_TRUE(capture);
     EXPECT_EQ(capture->approach_travel, Length{});

@@ -97,9 +97,10 @@ TEST(SampleHistory, LawEveryWindowHoldsExactlyTheYoungSamplesInside) {
 
 TEST(LongestSilence, CountsTheEndsOfTheSpanToo) {
     const std::vector<Sample> samples{Sample{0, at_s(1), 0}, Sample{0, at_s(1.5), 0}};
-    EXPECT_EQ(longest_silence(samples, at_s(0), at_s(2)), std::chrono::seconds{1});
-    EXPECT_EQ(longest_silence(samples, at_s(1), at_s(4)), std::chrono::milliseconds{2500});
-    EXPECT_EQ(longest_silence({}, at_s(1), at_s(4)), std::chrono::seconds{3});
+    EXPECT_EQ(longest_silence(summary_of(samples), at_s(0), at_s(2)), std::chrono::seconds{1});
+    EXPECT_EQ(longest_silence(summary_of(samples), at_s(1), at_s(4)),
+              std::chrono::milliseconds{2500});
+    EXPECT_EQ(longest_silence(SampleSummary{}, at_s(1), at_s(4)), std::chrono::seconds{3});
 }
 
 } // namespace

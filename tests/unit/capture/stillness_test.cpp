@@ -9,6 +9,7 @@ namespace {
 
 using testing::at_s;
 using testing::AxisSignal;
+using testing::find_still_window;
 using testing::quiet_config;
 
 TEST(WindowStatistics, FindsMeanSpreadAndSlopeOfAKnownRamp) {
@@ -16,7 +17,7 @@ TEST(WindowStatistics, FindsMeanSpreadAndSlopeOfAKnownRamp) {
     std::vector<Sample> samples;
     for (int i = 0; i <= 10; ++i)
         samples.emplace_back(0, at_s(1000 + 0.01 * i), 100.0 + 1e-9 * i);
-    const auto found = measure_window(samples);
+    const auto found = statistics_of(summary_of(samples));
     EXPECT_EQ(found.n, 11);
     EXPECT_NEAR(found.mean.si(), 100.0 + 5e-9, 1e-13);
     EXPECT_NEAR(found.spread.in(nm), 10.0, 1e-3);
@@ -32,23 +33,22 @@ TEST(WindowStatistics, AreShiftAndSignInvariant) {
         plain.emplace_back(0, at_s(i * 1e-3), x);
         turned.emplace_back(0, at_s(50 + i * 1e-3), 2.0 - x);
     }
-    const auto a = measure_window(plain), b = measure_window(turned);
+    const auto a = statistics_of(summary_of(plain)), b = statistics_of(summary_of(turned));
     EXPECT_NEAR(a.mean.si(), 2.0 - b.mean.si(), 1e-14);
     EXPECT_NEAR(a.spread.si(), b.spread.si(), 1e-14);
     EXPECT_NEAR(a.slope_um_per_s, -b.slope_um_per_s, 1e-6);
 }
 
 TEST(WindowStatistics, OfNothingAreZero) {
-    EXPECT_EQ(measure_window({}).n, 0);
+    EXPECT_EQ(statistics_of(SampleSummary{}).n, 0);
     const std::vector<Sample> one{Sample{0, at_s(1), 0.25}};
-    EXPECT_EQ(measure_window(one).n, 1);
-    EXPECT_EQ(measure_window(one).slope_um_per_s, 0.0);
+    EXPECT_EQ(statistics_of(summary_of(one)).n, 1);
+    EXPECT_EQ(statistics_of(summary_of(one)).slope_um_per_s, 0.0);
 }
 
 StillnessVerdict judge_last_window(const AxisSignal& signal) {
     const auto config = quiet_config();
-    const auto begin = signal.now() - config.window;
-    return judge_window(signal.history.between(begin, signal.now()), begin, signal.now(), config);
+    return judge_window(signal.history, signal.now() - config.window, signal.now(), config);
 }
 
 TEST(Stillness, AcceptsAStandingAxisWithNoise) {
@@ -75,9 +75,9 @@ TEST(Stillness, RejectsVibrationThatHasNoSlope) {
 }
 
 TEST(Stillness, RejectsTooFewSamples) {
-    std::vector<Sample> samples;
+    SampleHistory samples;
     for (int i = 0; i < 19; ++i)
-        samples.emplace_back(0, at_s(1 + i * 0.5 / 18), 0.0);
+        samples.push(Sample{0, at_s(1 + i * 0.5 / 18), 0.0});
     const auto verdict = judge_window(samples, at_s(1), at_s(1.5), quiet_config());
     EXPECT_EQ(verdict.reason, "Only 19 samples in 0.5 s, 20 are needed.");
 }
@@ -118,7 +118,7 @@ TEST(Stillness, CallsAJumpBeyondTheFastestFeedImplausible) {
 TEST(Stillness, DoesNotCallAFastMoveImplausible) {
     AxisSignal signal;
     signal.stand(0.1).move_to(300, 990).stand(0.1);
-    EXPECT_FALSE(find_lost_count(signal.history.all(), metre_per_second(1)));
+    EXPECT_FALSE(find_lost_count(signal.history, signal.history.all(), metre_per_second(1)));
 }
 
 TEST(FindStillWindow, LiesEntirelyAfterTheTrigger) {

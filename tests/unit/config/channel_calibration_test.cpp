@@ -90,8 +90,9 @@ TEST(CertificateDates, NameWhatHasExpiredWithItsLine) {
 }
 
 TEST(StationConfig, RefusesACorrectionWithoutUnit) {
-    expect_refused_once(read_changed("correction = \"-0.03 K\"", "correction = -0.03"),
-                        "instrument[1].channel[0].correction: is a bare number");
+    expect_refused_once(
+        read_changed("correction = \"-0.03 K\"", "correction = -0.03"),
+        "instrument \"air\".channel \"air temperature\".correction: is a bare number");
 }
 
 } // namespace

@@ -321,5 +321,14 @@ TEST(SettingsDocument, SurvivesArbitraryBytes) {
     EXPECT_GT(refused, 1000);
 }
 
+TEST(Settings, MakesOneLineOfAnEscapedControlCharacter) {
+    auto document = SettingsDocument::parse("name = \"bay\\u0000\\u001B[31m\\n3 \u5DE5\"\n"
+                                            "names = [\"a\\tb\\u0085\"]\n",
+                                            "station.toml")
+                        .value();
+    EXPECT_EQ(document.root().text("name"), "bay  [31m 3 \u5DE5");
+    EXPECT_EQ(document.root().texts("names"), std::vector<std::string>{"a b "});
+}
+
 } // namespace
 } // namespace axiscal::settings_test

@@ -107,7 +107,7 @@ TEST(StationConfig, RefusesAFeedFasterThanTheAxis) {
 TEST(StationConfig, RefusesTwoInstrumentsOfOneName) {
     const Reading reading = read_changed("name = \"material\"", "name = \"air\"");
     EXPECT_NE(
-        reading.told.find("instrument[2].name: \"air\" is the name of the instrument in line"),
+        reading.told.find("instrument \"air\".name: \"air\" is the name of the instrument in line"),
         std::string::npos)
         << reading.told;
 }
@@ -126,8 +126,24 @@ TEST(StationConfig, RefusesPathsThatDependOnTheStartingFolder) {
 
 TEST(StationConfig, RefusesAnUnknownKeyOfAChannel) {
     expect_refused_once(read_changed("place = \"nut side", "palce = \"nut side"),
-                        "instrument[2].channel[0].palce: is not a key of this table; did you mean "
+                        "instrument \"material\".channel \"contact 1\".palce: is not a key of this "
+                        "table; did you mean "
                         "\"place\"?");
+}
+
+TEST(StationConfig, RefusesAConsoleThatOthersHearWithoutAListOfClients) {
+    const std::string commented = "# host = \"127.0.0.1\"\n# port = 8470\n";
+    for (const char* host : {"0.0.0.0", "::", "192.168.10.5"})
+        expect_refused_once(read_changed(commented, "host = \"" + std::string{host} + "\"\n"),
+                            "console.host: \"" + std::string{host} +
+                                "\" is heard by other computers: name those "
+                                "that may connect");
+    expect_refused_once(
+        read_changed(commented, "host = \"0.0.0.0\"\nallowed_clients = [\"office\"]\n"),
+        "console.allowed_clients: \"office\" is no address");
+    for (const char* right : {"host = \"0.0.0.0\"\nallowed_clients = [\"192.168.10.0/24\"]\n",
+                              "host = \"0.0.0.0\"\nport = 0\n", "host = \"::1\"\n"})
+        EXPECT_EQ(read_changed(commented, right).told, "") << right;
 }
 
 } // namespace

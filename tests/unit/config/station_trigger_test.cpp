@@ -45,6 +45,13 @@ INSTANTIATE_TEST_SUITE_P(
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp-mirrored\"\nport = 502\n"
                     "host = \"cnc.plant.example\"\nbase_address = 32768\n",
                     ""},
+        TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\n"
+                    "cnc_timeout = \"13 s\"\n", // the example's capture.timeout is 10 s
+                    ""},
+        TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\n"
+                    "cnc_timeout = \"12 s\"\n",
+                    "trigger.cnc_timeout: ends before the station's own: with capture.timeout it "
+                    "must be at least 13 s"},
         TriggerCase{"shape = \"single-register\"\ntransport = \"rtu\"\n"
                     "serial_port = \"/dev/ttyS0\"\nparity = \"even\"\nunit_id = 3\n",
                     ""},

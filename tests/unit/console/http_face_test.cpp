@@ -1,6 +1,8 @@
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_face.hpp"
 
+#include "acquisition/console/peer.hpp"
+
 #include "drivers/asio_scheduler.hpp"
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -13,6 +15,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <sys/stat.h>
 #include <thread>
 
@@ -27,6 +30,7 @@ public:
     [[nodiscard]] StationStatus status() const override {
         StationStatus status;
         status.station = "bench";
+        status.notes = notes;
         status.axis.name = "X";
         status.axis.reads_angle = reads_angle;
         status.channels.push_back({.instrument = "air",
@@ -38,6 +42,7 @@ public:
                                    .medium = Medium::air,
                                    .value = {},
                                    .age_s = 14.0,
+                                   .role = "environment",
                                    .quality = "stale"});
         return status;
     }
@@ -53,8 +58,11 @@ public:
         if (seconds_of_arc > 100) return fail(Fault::outside_window, "beyond the range");
         return {};
     }
-    Result<void> abort(std::string reason) override {
-        return reason_given = std::move(reason), Result<void>{};
+    Task<Result<void>> abort(std::string reason, Orderer by) override {
+        if (reason == "bug") throw std::runtime_error{"a bug of one request"};
+        aborted_by = std::move(by);
+        reason_given = std::move(reason);
+        co_return Result<void>{};
     }
 
     [[nodiscard]] Result<std::vector<PreflightRecord>>
@@ -100,8 +108,10 @@ public:
     std::optional<DriftRequest> drifted;
     std::optional<AlignmentOrder> ordered;
     std::string reason_given;
+    Orderer aborted_by;
     double typed_arcsec = 0;
     bool reads_angle = false;
+    std::vector<std::string> notes;
 };
 
 class HttpDoor : public ::testing::Test {
@@ -113,6 +123,7 @@ protected:
         config.socket_path = folder / "door.sock";
         config.group.clear();
         config.port = -1;
+        configure(config);
         face = std::make_unique<HttpFace>(scheduler, station, config, std::string(64, 't'));
         const auto started = face->start();
         ASSERT_TRUE(started) << describe(started.error());
@@ -124,6 +135,15 @@ protected:
         runner.join();
         face.reset();
         std::filesystem::remove_all(folder);
+    }
+
+    virtual void configure(ConsoleConfig& /*config*/) {}
+    std::string raw_over_tcp(const std::string& bytes) {
+        asio::io_context own;
+        asio::ip::tcp::socket socket{own};
+        socket.connect(
+            {asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(face->port())});
+        return talk(socket, bytes);
     }
 
     /// Sends raw bytes, returns everything the station answers until it closes.
@@ -177,6 +197,44 @@ TEST_F(HttpDoor, StatusIsReadOverTcp) {
     const std::string reply = over_tcp("GET", "/v1/status");
     EXPECT_TRUE(reply.starts_with("HTTP/1.1 200")) << reply;
     EXPECT_EQ(nlohmann::json::parse(body_of(reply)).at("station"), "bench");
+}
+
+TEST_F(HttpDoor, AnOrderOverTheSocketBearsTheUserThatTheKernelKnowsAndTheNameThatWasGiven) {
+    over_socket("POST", "/v1/run", R"({"by":"Jo Müller"})");
+    EXPECT_EQ(station.armed.by.door, "socket");
+    EXPECT_EQ(station.armed.by.uid, ::getuid());
+    EXPECT_EQ(station.armed.by.user, user_name_of(::getuid()));
+    EXPECT_EQ(station.armed.by.name, "Jo Müller");
+    over_socket("POST", "/v1/run/retake", R"({"target":1,"reason":"r","by":"A"})");
+    EXPECT_EQ(station.revision.by.uid, ::getuid());
+    EXPECT_EQ(station.revision.by.name, "A");
+    over_socket("POST", "/v1/run/exclude", R"({"target":1,"reason":"r"})");
+    EXPECT_EQ(station.revision.by.uid, ::getuid());
+    EXPECT_EQ(station.revision.by.name, "");
+    over_socket("POST", "/v1/run/abort", R"({"by":"B"})");
+    EXPECT_EQ(station.aborted_by.uid, ::getuid());
+    EXPECT_EQ(station.aborted_by.name, "B");
+    over_socket("POST", "/v1/drift", R"({"by":"C"})");
+    ASSERT_TRUE(station.drifted);
+    EXPECT_EQ(station.drifted->by.uid, ::getuid());
+    EXPECT_EQ(station.drifted->by.name, "C");
+}
+
+TEST_F(HttpDoor, AnOrderOverTcpBearsTheTokenAndNoUser) {
+    const std::string token = "Authorization: Bearer " + std::string(64, 't') + "\r\n";
+    over_tcp("POST", "/v1/run/abort", token, R"({"by":"Jo"})");
+    EXPECT_EQ(station.aborted_by.door, "token");
+    EXPECT_FALSE(station.aborted_by.uid);
+    EXPECT_EQ(station.aborted_by.user, "");
+    EXPECT_EQ(station.aborted_by.name, "Jo");
+}
+
+TEST_F(HttpDoor, ANameThatIsNoNameIsRefused) {
+    for (const char* name : {"\"\"", "\"  \"", "7", "null", "[\"Jo\"]", "\"Jo\\nMiller\"", "\"\\u007f\""})
+        for (const char* order : {"/v1/run", "/v1/run/retake", "/v1/run/abort", "/v1/drift"}) {
+            const std::string reply = over_socket("POST", order, "{\"by\":" + std::string{name} + "}");
+            EXPECT_TRUE(reply.starts_with("HTTP/1.1 400")) << order << " " << name << " " << reply;
+        }
 }
 
 TEST_F(HttpDoor, AStaleValueIsNullNotANumber) {
@@ -408,6 +466,92 @@ TEST_F(HttpDoor, GarbageAndOversizedBodiesHurtNobody) {
     EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
 }
 
+// 2026-11-23: each of these ended the daemon, from anybody who reached the port.
+TEST_F(HttpDoor, AHeadThatIsNoTextIsAnsweredInText) {
+    for (const std::string& field :
+         {std::string{"Host: \xff"}, std::string{"Host: localhost\r\nOrigin: http://\xff"},
+          std::string{"Host: \xed\xa0\x80\xc0\xaf"}}) {
+        const std::string reply =
+            raw_over_tcp("GET /v1/status HTTP/1.1\r\n" + field + "\r\nConnection: close\r\n\r\n");
+        ASSERT_TRUE(reply.starts_with("HTTP/1.1 4")) << reply;
+        const auto body = nlohmann::json::parse(body_of(reply));
+        EXPECT_NE(body.at("error").at("sentence").get<std::string>().find("\uFFFD"),
+                  std::string::npos);
+    }
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+// 2026-11-23: a line of a noisy gauge in a note ended the daemon at the next status.
+TEST_F(HttpDoor, ANoteThatIsNoTextIsShownAsText) {
+    station.notes = {"gauge: \"\xff\xfe 0,4\""};
+    const std::string reply = over_tcp("GET", "/v1/status");
+    ASSERT_TRUE(reply.starts_with("HTTP/1.1 200")) << reply;
+    EXPECT_EQ(nlohmann::json::parse(body_of(reply)).at("notes").at(0),
+              "gauge: \"\uFFFD\uFFFD 0,4\"");
+}
+
+TEST_F(HttpDoor, WhatOneRequestThrowsEndsThatRequestAlone) {
+    const std::string reply = over_socket("POST", "/v1/run/abort", R"({"reason":"bug"})");
+    EXPECT_TRUE(reply.starts_with("HTTP/1.1 500")) << reply;
+    EXPECT_NE(reply.find("a bug of one request"), std::string::npos);
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(HttpDoor, WordsOfPeopleAreOneLineOfText) {
+    over_socket("POST", "/v1/run",
+                R"({"statements":{"operator":"A\u0000\u001b[2J\n(B) \u5de5 %"}})");
+    EXPECT_EQ(station.armed.statements.at("operator"), "A  [2J (B) \u5de5 %");
+    over_socket("POST", "/v1/run/abort", R"({"reason":"crash\r\nX: y"})");
+    EXPECT_EQ(station.reason_given, "crash  X: y");
+}
+
+// 2026-11-23: 64 idle clients of the network locked the technician out of status and abort.
+TEST_F(HttpDoor, ACrowdOnTheNetworkLeavesTheSocketOpen) {
+    constexpr std::size_t limit = 64;
+    asio::io_context own;
+    std::vector<asio::ip::tcp::socket> crowd;
+    const asio::ip::tcp::endpoint door{asio::ip::make_address("127.0.0.1"),
+                                       static_cast<std::uint16_t>(face->port())};
+    for (std::size_t i = 0; i < limit; ++i)
+        crowd.emplace_back(own).connect(door);
+    // One more is hung up on: all of the others sit inside.
+    std::string reply;
+    do {
+        crowd.emplace_back(own).connect(door);
+        reply = talk(crowd.back(),
+                     "GET /v1/status HTTP/1.1\r\nHost: localhost:" + std::to_string(face->port()) +
+                         "\r\nConnection: close\r\n\r\n");
+    } while (!reply.empty() && crowd.size() < 3 * limit);
+    EXPECT_EQ(reply, "");
+    EXPECT_TRUE(over_socket("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+    EXPECT_TRUE(over_socket("POST", "/v1/run/abort", "{}").starts_with("HTTP/1.1 200"));
+    EXPECT_EQ(station.reason_given, "aborted by the operator");
+}
+
+class HttpDoorWithAList : public HttpDoor {
+protected:
+    void configure(ConsoleConfig& config) override {
+        config.allowed_clients = {parse_address_range("192.0.2.0/24").value()};
+    }
+};
+
+TEST_F(HttpDoorWithAList, HangsUpOnWhomItDoesNotName) {
+    EXPECT_EQ(over_tcp("GET", "/v1/status"), "");
+    EXPECT_TRUE(over_socket("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+class HttpDoorWithItsOwnNetwork : public HttpDoor {
+protected:
+    void configure(ConsoleConfig& config) override {
+        config.allowed_clients = {parse_address_range("192.0.2.7").value(),
+                                  parse_address_range("127.0.0.0/8").value()};
+    }
+};
+
+TEST_F(HttpDoorWithItsOwnNetwork, AnswersWhomItNames) {
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
 TEST(Token, IsMadeOnceAndKept) {
     char name[] = "/tmp/axiscal-token-XXXXXX";
     const std::filesystem::path folder = ::mkdtemp(name);
@@ -419,6 +563,30 @@ TEST(Token, IsMadeOnceAndKept) {
     struct stat info {};
     ASSERT_EQ(::stat((folder / "token").c_str(), &info), 0);
     EXPECT_EQ(info.st_mode & 0777U, 0640U);
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Token, ThatOthersMayReadOrWriteIsRefusedWithTheWayOut) {
+    char name[] = "/tmp/axiscal-token-XXXXXX";
+    const std::filesystem::path folder = ::mkdtemp(name);
+    const auto token = load_or_make_token(folder / "token");
+    ASSERT_TRUE(token);
+    for (const mode_t wrong : {0644U, 0641U, 0660U, 0777U}) {
+        ASSERT_EQ(::chmod((folder / "token").c_str(), wrong), 0);
+        const auto refused = load_or_make_token(folder / "token");
+        ASSERT_FALSE(refused) << std::oct << wrong;
+        EXPECT_EQ(refused.error().fault, Fault::refused);
+        EXPECT_NE(refused.error().detail.find("remove " + (folder / "token").string()),
+                  std::string::npos)
+            << refused.error().detail;
+    }
+    for (const mode_t right : {0640U, 0600U, 0400U}) {
+        ASSERT_EQ(::chmod((folder / "token").c_str(), right), 0);
+        EXPECT_EQ(load_or_make_token(folder / "token").value(), *token) << std::oct << right;
+    }
+    std::filesystem::rename(folder / "token", folder / "elsewhere");
+    std::filesystem::create_symlink("elsewhere", folder / "token");
+    EXPECT_EQ(load_or_make_token(folder / "token").error().fault, Fault::refused);
     std::filesystem::remove_all(folder);
 }
 

@@ -79,6 +79,16 @@ TEST(Doctor, PortIsFreeOrTheDaemonsAndElseSomebodyElses) {
     EXPECT_EQ(health(PortTrial::no_right, false), Health::note);
 }
 
+TEST(Doctor, PortThatOnlyRootMayTakeIsNotGoodForTheService) {
+    PortReading port{"the port", "127.0.0.1", 502, PortTrial::free, false, true};
+    EXPECT_EQ(judge_port_trial(port).health, Health::note);
+    EXPECT_NE(judge_port_trial(port).mend.find("CAP_NET_BIND_SERVICE"), std::string::npos);
+    port.port = 1024; // ip(7): the first that everybody may take
+    EXPECT_EQ(judge_port_trial(port).health, Health::good);
+    port = {"the port", "127.0.0.1", 502, PortTrial::taken, true, true};
+    EXPECT_EQ(judge_port_trial(port).health, Health::good); // the service was given the right
+}
+
 TEST(Doctor, MissingModuleIsBrokenOnlyWhereAnInstrumentNeedsIt) {
     EXPECT_EQ(judge_module("ds2490", "x", ModuleState::missing, "screw").health, Health::broken);
     EXPECT_EQ(judge_module("ds2490", "x", ModuleState::missing, "").health, Health::note);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace axiscal::cnc_dwell_test {
 namespace {
@@ -150,6 +152,54 @@ TEST_F(Dwell, CountsEachVisitOfABidirectionalCycleOnce) {
         EXPECT_EQ(stand(200ms, target + (leg < 10 ? 2.0 : -2.0)), 0);
     }
     EXPECT_EQ(requests, 100);
+}
+
+/// The first request of an axis that stays in the window, every reading looked at each time.
+std::optional<std::size_t> plain_halt(const std::vector<std::pair<MonotonicTime, double>>& read,
+                                      const DwellLimits& limits) {
+    std::size_t entered = 0;
+    for (std::size_t i = 1; i < read.size(); ++i) {
+        const MonotonicTime now = read[i].first;
+        if (now - read[i - 1].first > limits.stability_period / 4) entered = i;
+        std::size_t first = i; // the last one at or before the begin of the period
+        while (first > entered && read[first].first > now - limits.stability_period)
+            --first;
+        double low = read[i].second, high = low;
+        for (std::size_t k = first; k < i; ++k) {
+            low = std::min(low, read[k].second);
+            high = std::max(high, read[k].second);
+        }
+        const bool whole = read[first].first <= now - limits.stability_period;
+        const bool halted = now - read[entered].first >= limits.minimum_halt;
+        if (halted && whole && high - low <= limits.stability_range_mm) return i;
+    }
+    return std::nullopt;
+}
+
+TEST(DwellDetector, LawAsksWhenALookAtEveryReadingWould) {
+    const DwellLimits limits{0.5, 1e-3, 100ms, 200ms, 0.1};
+    int asked = 0;
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        std::mt19937 random{seed};
+        std::vector<std::pair<MonotonicTime, double>> read;
+        MonotonicTime at = begin;
+        double place_mm = 0;
+        for (int i = 0; i < 2000; ++i) {
+            at += std::chrono::microseconds{random() % 800};
+            if (random() % 700 == 0) at += 30ms;
+            if (random() % 300 == 0) place_mm = 1e-3 * static_cast<double>(random() % 100);
+            read.emplace_back(at, place_mm + 1e-5 * static_cast<double>(random() % 101));
+        }
+        DwellDetector detector{limits};
+        detector.aim(0.0);
+        std::optional<std::size_t> request;
+        for (std::size_t i = 0; i < read.size() && !request; ++i)
+            if (detector.position(read[i].first, read[i].second)) request = i;
+        ASSERT_EQ(request, plain_halt(read, limits)) << "seed " << seed;
+        asked += request ? 1 : 0;
+    }
+    EXPECT_GT(asked, 20);
+    EXPECT_LT(asked, 200);
 }
 
 TEST(DwellTriggerPort, ReportsAHaltAsARequestOfTheNextNumber) {

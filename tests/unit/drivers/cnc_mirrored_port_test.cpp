@@ -35,6 +35,7 @@ public:
     }
     MapNews tick(MonotonicTime) override { return {}; }
     void arm() override {}
+    void end_run(RunEnd) override {}
     void refuse(std::uint16_t, Fault) override {}
     void show(const PortStatus&) override {}
     std::uint16_t& at(int word) { return image_.holding[static_cast<std::size_t>(word)]; }

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <poll.h>
 #include <random>
 
 namespace axiscal::cnc_modbus_rtu_port_test {
@@ -140,6 +141,19 @@ TEST_F(ModbusRtu, CarriesOneRequestFromBlockWriteToAcknowledge) {
               with_crc({17, 23, 4, 0, 2, 0, 0}));
 }
 
+// The thread of the line stamped DAEMON_HEARTBEAT by itself: a daemon that stood still seemed alive.
+TEST_F(ModbusRtu, WhileTheLoopStandsStillNothingBeats) {
+    received.clear();
+    send(with_crc({17, 3, 0, 16, 0, 1}));
+    for (int look = 0; look < 500 && received.size() < 5; ++look) { // nobody runs the loop
+        pollfd master{line->master(), POLLIN, 0};
+        ::poll(&master, 1, 20);
+        take_what_came();
+    }
+    EXPECT_EQ(received, with_crc({17, 0x83, 6})) << "the station did not come round";
+    EXPECT_EQ(ask({17, 3, 0, 16, 0, 1}, 7)[2], 2) << "and it does again";
+}
+
 TEST_F(ModbusRtu, AnswersIllegalRequestsWithTheProtocolsExceptions) {
     EXPECT_EQ(ask({17, 3, 0, 40, 0, 1}, 5), with_crc({17, 0x83, 2}));
     EXPECT_EQ(ask({17, 6, 0, 18, 0, 1}, 5), with_crc({17, 0x86, 2}));
@@ -213,7 +227,7 @@ TEST(RtuMailbox, GivesNoImageOlderThanThePostedWrites) {
     RtuMailbox mailbox;
     EXPECT_TRUE(mailbox.image_after(0, 0ms));
     EXPECT_FALSE(mailbox.image_after(1, 0ms));
-    mailbox.count_write();
+    mailbox.count();
     EXPECT_TRUE(mailbox.image_after(1, 0ms));
     mailbox.stop();
     EXPECT_FALSE(mailbox.image_after(1, 0ms));

@@ -20,12 +20,61 @@ ModbusException verdict(const AddressSpace& space, std::initializer_list<std::ui
     return request ? space.check(*request) : request.error();
 }
 
-// The rule of the counter: 65535 is followed by 1, 0 is idle.
-TEST(Sequence, GoesFrom65535To1) {
+// The rule of the counter: 65534 is followed by 1, 0 is idle, 65535 is no request.
+TEST(Sequence, GoesFrom65534To1) {
     EXPECT_EQ(next_sequence(0), 1);
     EXPECT_EQ(next_sequence(1), 2);
-    EXPECT_EQ(next_sequence(65534), 65535);
-    EXPECT_EQ(next_sequence(65535), 1);
+    EXPECT_EQ(next_sequence(65533), 65534);
+    EXPECT_EQ(next_sequence(65534), 1);
+}
+
+TEST(NoRun, IsShownAs65535ByEveryShapeBeforeTheFirstArmAndAfterARunThatWasBrokenOff) {
+    BlockBench block{false, false};
+    SingleBench single;
+    CoilBench coil{50ms};
+    const auto expect_done = [&](std::uint16_t done) {
+        EXPECT_EQ(block.word(18), done);
+        EXPECT_EQ(single.image().input[0], done);
+        EXPECT_EQ(coil.image().input[0], done);
+    };
+    expect_done(65535);
+    block.arm(), single.arm(), coil.arm();
+    expect_done(0);
+    block.write_word(2, 1), single.write_word(0, 1);
+    coil.write_word(0, 1), coil.write_coil(true);
+    block.finish(1), single.finish(1), coil.finish(1);
+    expect_done(1);
+    EXPECT_EQ(coil.image().discrete_inputs[0], 1);
+    block.end_run(RunEnd::at_once), single.end_run(RunEnd::at_once), coil.end_run(RunEnd::at_once);
+    expect_done(65535);
+    EXPECT_EQ(coil.image().discrete_inputs[0], 0);
+    block.arm(), single.arm(), coil.arm();
+    expect_done(0);
+}
+
+TEST(NoRun, LetsTheCncReadTheAnswerToTheRequestThatEndedIt) {
+    BlockBench map{false, false};
+    map.arm();
+    map.write_words(1, {5, 7});
+    map.finish(7);
+    map.end_run(RunEnd::once_answered);
+    EXPECT_EQ(map.word(18), 7);
+    map.write_words(1, {5, 7});
+    EXPECT_EQ(map.word(18), 7) << "the same number written again";
+    map.write_word(2, 0);
+    EXPECT_EQ(map.word(18), 65535);
+}
+
+TEST(SequenceBlock, SaysThatASkippedRequestHasNoPoint) {
+    BlockBench map{false, false};
+    map.arm();
+    map.write_words(1, {3, 1});
+    map.finish_skip(1);
+    EXPECT_EQ(map.word(18), 1);
+    EXPECT_EQ(map.word(19), 13);
+    EXPECT_EQ(map.word(32), 0);
+    map.write_words(1, {2, 2});
+    EXPECT_EQ(map.word(19), 0) << "withdrawn by the next request";
 }
 
 // Bytes of the examples in the Modbus application protocol V1.1b3, sections 6.3, 6.6, 6.11, 6.12,

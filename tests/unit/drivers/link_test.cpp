@@ -188,7 +188,7 @@ TEST(LinkText, NamesSerialLinesAndTcpPlaces) {
     EXPECT_EQ(place.describe(), "tcp sensor.local:502");
     EXPECT_EQ(parse_link("tcp:[::1]:502").value().host, "::1");
     for (const char* text : {"", "serial:", "/dev/ttyS0", "tcp:host", "tcp::502", "tcp:host:0",
-                             "tcp:host:70000", "tcp:host:5x"})
+                             "tcp:host:70000", "tcp:host:5x", "serial:COM3", "serial:ttyUSB0"})
         EXPECT_FALSE(parse_link(text)) << text;
 }
 

@@ -23,7 +23,7 @@ public:
         RunRecord run;
         run.run_id = text(), run.software_version = text(), run.station = text();
         run.station_config = text() + "\n[a]\nb = \"0.5 mm\"\n" + text();
-        run.config_hash = text(), run.boot_id = text();
+        run.config_hash = text(), run.boot_id.text = text();
         run.opened = tie();
         fill_plan(run.plan);
         run.laser = {text(),   length(), number(), pick(2) == 0 ? 1 : -1,

@@ -108,13 +108,13 @@ TEST_F(ReceiptToCnc, GivesTheNextHaltTheNextNumber) {
         }
     };
     const auto acknowledge = [&](const JournalReceipt& receipt) { port.acknowledge(receipt); };
-    store(65534, acknowledge); // the last durable point of a resumed run
+    store(65533, acknowledge); // the last durable point of a resumed run
     halt_at(10);
-    store(65535, acknowledge);
+    store(65534, acknowledge);
     port.position(scheduler.now(), 15);
     halt_at(20);
     ASSERT_EQ(running.sink.events.size(), 2U);
-    EXPECT_EQ(running.sink.events[0].sequence, 65535);
+    EXPECT_EQ(running.sink.events[0].sequence, 65534);
     EXPECT_EQ(running.sink.events[1].sequence, 1);
 }
 

@@ -92,7 +92,7 @@ TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
     const auto bytes = read_bytes(path);
     EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
     EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
-    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\6", 4})); // user_version
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\7", 4})); // user_version
 }
 
 TEST(RunFile, CanBeReadWhileItIsOpen) {

@@ -44,7 +44,7 @@ protected:
     /// noon. @returns its path
     std::string store_run_of(const std::string& boot, double uptime_s, std::int64_t after_noon_s) {
         RunRecord run = random.header();
-        run.boot_id = boot;
+        run.boot_id = {boot};
         run.opened = tie_at(uptime_s, after_noon_s);
         const std::string path =
             scratch.file("bench-" + instant_in_name(run.opened.utc_ns) + "-X.axiscal");
@@ -268,7 +268,7 @@ TEST_F(RunStore, OfRunsThatAllLieInTheFutureTheLatestAloneIsLookedInto) {
 
 RunSummary summary_of(const std::string& path, const std::string& boot, double uptime_s, int utc) {
     RunSummary run;
-    run.path = path, run.boot_id = boot;
+    run.path = path, run.boot_id = {boot};
     run.opened_at = MonotonicTime{from_seconds(uptime_s)};
     run.opened_utc_ns = utc;
     return run;
@@ -277,16 +277,16 @@ RunSummary summary_of(const std::string& path, const std::string& boot, double u
 TEST(RunOrder, WithinABootGoesByItsMonotonicClockAndBootsByTheirLatestUtc) {
     const std::vector runs{summary_of("a", "one", 10, 5), summary_of("b", "one", 20, 3),
                            summary_of("c", "two", 90, 4), summary_of("d", "two", 5, 1)};
-    EXPECT_EQ(newest_run(runs, "")->path, "b");
-    EXPECT_EQ(newest_run(runs, "two")->path, "c") << "this boot is later than any other";
-    EXPECT_EQ(newest_run(runs, "three")->path, "b");
-    EXPECT_EQ(newest_run({}, "one"), nullptr);
+    EXPECT_EQ(newest_run(runs, {""})->path, "b");
+    EXPECT_EQ(newest_run(runs, {"two"})->path, "c") << "this boot is later than any other";
+    EXPECT_EQ(newest_run(runs, {"three"})->path, "b");
+    EXPECT_EQ(newest_run({}, {"one"}), nullptr);
 }
 
 TEST(RunOrder, OfRunsThatStateNoBootTheUtcAloneDecides) {
     const std::vector runs{summary_of("a", "", 90, 5), summary_of("b", "", 10, 7),
                            summary_of("c", "one", 10, 6)};
-    EXPECT_EQ(newest_run(runs, "")->path, "b");
+    EXPECT_EQ(newest_run(runs, {""})->path, "b");
 }
 
 TEST_F(RunStore, NoFolderHoldsNoRuns) {

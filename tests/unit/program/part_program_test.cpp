@@ -134,6 +134,18 @@ TEST(PartProgram, MarlinRefusesToWaitOnInputs) {
     EXPECT_NE(text.error().detail.find("dwell"), std::string::npos);
 }
 
+TEST(PartProgram, WaitsLongerThanTheStationOrIsRefused) {
+    auto order = order_of(plan_of({10, 20}, 1), TriggerShape::single_register);
+    order.capture_timeout = std::chrono::seconds{20};
+    const auto refused = write_linuxcnc(order);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().detail.find("lengthen trigger.cnc_timeout"), std::string::npos);
+    order.answer_limit = std::chrono::seconds{23};
+    const auto written = write_linuxcnc(order);
+    ASSERT_TRUE(written);
+    EXPECT_NE(written->find("M66 P0 L3 Q23.0"), std::string::npos);
+}
+
 TEST(PartProgram, ADwellShorterThanTheHaltIsRefused) {
     for (auto* writer : {write_marlin, write_linuxcnc}) {
         ProgramOrder order = order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::dwell);
@@ -204,7 +216,7 @@ TEST(PartProgram, ThePrepareIsAskedForAtTheDatumOnceTheStationIsArmed) {
     const auto datum = lines.find("G1 X6.0000\n"), armed = lines.find("M66 P0 L3 Q600.0\n", datum),
                claim = lines.find("M68 E3 Q6.0000\n", armed),
                ask = lines.find("M68 E7 Q1\nG4 P4.000\nM68 E0 Q1\n", claim),
-               answer = lines.find("M66 P0 L3 Q10.0\n", ask),
+               answer = lines.find("M66 P0 L3 Q15.0\n", ask),
                way = lines.find("G1 X10.0000\n", answer);
     EXPECT_NE(way, std::string::npos) << lines;
 }
@@ -213,7 +225,7 @@ TEST(PartProgram, APrepareThatIsWithheldIsAskedForOnceMore) {
     const auto text = write_linuxcnc(order_with_prepare(TriggerShape::sequence_block));
     ASSERT_TRUE(text);
     const std::string lines = executed(*text, 2); // wait 1 is for arming
-    EXPECT_NE(lines.find("M68 E0 Q0\nG4 P4.000\nM68 E0 Q1\nG4 P0.050\nM66 P0 L3 Q10.0\n"),
+    EXPECT_NE(lines.find("M68 E0 Q0\nG4 P4.000\nM68 E0 Q1\nG4 P0.050\nM66 P0 L3 Q15.0\n"),
               std::string::npos)
         << lines;
     EXPECT_EQ(lines.find("ABORT"), std::string::npos);
@@ -235,9 +247,9 @@ TEST(PartProgram, AWithheldAnswerBringsTheAxisBackFromItsSideAndAsksAgain) {
         order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::single_register));
     ASSERT_TRUE(text);
     const std::string lines = executed(*text, 7);
-    EXPECT_NE(lines.find("M68 E0 Q6\nG4 P0.050\nM66 P0 L3 Q10.0\no"), std::string::npos);
+    EXPECT_NE(lines.find("M68 E0 Q6\nG4 P0.050\nM66 P0 L3 Q15.0\no"), std::string::npos);
     EXPECT_NE(lines.find("M68 E0 Q0\nG1 X212.0000\nG1 X210.0000\nG4 P4.000\nM68 E0 Q6\nG4 P0.050\n"
-                         "M66 P0 L3 Q10.0\n"),
+                         "M66 P0 L3 Q15.0\n"),
               std::string::npos);
     EXPECT_EQ(lines.find("ABORT"), std::string::npos);
 }
@@ -248,7 +260,7 @@ TEST(PartProgram, AWithheldCoilIsDroppedAndRaisedAgain) {
         write_linuxcnc(order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::coil_and_index));
     ASSERT_TRUE(text);
     const std::string lines = executed(*text, 4);
-    EXPECT_NE(lines.find("M65 P0\nG1 X58.0000\nG1 X60.0000\nG4 P4.000\nM64 P0\nM66 P0 L3 Q10.0\n"),
+    EXPECT_NE(lines.find("M65 P0\nG1 X58.0000\nG1 X60.0000\nG4 P4.000\nM64 P0\nM66 P0 L3 Q15.0\n"),
               std::string::npos);
 }
 

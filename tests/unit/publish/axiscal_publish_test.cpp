@@ -60,8 +60,11 @@ private:
         arguments.push_back(nullptr);
         ::dup2(out, STDOUT_FILENO);
         ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
+        // Opened while this process is still root: the checkout may lie in root's home, where
+        // nobody else may look.
+        const int program = ::open(arguments[0], O_RDONLY | O_CLOEXEC);
         if (as_nobody && ::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(99);
-        ::execv(arguments[0], arguments.data());
+        ::fexecve(program, arguments.data(), environ);
         ::_exit(98);
     }
     pid_t pid_ = -1;

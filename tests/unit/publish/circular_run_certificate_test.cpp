@@ -59,6 +59,23 @@ TEST_F(CircularRunCertificate, IsTheSameWhenItIsComputedAnew) {
     EXPECT_TRUE(seal_result(path)) << "a file that has a result keeps it";
 }
 
+TEST_F(CircularRunCertificate, BearsTheNumberThatItsFirstEvaluationTook) {
+    const std::string path = written();
+    EXPECT_TRUE(circular_certificate_to_json(circular_certificate_of_run_file(path).value())
+                    .at("certificate")
+                    .at("number")
+                    .is_null())
+        << "it was not issued";
+    const std::string state = std::filesystem::path{path}.parent_path().string();
+    ASSERT_TRUE(seal_result(path, {nullptr, state}));
+    const auto made = circular_certificate_of_run_file(path).value();
+    const std::string stated = "N-17"; // of written_circle.hpp
+    EXPECT_EQ(made.measured.run.statements.certificate_number, stated);
+    EXPECT_EQ(circular_certificate_to_json(made).at("certificate").at("number"), stated);
+    EXPECT_EQ(made.replaces, "");
+    EXPECT_TRUE(verify_run(path)->intact());
+}
+
 TEST_F(CircularRunCertificate, OfAnOpenRunIsRefused) {
     const auto certificate = circular_certificate_of_run_file(written(false));
     ASSERT_FALSE(certificate);
@@ -91,12 +108,12 @@ TEST_F(CircularRunCertificate, IsVerifiedAgainstItsRunFile) {
     auto document = circular_certificate_to_json(circular_certificate_of_run_file(path).value());
     const std::string json = folder_.file("certificate.json");
     std::ofstream{json} << document.dump();
-    const auto intact = verify_run(path, json);
+    const auto intact = verify_run(path, {json, {}, {}});
     ASSERT_TRUE(intact);
     EXPECT_TRUE(intact->intact()) << to_text(*intact);
     document["parameters"]["G_b"]["value"] = 0.001;
     std::ofstream{json} << document.dump();
-    const auto altered = verify_run(path, json);
+    const auto altered = verify_run(path, {json, {}, {}});
     ASSERT_TRUE(altered);
     ASSERT_EQ(altered->certificate_findings.size(), 1u);
     EXPECT_EQ(altered->certificate_findings.front().place, "/parameters/G_b/value");

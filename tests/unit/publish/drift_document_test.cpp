@@ -198,7 +198,7 @@ TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
     const auto verify = [&] {
         const std::string paper = folder.file("certificate.json");
         testing::write_bytes(paper, document_text(certificate));
-        return verify_run(path, paper);
+        return verify_run(path, {paper, {}, {}});
     };
     const auto told = verify();
     ASSERT_TRUE(told) << describe(told.error());

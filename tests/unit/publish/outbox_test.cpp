@@ -1,10 +1,12 @@
 #include "acquisition/publish/outbox.hpp"
 
+#include "acquisition/journal/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <random>
 
 namespace axiscal::outbox_test {
 namespace {
@@ -52,6 +54,37 @@ TEST(Outbox, RefusesNamesThatLeaveTheFolder) {
     const ScratchFolder scratch;
     for (const std::string name : {"", "..", "../x", "a/b", ".hidden", "a b", "a\nb"})
         EXPECT_EQ(begin_entry(outbox_in(scratch), name).error().fault, Fault::bad_request) << name;
+}
+
+// A run file may come from elsewhere, or bear the name of a station of before this rule: "bay 3".
+TEST(Outbox, TakesTheCertificateOfARunHoweverItsIdIsWritten) {
+    const ScratchFolder scratch;
+    std::mt19937 dice{20261121};
+    std::vector<std::string> ids{"bay 3-20261121T100000Z-X",
+                                 "../../out",
+                                 "hall3/bay2",
+                                 "",
+                                 ".",
+                                 "CON",
+                                 "nul",
+                                 "a.",
+                                 "\xFF\xC0",
+                                 "%2e%2e",
+                                 std::string(5000, 'x'),
+                                 std::string(1, '\0')};
+    for (int i = 0; i < 200; ++i) {
+        ids.emplace_back(dice() % 80, ' ');
+        for (char& byte : ids.back())
+            byte = static_cast<char>(dice() % 256);
+    }
+    for (const std::string& id : ids) {
+        RunSummary run;
+        run.run_id = id;
+        run.closings = 2;
+        const auto staging = begin_entry(outbox_in(scratch), certificate_name(run));
+        ASSERT_TRUE(staging) << ::testing::PrintToString(id);
+        EXPECT_EQ(std::filesystem::path(*staging).parent_path(), outbox_in(scratch));
+    }
 }
 
 TEST(Outbox, RefusesLinksAndFoldersInAnEntry) {

@@ -72,10 +72,10 @@ TEST_F(ProbingPapers, AreHeldAgainstTheRunFile) {
     auto document = probing_to_json(probing_of_run_file(path).value());
     const std::string json = folder_.file("certificate.json");
     std::ofstream{json} << document.dump();
-    EXPECT_TRUE(verify_run(path, json).value().intact());
+    EXPECT_TRUE(verify_run(path, {json, {}, {}}).value().intact());
     document["parameters"][3]["variation_mm"] = 0.030;
     std::ofstream{json} << document.dump();
-    const auto report = verify_run(path, json).value();
+    const auto report = verify_run(path, {json, {}, {}}).value();
     ASSERT_EQ(report.certificate_findings.size(), 1U);
     EXPECT_EQ(report.certificate_findings[0].place, "/parameters/3/variation_mm");
 }

@@ -27,6 +27,7 @@ inline RunRecord circular_header() {
     run.channels.push_back({6, "bar", "t", "", ChannelKind::temperature, Medium::material});
     run.channels.push_back({7, "air", "t", "", ChannelKind::temperature, Medium::air});
     run.statements.customer = "Milling shop";
+    run.statements.certificate_number = "N-17";
     ChannelCalibration table;
     table.channel = 5;
     table.certificate_number = "T-551";

@@ -20,8 +20,8 @@ class CircularReportProgram : public ::testing::Test {
 protected:
     /// The line that the program prints.
     nlohmann::json start(const std::string& arguments) {
-        const std::string command = std::string{AXISCAL_REPORT_PROGRAM} + " " + arguments + " >'" +
-                                    folder_.file("out") + "'";
+        const std::string command =
+            "'" AXISCAL_REPORT_PROGRAM "' " + arguments + " >'" + folder_.file("out") + "'";
         const int status = std::system(command.c_str());
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
         return nlohmann::json::parse(read_bytes(folder_.file("out")), nullptr, false);

@@ -34,7 +34,7 @@ protected:
 
     /// Exit code; stdout and stderr are kept.
     int start(const std::string& arguments) {
-        const std::string command = std::string{AXISCAL_REPORT_PROGRAM} + " " + arguments + " >'" +
+        const std::string command = "'" AXISCAL_REPORT_PROGRAM "' " + arguments + " >'" +
                                     folder_.file("out") + "' 2>'" + folder_.file("err") + "'";
         const int status = std::system(command.c_str());
         out_ = read_bytes(folder_.file("out"));

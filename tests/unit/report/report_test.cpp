@@ -485,13 +485,14 @@ TEST_F(Report, ReducesTheListOfOneDirection) {
     EXPECT_THAT(text, Not(HasSubstr("backward ↓: mean")));
 }
 
-TEST_F(Report, RefusesTextThatTheFontCannotPrint) {
+// Until 2026-11-24 such a text refused the certificate of a run that was measured.
+TEST_F(Report, PrintsALetterThatTheFontLacksAsItsCodePoint) {
     RunRecord run = test::synthetic_run();
     run.statements.customer = "\u4e0a\u6d77 customer";
-    const auto pdf = render_certificate_pdf(test::certificate_of(run));
-    ASSERT_FALSE(pdf.has_value());
-    EXPECT_EQ(pdf.error().fault, Fault::refused);
-    EXPECT_THAT(pdf.error().detail, HasSubstr("customer"));
+    run.statements.machine = "<b>&amp; \u0915\u094d\u0937 \U0001F527 %n (x)";
+    const std::string text = test::text_of(render(run));
+    EXPECT_THAT(text, HasSubstr("[U+4E0A][U+6D77] customer"));
+    EXPECT_THAT(text, HasSubstr("<b>&amp; [U+0915][U+094D][U+0937] [U+1F527] %n (x)"));
 }
 
 TEST_F(Report, SurvivesControlCharactersAndBrokenUtf8) {

@@ -26,6 +26,23 @@ TEST(Wording, WritesFormulasInTheSignsOfPaper) {
     EXPECT_EQ(formula_on_paper("L (1 - cos delta) / (2 sqrt 3)"), "L (1 - cos δ) / (2 √3)");
 }
 
+TEST(Wording, NamesNoDeviceOfTheComputer) {
+    EXPECT_EQ(without_device_paths("air: The instrument does not answer: check cable, address and "
+                                   "power. nothing came from serial /dev/serial/by-path/"
+                                   "pci-0000:00:14.0-usb-0:2:1.0-port0 9600 8E1, tried again"),
+              "air: The instrument does not answer: check cable, address and power. nothing came "
+              "from its line, tried again");
+    EXPECT_EQ(without_device_paths("cannot open /dev/ttyUSB0: gone."),
+              "cannot open its line: gone.");
+    EXPECT_EQ(without_device_paths("1/min and 3 um/m stay"), "1/min and 3 um/m stay");
+}
+
+TEST(Wording, MarksWhatIsDerivedByAFootnote) {
+    EXPECT_EQ(footnote_sign("R"), "\u00B9");
+    EXPECT_EQ(footnote_sign("S"), "");
+    EXPECT_EQ(footnote_of_derived.substr(0, 2), "\u00B9");
+}
+
 TEST(Wording, TellsWhatNobodyStated) {
     EXPECT_EQ(stated(""), "not stated");
     EXPECT_EQ(stated(" \t"), "not stated");

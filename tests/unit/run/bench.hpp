@@ -55,9 +55,12 @@ public:
         return found.empty() ? Action{} : found.front();
     }
 
-    /// Feeds one input; `last` is what came of it.
+    /// Feeds one input; `last` is what came of it. An order is on disk at once, if `keeps_orders`.
     Bench& give(const RunInput& input) {
         last = machine.handle(input);
+        if (keeps_orders && (saw<RecordRetake>() || saw<RecordExclusion>()))
+            for (RunAction& action : machine.handle(RevisionKept{tick()}))
+                last.push_back(std::move(action));
         for (const auto& action : last)
             note(action);
         return *this;
@@ -112,6 +115,7 @@ public:
     RunSetup setup;
     RunMachine machine;
     RunActions last;
+    bool keeps_orders = true;
     double now_s = 100;
     Length reading_zero = 3.0_mm;
     std::uint32_t epoch = 1;

@@ -23,7 +23,7 @@ struct Recorded {
         bar.setup.plan.overshoot_deg = 45;
         stream = bar.drive();
         run.config_hash = now.config_hash = "c";
-        run.boot_id = now.boot_id = "b";
+        run.boot_id = now.boot_id = {"b"};
         now.bar = Sample{0, stream.at.back() + std::chrono::seconds{3}, 1e-6, 20'000, 0};
         now.speaks = true;
         now.limits.rate_hz = 1000;
@@ -85,9 +85,12 @@ TEST(CircleResume, AfterTheLastRequestOnlyTheClosingIsMissing) {
 
 TEST(CircleResume, AnotherBootAnotherFileOrASilentBarEndTheTest) {
     Recorded from;
-    from.now.boot_id = "b2";
+    from.now.boot_id = {"b2"};
     EXPECT_EQ(from.decide().decision, Decision::close_incomplete);
     EXPECT_NE(from.decide().sentence.find("computer was restarted"), std::string::npos);
+    from.run.boot_id = from.now.boot_id = {};
+    EXPECT_EQ(from.decide().decision, Decision::close_incomplete);
+    EXPECT_NE(from.decide().sentence.find("nobody can tell whether"), std::string::npos);
     from.now.config_hash = "c2";
     EXPECT_EQ(from.decide().fault, Fault::bad_configuration);
     Recorded silent;

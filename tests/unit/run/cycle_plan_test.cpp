@@ -165,6 +165,18 @@ TEST(CyclePlan, RefusesAFirstTargetThatMayFallOutside) {
     auto config = metre_axis();
     config.first_target = 20.0_mm;
     expect_refusal(config, "first_target", "may fall to -7 mm");
+    expect_refusal(config, "first_target", "At an interval of 90 mm the first target of 20 mm");
+    expect_refusal(config, "first_target", "leave first_target out, take 32 mm or more");
+}
+
+TEST(CyclePlan, NamesTheIntervalThatIsLongerThanTheAxis) {
+    auto config = metre_axis();
+    config.interval = 1200.0_mm;
+    config.first_target = 33.0_mm;
+    expect_refusal(config, "interval", "An interval of 1200 mm is too long");
+    expect_refusal(config, "interval", "or less");
+    config.first_target.reset();
+    expect_refusal(config, "interval", "An interval of 1200 mm is too long");
 }
 
 TEST(CyclePlan, RefusesANearToleranceThatMixesTargets) {

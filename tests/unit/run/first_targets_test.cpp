@@ -37,7 +37,8 @@ TEST(FirstTargets, ATurnedSignIsOneSentenceWithNumbers) {
 TEST(FirstTargets, AnAxisThatDoesNotMoveIsAnotherAxis) {
     const auto error = diagnose(0, 3.0_um, {30.0_mm});
     EXPECT_EQ(error.fault, Fault::wrong_target);
-    EXPECT_TRUE(names(error, "another axis is measured, or the axis does not move")) << error.detail;
+    EXPECT_TRUE(names(error, "another axis is measured, or the axis does not move"))
+        << error.detail;
     EXPECT_FALSE(names(error, "shifted"));
 }
 
@@ -78,6 +79,7 @@ TEST(FirstTargets, OneTargetCannotTellAScaleFromAShift) {
     EXPECT_EQ(error.fault, Fault::outside_window);
     EXPECT_TRUE(names(error, "factor 1.1")) << error.detail;
     EXPECT_TRUE(names(error, "datum is shifted by 2 mm")) << error.detail;
+    EXPECT_TRUE(names(error, "abort, go to the datum and arm again")) << error.detail;
 }
 
 TEST(FirstTargets, TwoTargetsCan) {

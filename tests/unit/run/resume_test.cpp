@@ -22,7 +22,7 @@ RunRecord run_with_points(int points) {
     RunRecord run;
     run.plan = testing::small_plan();
     run.config_hash = "abc";
-    run.boot_id = "boot-1";
+    run.boot_id = {"boot-1"};
     run.laser.instrument = "laser";
     InstrumentRecord laser;
     laser.name = "laser";
@@ -50,7 +50,7 @@ RunRecord run_with_points(int points) {
 StationNow same_station(double seconds) {
     StationNow now;
     now.config_hash = "abc";
-    now.boot_id = "boot-1";
+    now.boot_id = {"boot-1"};
     now.laser_serial = "UMD-17";
     now.laser = Sample{0, at_s(seconds), 0.02, count_at(seconds), 0};
     now.limits.fastest = metre_per_second(1);
@@ -63,7 +63,7 @@ TEST(FirstRequest, LastDurableIsPublishedAgainNextIsCapturedAllElseIsLost) {
     };
     EXPECT_EQ(decide(5, 5), ResumeDecision::republish_done);
     EXPECT_EQ(decide(5, 6), ResumeDecision::capture_standing);
-    EXPECT_EQ(decide(65535, 1), ResumeDecision::capture_standing);
+    EXPECT_EQ(decide(65534, 1), ResumeDecision::capture_standing);
     EXPECT_EQ(decide(0, 1), ResumeDecision::capture_standing);
     EXPECT_EQ(decide(0, 0), ResumeDecision::wait_for_request);
     for (const std::uint16_t request : std::initializer_list<std::uint16_t>{0, 1, 4, 7, 65535})
@@ -84,7 +84,7 @@ TEST(Resume, NeedsTheSameStationFileInstrumentAndBoot) {
     now.laser_serial = "UMD-18";
     EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_other_instrument);
     now = same_station(200);
-    now.boot_id = "boot-2";
+    now.boot_id = {"boot-2"};
     EXPECT_EQ(decide_resume(run, 4, now).decision, ResumeDecision::close_datum_lost);
     now = same_station(200);
     now.laser.reset();
@@ -167,11 +167,31 @@ TEST(Resume, ARunWithoutADatumEndsWithTheBootThatItsAirWasReadIn) {
     run.datums.clear();
     run.events.push_back({EventKind::armed, at_s(1), 0, "the CNC ties", Fault::none, 0});
     auto now = same_station(200);
-    now.boot_id = "another boot";
+    now.boot_id = {"another boot"};
     const auto verdict = decide_resume(run, 1, now);
     EXPECT_EQ(verdict.decision, ResumeDecision::close_never_armed);
     EXPECT_EQ(verdict.sentence,
               "The computer was restarted before the datum was tied; nothing was measured yet.");
+}
+
+/// The unit hid the kernel's id: empty equalled empty, and a reboot went unnoticed.
+TEST(Resume, AnUnknownBootIsNeverTheRunsNotEvenWhereBothAreUnknown) {
+    for (const auto& [then, later] : {std::pair{"", ""}, {"boot-1", ""}, {"", "boot-1"}}) {
+        auto run = run_with_points(3);
+        run.boot_id = {then};
+        auto now = same_station(200);
+        now.boot_id = {later};
+        const auto verdict = decide_resume(run, 4, now);
+        EXPECT_EQ(verdict.decision, ResumeDecision::close_datum_lost);
+        EXPECT_EQ(verdict.sentence, "The datum is lost: nobody can tell whether the computer was "
+                                    "restarted since.");
+        run.datums.clear();
+        run.events.push_back({EventKind::armed, at_s(1), 0, "the CNC ties", Fault::none, 0});
+        EXPECT_EQ(decide_resume(run, 1, now).decision, ResumeDecision::close_never_armed);
+        EXPECT_EQ(decide_resume(run, 1, now).sentence,
+                  "Nobody can tell whether the computer was restarted before the datum was tied; "
+                  "nothing was measured yet.");
+    }
 }
 
 TEST(Resume, ARunWhoseDatumAPersonWasTyingIsClosedToBeArmedAnew) {
@@ -196,7 +216,7 @@ TEST(Resume, FindsTheNewestDurableRequest) {
     EXPECT_EQ(last_durable_request(run).sequence, 1);
     EXPECT_EQ(last_durable_request(run).step, -1);
     run = run_with_points(3);
-    run.points[1].sequence = 65535, run.points[2].sequence = 1;
+    run.points[1].sequence = 65534, run.points[2].sequence = 1;
     EXPECT_EQ(last_durable_request(run).sequence, 1) << "newest by time, not by number";
 }
 

@@ -4,6 +4,8 @@
 #include "acquisition/run/retake_plan.hpp"
 
 #include <gtest/gtest.h>
+#include <memory>
+#include <utility>
 
 namespace axiscal::retake_test {
 namespace {
@@ -172,6 +174,85 @@ TEST(RetakeOrder, OfAWholeCycleTakesItInThePlansOrder) {
         EXPECT_EQ(order.points[k].planned_step, 10 + static_cast<int>(k));
 }
 
+std::shared_ptr<const RunRecord> disk_with(int points) {
+    RunRecord run;
+    for (int step = 0; step < points; ++step)
+        run.points.emplace_back().step = step;
+    return std::make_shared<const RunRecord>(std::move(run));
+}
+
+TEST(RetakeOrder, ThatWasNotWrittenTakesBackOnlyWhatItAdded) {
+    auto bench = after(3);
+    bench.keeps_orders = false;
+    bench.trigger(4).window_here(); // its commit is under way
+    ASSERT_TRUE(bench.give(of_target(1)).saw<RecordRetake>());
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    bench.give(RevisionLost{bench.tick()});
+    EXPECT_EQ(bench.machine.view().total, 10);
+    EXPECT_EQ(bench.machine.view().retakes_asked, 0);
+    EXPECT_TRUE(bench.machine.view().stopped) << "the failed commit is not forgotten";
+    bench.give(DiskBack{disk_with(3), bench.tick()});
+    EXPECT_EQ(bench.the<CommitPoint>().point.sequence, 4);
+    bench.commit();
+    for (std::uint16_t k = 5; k <= 10; ++k)
+        bench.point(k);
+    EXPECT_TRUE(bench.machine.view().complete);
+}
+
+TEST(RetakeOrder, ThatWasNotWrittenLetsTheRunBeAborted) {
+    auto bench = after(3);
+    bench.keeps_orders = false;
+    bench.trigger(4).window_here();
+    bench.give(of_target(1));
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    bench.give(RevisionLost{bench.tick()});
+    EXPECT_TRUE(bench.give(Abort{"The disk is gone.", bench.tick()}).saw<Close>());
+}
+
+TEST(RetakeOrder, ThatWasNotWrittenTakesItsOwnPointsWithIt) {
+    auto bench = after(10);
+    bench.give(of_target(4)); // two points, written
+    bench.point(11).keeps_orders = false;
+    ASSERT_TRUE(bench.give(of_target(1)).saw<RecordRetake>());
+    bench.point(12).trigger(13).window_here(); // of the order that is not known to be written
+    EXPECT_EQ(bench.points.back().step, 12);
+    bench.give(RevisionLost{bench.tick()});
+    EXPECT_EQ(bench.machine.view().total, 12);
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    bench.give(DiskBack{disk_with(10), bench.tick()});
+    EXPECT_FALSE(bench.saw<CommitPoint>()) << "nobody ordered it";
+    EXPECT_TRUE(bench.give(Tick{bench.tick()}).the<Close>().complete);
+}
+
+TEST(RetakeOrder, OpensAClosedRunOnlyOnceItIsWritten) {
+    auto bench = after(10);
+    bench.keeps_orders = false;
+    bench.give(of_target(4));
+    EXPECT_TRUE(bench.machine.view().closed);
+    bench.trigger(11);
+    EXPECT_EQ(bench.the<Refuse>().fault, Fault::no_run_armed);
+    bench.give(of_target(1));
+    EXPECT_EQ(bench.the<Refuse>().fault, Fault::busy);
+    bench.give(RevisionLost{bench.tick()});
+    EXPECT_TRUE(bench.machine.view().closed && bench.machine.view().complete);
+    EXPECT_EQ(bench.machine.view().total, 10);
+    bench.give(of_target(4)).give(RevisionKept{bench.tick()});
+    EXPECT_FALSE(bench.machine.view().closed);
+    EXPECT_EQ(bench.the<SetState>().state, PortState::armed);
+}
+
+TEST(RetakeOrder, ThatIsRefusedChangesNothingOfTheRun) {
+    auto bench = after(3);
+    bench.trigger(7); // refused, and told to the CNC
+    const int refused = bench.machine.view().counters.refused;
+    bench.give(of_target(99));
+    ASSERT_TRUE(bench.saw<Refuse>());
+    EXPECT_EQ(bench.last.size(), 1U) << "no event, no state: the answer alone";
+    EXPECT_EQ(bench.machine.view().counters.refused, refused);
+    bench.trigger(7);
+    EXPECT_FALSE(bench.saw<RecordEvent>()) << "the CNC's repetition is still known as one";
+}
+
 Exclude one_reading(int target, int approach) {
     Exclude exclude;
     exclude.selection.target = target;
@@ -202,6 +283,16 @@ TEST(Exclusion, IsOfTheReadingAndEndsWhenThePointIsTakenAgain) {
     bench.give(again).point(31);
     EXPECT_EQ(refusal_of(bench.give(one_reading(2, 0))), "accepted")
         << "three readings count again";
+}
+
+TEST(Exclusion, ThatWasNotWrittenIsTakenBack) {
+    auto bench = after(30, repeated_setup());
+    bench.keeps_orders = false;
+    bench.give(one_reading(2, 1));
+    EXPECT_EQ(bench.machine.view().excluded, 1);
+    bench.give(RevisionLost{bench.tick()});
+    EXPECT_EQ(bench.machine.view().excluded, 0);
+    EXPECT_TRUE(bench.give(one_reading(2, 0)).saw<RecordExclusion>());
 }
 
 TEST(Exclusion, NeedsItsReason) {

@@ -253,13 +253,15 @@ TEST(RunMachineLaw, TheCounterWrapsInTheMiddleOfARun) {
     keep(disk, bench.last);
     bench.commit().trigger(1).window_here();
     auto point = bench.the<CommitPoint>().point;
-    point.sequence = 65534; // as if 65533 requests had come before
+    point.sequence = 65533; // as if 65532 requests had come before
     disk.points.push_back(point);
     bench.machine = RunMachine{bench.setup, disk, bench.epoch, bench.tick()};
     bench.give(EnvironmentNow{testing::air_index_minus_1});
     bench.acknowledged.clear();
-    bench.point(65535).point(1).point(2);
-    EXPECT_EQ(bench.acknowledged, (std::vector<std::uint16_t>{65535, 1, 2}));
+    bench.point(65534).trigger(65535);
+    EXPECT_EQ(bench.the<Refuse>().fault, Fault::out_of_order) << "no number of a request";
+    bench.point(1).point(2);
+    EXPECT_EQ(bench.acknowledged, (std::vector<std::uint16_t>{65534, 1, 2}));
 }
 
 } // namespace

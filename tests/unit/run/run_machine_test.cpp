@@ -174,25 +174,77 @@ TEST(Refusal, ACaptureThatNeverAnswersIsGivenUp) {
     EXPECT_TRUE(bench.saw<CloseWindow>());
 }
 
-TEST(Skip, IsAcknowledgedWhenDurableAndLeavesTheRunIncomplete) {
+TEST(Skip, IsAcknowledgedWhenDurableAndItsPointWaitsForARetake) {
     Bench bench;
     bench.arm().point(1).trigger(2, TriggerCommand::skip);
     ASSERT_TRUE(bench.saw<CommitEvent>());
     EXPECT_EQ(bench.the<CommitEvent>().step, 1);
     EXPECT_EQ(bench.the<CommitEvent>().event.kind, EventKind::skipped);
     EXPECT_FALSE(bench.saw<Acknowledge>());
-    EXPECT_TRUE(bench.commit().saw<Acknowledge>());
+    EXPECT_EQ(bench.machine.view().state, PortState::settling) << "nobody may move yet";
+    EXPECT_TRUE(bench.commit().the<Acknowledge>().skipped);
+    EXPECT_TRUE(bench.trigger(2).the<RepublishDone>().skipped);
     EXPECT_EQ(bench.machine.view().next->step, 2);
     for (std::uint16_t i = 3; i <= 10; ++i)
         bench.point(i);
-    ASSERT_TRUE(bench.saw<Close>());
+    EXPECT_FALSE(bench.saw<Close>()) << "what is missing can still be taken";
+    EXPECT_FALSE(bench.give(Tick{bench.tick()}).saw<Close>());
+    EXPECT_EQ(bench.machine.view().without_point, 1);
+    Retake retake;
+    retake.selection.target = bench.setup.plan.points[1].target_index;
+    retake.selection.direction = bench.setup.plan.points[1].direction;
+    retake.reason = "the CNC skipped it";
+    ASSERT_TRUE(bench.give(retake).saw<RecordRetake>());
+    bench.point(11);
+    EXPECT_EQ(bench.machine.view().without_point, 0);
+    EXPECT_TRUE(bench.the<Close>().complete);
+}
+
+TEST(Skip, IsOfThePointThatItNamesAndNeedsTheDatum) {
+    Bench bench;
+    bench.give(Arm{bench.tick(), false});
+    expect_refused(bench.trigger(1, TriggerCommand::skip), Fault::no_run_armed, "prepare");
+    bench.trigger(1, TriggerCommand::prepare).window_here().commit();
+    auto skip = Bench::request(2, TriggerCommand::skip);
+    skip.target_index = 3;
+    expect_refused(bench.trigger(skip), Fault::wrong_target, "target index 3");
+    skip.target_index = 0;
+    EXPECT_TRUE(bench.trigger(skip).saw<CommitEvent>());
+}
+
+TEST(Skip, ThatIsNotTakenAgainLeavesTheRunIncomplete) {
+    Bench bench;
+    bench.arm();
+    for (std::uint16_t i = 1; i <= 9; ++i)
+        bench.point(i);
+    bench.trigger(10, TriggerCommand::skip).commit();
+    EXPECT_FALSE(bench.saw<Close>());
+    bench.give(Abort{"The customer left.", bench.tick()});
     EXPECT_FALSE(bench.the<Close>().complete);
-    EXPECT_EQ(bench.the<Close>().reason, "1 of the points were skipped.");
+}
+
+TEST(Claim, OfAnotherApproachThanThePlansNextIsRefused) {
+    Bench bench;
+    bench.arm();
+    auto event = Bench::request(1);
+    event.run_index = 1;
+    expect_refused(bench.trigger(event), Fault::wrong_target, "RUN_INDEX");
+    event.run_index = 0;
+    EXPECT_TRUE(bench.trigger(event).saw<OpenWindow>());
+}
+
+TEST(Closing, OfARunThatWasBrokenOffPublishesNoNumberAgain) {
+    Bench bench;
+    bench.arm().point(1);
+    bench.give(Abort{"enough", bench.tick()});
+    EXPECT_FALSE(bench.the<Close>().answers_cnc);
+    expect_refused(bench.trigger(1), Fault::no_run_armed);
 }
 
 TEST(End, BeforeTheLastPointIsAcknowledgedAndClosesIncomplete) {
     Bench bench;
     bench.arm().point(1).trigger(2, TriggerCommand::end).commit();
+    EXPECT_TRUE(bench.the<Close>().answers_cnc);
     EXPECT_EQ(bench.acknowledged, (std::vector<std::uint16_t>{1, 2}));
     EXPECT_FALSE(bench.the<Close>().complete);
 }

@@ -232,6 +232,8 @@ private:
         closed = true;
         complete = action.complete;
         closing_reason = action.reason;
+        if (!action.complete)
+            port.map->end_run(action.answers_cnc ? RunEnd::once_answered : RunEnd::at_once);
     }
 
     /// Still for half a second after the trigger, or given up at the deadline.

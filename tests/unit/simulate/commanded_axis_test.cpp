@@ -1,4 +1,5 @@
 #include "cnc/commanded_axis.hpp"
+#include "cnc/commanded_plane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,35 @@ TEST(CommandedAxis, HaltsWhereItIs) {
     const double here = axis.position_mm(1);
     EXPECT_GT(here, 50);
     EXPECT_DOUBLE_EQ(axis.position_mm(100), here);
+}
+
+TEST(CommandedAxis, AMoveThatIsToldLateBeginsWhereTheAxisHasBeenSeen) {
+    CommandedAxis axis{10, 1000};
+    EXPECT_DOUBLE_EQ(axis.position_mm(5.2), 10); // a sampler, while the program was held up
+    const double end = axis.move(5, 20, 100);
+    EXPECT_DOUBLE_EQ(end, 5.2 + (TrapezoidMove{0, 10, 20, 100, 1000}).duration_s());
+    EXPECT_NEAR(axis.position_mm(5.2 + 1e-6), 10, 1e-6) << "it does not jump";
+    EXPECT_EQ(axis.shown().late(), 1);
+    EXPECT_DOUBLE_EQ(axis.shown().latest_s(), 5.2 - 5);
+}
+
+TEST(CommandedAxis, AHaltThatIsToldLateDoesNotGoBack) {
+    CommandedAxis axis{0, 1000};
+    axis.move(0, 100, 10);
+    const double seen_mm = axis.position_mm(3);
+    axis.halt(2.5);
+    EXPECT_DOUBLE_EQ(axis.position_mm(4), seen_mm);
+}
+
+TEST(CommandedPlane, AWayThatIsToldLateBeginsWhereThePlaneHasBeenSeen) {
+    CommandedPlane plane{{0, 0}, 1000};
+    EXPECT_EQ(plane.position(1.5), (PlanePoint{0, 0}));
+    PlaneMove way;
+    way.to = {30, 40};
+    way.feed_mm_per_min = 6000;
+    EXPECT_DOUBLE_EQ(plane.move(1, way), 1.5 + (TrapezoidMove{0, 0, 50, 100, 1000}).duration_s());
+    EXPECT_NEAR(plane.position(1.5 + 1e-6)[1], 0, 1e-6) << "it does not jump";
+    EXPECT_EQ(plane.shown().late(), 1);
 }
 
 } // namespace

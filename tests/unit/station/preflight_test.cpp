@@ -275,6 +275,28 @@ TEST_F(Preflight, TheStateOfTheMachineIsAskedFor) {
     expect_failure(table, "compensation", "Which compensation");
 }
 
+TEST_F(Preflight, ADaemonFromWhichTheBootIdIsHiddenIsWarnedAndMayMeasure) {
+    auto hidden = facts();
+    hidden.boot_known = false;
+    const auto checks = judge_preflight(hidden);
+    EXPECT_EQ(open_objections(checks), "");
+    const PreflightRecord& computer = named(checks, "computer");
+    EXPECT_TRUE(computer.passed && computer.warning);
+    EXPECT_NE(computer.verdict.find("ProcSubset=pid"), std::string::npos) << computer.verdict;
+    EXPECT_FALSE(named(judge_preflight(facts()), "computer").warning);
+}
+
+TEST_F(Preflight, AComputerThatMayFallAsleepIsWarnedOf) {
+    auto refused = facts();
+    refused.may_sleep = "systemd-inhibit: Failed to inhibit: Access denied";
+    const auto checks = judge_preflight(refused);
+    EXPECT_EQ(open_objections(checks), "");
+    const PreflightRecord& computer = named(checks, "computer");
+    EXPECT_TRUE(computer.passed && computer.warning);
+    for (const char* words : {"Access denied", "polkit"})
+        EXPECT_NE(computer.verdict.find(words), std::string::npos) << computer.verdict;
+}
+
 TEST_F(Preflight, AnInstrumentOutOfDateIsNamed) {
     config.instruments[1].due_on = "2026-11-20";
     expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");

@@ -113,7 +113,7 @@ TEST_F(StationBarDrifts, BesideAnAxisItMustBeAskedFor) {
     Life life{shop};
     begin(life, a_minute());
     EXPECT_FALSE(life.status().drift->of_bar);
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(1s);
     const auto id = begin(life, a_minute(true));
     ASSERT_TRUE(*id && **id);
@@ -295,7 +295,7 @@ TEST_F(StationBarDrifts, AndATestOfTheAxisAreNotEachOthersSource) {
     const auto newest = read_run_file_contents(life.status().run->file);
     ASSERT_TRUE(newest && newest->run.uncertainty);
     EXPECT_NEAR(newest->run.uncertainty->eve->in(um), 1.25, 1e-9);
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(1s);
     ASSERT_TRUE(arm_circles(life));
     const auto circles = read_run_file_contents(life.status().run->file);
@@ -312,7 +312,7 @@ TEST_F(StationBarDrifts, OfAnotherBarIsNotItsOwn) {
         life.run(70s);
         store_figures(shop.run_files().at(0), 2.5);
         ASSERT_TRUE(arm_circles(life));
-        ASSERT_TRUE(life.station->abort("enough"));
+        ASSERT_TRUE(life.abort("enough"));
         life.run(1s);
     }
     shop.config.instruments.back().name = "short bar";

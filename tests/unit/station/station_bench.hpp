@@ -8,6 +8,7 @@
 #include "acquisition/station/station.hpp"
 #include "drivers/link/arrival.hpp"
 #include "drivers/link/doorbell.hpp"
+#include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 
@@ -172,18 +173,30 @@ public:
     void publish_armed() override {
         ++armed;
         done = 0;
+        words.arm();
+    }
+    void acknowledge_skip(const JournalReceipt& receipt) override {
+        acknowledge(receipt);
+        words.finish_skip(receipt.sequence());
+    }
+    void publish_no_run(RunEnd end) override {
+        words.end_run(end);
+        done = words.word(sequence_block::acknowledged_sequence);
     }
     void acknowledge(const JournalReceipt& receipt) override {
         done = receipt.sequence();
         if (sink == nullptr) done_before_open = done;
         acknowledged.push_back(receipt.sequence());
+        words.finish(receipt.sequence());
     }
     void refuse(std::uint16_t sequence, Fault fault) override {
         refusals.emplace_back(sequence, fault);
+        words.refuse(sequence, fault);
     }
     void publish(const PortStatus& of) override {
         status = of;
         ++published;
+        words.show(of);
     }
     [[nodiscard]] std::string describe() const override { return "scripted"; }
 
@@ -196,6 +209,7 @@ public:
     std::vector<std::uint16_t> acknowledged;
     std::vector<std::pair<std::uint16_t, Fault>> refusals;
     PortStatus status;
+    MapBench<SequenceBlockMap> words{false, false}; ///< as a CNC with this shape would read them
 };
 
 /// Opens what is plugged in, and tells who waits for it when it comes. The links are empty: made
@@ -246,7 +260,8 @@ struct Shop {
     MonotonicTime laser_switched_on{};
     std::string laser_serial = "S-1", air_serial = "S-1", bar_serial = "S-1";
     bool air_is_out = false; ///< its cable, when the daemon starts
-    std::string boot_id = "boot-1";
+    BootId boot_id{"boot-1"};
+    StationKey key;                                          ///< none: nothing is signed
     std::int64_t utc_at_zero_ns = 1'795'255'200'000'000'000; ///< 2026-11-21T10:00:00Z
     bool port_broken = false;
     Duration port_looks_every = 100ms;
@@ -263,6 +278,8 @@ struct Shop {
     /// stored unit.
     std::function<double(MonotonicTime)> reading_m;
     Channel first_channel{"axis 1", ChannelKind::displacement};
+    int further_axes = 0; ///< of the laser's counter: lengths that nobody asks for
+    Duration laser_period = 5ms;
 
     [[nodiscard]] double laser_m(MonotonicTime at) const {
         if (reading_m) return reading_m(at);
@@ -371,6 +388,19 @@ public:
         run(1s);
         return answer ? *answer : Result<RetakeAnswer>{fail(Fault::internal, "still at it")};
     }
+    /// The answer stands there once it came.
+    std::shared_ptr<std::optional<Result<void>>> begin_abort(const std::string& reason, Orderer by = {}) {
+        auto answer = std::make_shared<std::optional<Result<void>>>();
+        boost::asio::co_spawn(
+            scheduler.loop(), station->abort(reason, std::move(by)),
+            [answer](std::exception_ptr, Result<void> r) { *answer = std::move(r); });
+        return answer;
+    }
+    Result<void> abort(const std::string& reason, Orderer by = {}) {
+        const auto answer = begin_abort(reason, std::move(by));
+        run(100ms);
+        return *answer ? **answer : Result<void>{fail(Fault::internal, "still at it")};
+    }
     Result<int> exclude(RevisionRequest request) {
         std::optional<Result<int>> answer;
         boost::asio::co_spawn(
@@ -458,13 +488,17 @@ private:
         made.config = shop.config;
         made.config_hash = sha256_hex(shop.config.text);
         made.boot_id = shop.boot_id;
+        made.key = shop.key;
         made.report_program = report;
         made.journal_thread = JournalThread::caller;
         std::vector<Channel> of_light{shop.first_channel};
         if (shop.laser_strength) of_light.push_back({"contrast", ChannelKind::strength});
+        for (int axis = 0; axis < shop.further_axes; ++axis)
+            of_light.push_back({"axis " + std::to_string(axis + 2), ChannelKind::displacement});
         auto light = std::make_unique<BenchInstrument>(
-            std::move(of_light), 5ms, [this](int channel, MonotonicTime at) {
-                return channel == 0 ? shop.laser_m(at) : shop.laser_strength(at);
+            std::move(of_light), shop.laser_period, [this](int channel, MonotonicTime at) {
+                return channel == 1 && shop.laser_strength ? shop.laser_strength(at)
+                                                           : shop.laser_m(at);
             });
         auto weather = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"air temperature", ChannelKind::temperature, Medium::air},

@@ -260,7 +260,7 @@ TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
     life.run(40ms);
     life.bar->silent = false;
     life.run(2s);
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(1s);
     const RunFileContents read = contents_of(bay.shop);
     EXPECT_FALSE(read.run.complete);
@@ -295,7 +295,7 @@ TEST(StationCircular, BlocksThatADiskTakesNoMoreAreCountedNamedAndMissingInTheFi
     life.run(3s);
     EXPECT_EQ(life.notes_with("The disk does not keep up: readings of the ballbar are dropped"), 1);
     const std::string told = life.status().run->last_sentence;
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(1s);
 
     const RunFileContents read = contents_of(bay.shop);

@@ -92,10 +92,24 @@ TEST_F(StationClockBetweenRuns, SetBackTheLaterRunIsTheNewestAfterARestart) {
     EXPECT_TRUE(!later.closed && later.revisions.retakes.size() == 2);
 }
 
-using StationClockOfAnotherBoot = StationClock;
+class StationClockOfAnotherBoot : public StationClock {
+protected:
+    void leave_out_a_reading_in_another_boot(const BootId& first_boot, const BootId& later_boot);
+};
 
 /// The uptime is longer than the first boot's ever was: no number shows that it is another.
 TEST_P(StationClockOfAnotherBoot, TellsTheClosingOfThatBootByItsOwnClock) {
+    leave_out_a_reading_in_another_boot({"boot-1"}, {"boot-2"});
+}
+
+/// Empty equalled empty, and the dates of the paper went by the clock of a boot that was over.
+TEST_P(StationClockOfAnotherBoot, DoesSoWhereNobodyKnowsTheBoots) {
+    leave_out_a_reading_in_another_boot({}, {});
+}
+
+void StationClockOfAnotherBoot::leave_out_a_reading_in_another_boot(const BootId& first_boot,
+                                                                    const BootId& later_boot) {
+    shop.boot_id = first_boot;
     shop.config.cycle.approaches = 3;
     {
         Life life{shop};
@@ -105,7 +119,7 @@ TEST_P(StationClockOfAnotherBoot, TellsTheClosingOfThatBootByItsOwnClock) {
         life.run(2s);
     }
     const Certificate first = printed(contents());
-    shop.boot_id = "boot-2";
+    shop.boot_id = later_boot;
     shop.now += GetParam();
     shop.utc_at_zero_ns += std::chrono::nanoseconds{30 * 24h}.count();
     const std::int64_t of_this_boot = shop.utc_at_zero_ns;
@@ -123,6 +137,48 @@ TEST_P(StationClockOfAnotherBoot, TellsTheClosingOfThatBootByItsOwnClock) {
     EXPECT_EQ(nanoseconds_of(tie_of_points(file.run.opened, file.run.events).before),
               nanoseconds_of(file.run.opened.before))
         << "the points were measured in the first boot";
+}
+
+/// It was taken for a clock that was set: what came afterwards was told too early by the whole
+/// sleep.
+TEST_F(ClockOfAStation, CountsTheTimeOfASuspendAndTheRunSaysSo) {
+    Life life{shop};
+    const std::int64_t right = life.scheduler.utc_at_zero_ns;
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 10; ++step) {
+        ASSERT_TRUE(life.take(step)) << step;
+        if (step == 9) break;
+        if (step == 4) life.scheduler.suspend(1h);
+        life.run(2s);
+    }
+    life.run(2s);
+    const RunFileContents file = contents();
+    const Certificate paper = printed(file);
+    EXPECT_EQ(paper.finished_utc, iso8601_utc(right + nanoseconds_of(file.run.closed.before)));
+    for (const EventRecord& event : paper.run.events)
+        EXPECT_EQ(iso8601_utc(event.utc_ns), iso8601_utc(right + nanoseconds_of(event.at)))
+            << event.text;
+    const auto slept = std::ranges::count_if(file.run.events, [](const EventRecord& event) {
+        return event.text ==
+               "The computer was suspended for 3600 s; nothing was recorded meanwhile.";
+    });
+    EXPECT_EQ(slept, 1);
+}
+
+TEST_F(ClockOfAStation, GoesOnInTheSameDaemonWhoseBootIsUnknown) {
+    shop.boot_id = {};
+    shop.config.cycle.approaches = 3;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 30; ++step)
+        ASSERT_TRUE(life.take(step)) << step;
+    life.run(2s);
+    RevisionRequest request = of_target(1);
+    request.selection.direction = Direction::positive;
+    request.selection.approach = 0;
+    ASSERT_TRUE(life.exclude(request));
+    for (const EventRecord& event : contents().run.events)
+        EXPECT_FALSE(begins_another_boot(event)) << event.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(LaterAndMuchLater,

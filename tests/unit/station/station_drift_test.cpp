@@ -122,7 +122,7 @@ TEST_F(StationDrifts, StandsAtTheFarEndUnlessSaidOtherwise) {
     Life life{shop};
     life.begin_drift(short_test());
     EXPECT_EQ(life.status().drift->place_mm, 1000);
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(1s);
     EXPECT_EQ(life.status().drift->state, "incomplete");
     EXPECT_EQ(life.status().drift->sentence, "enough");

@@ -1,4 +1,6 @@
 // A second daemon on the state folder of the first.
+#include "acquisition/station/run_header.hpp"
+#include "config/version.hpp"
 #include "tests/support/full_disk.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
@@ -44,6 +46,27 @@ TEST_F(StationResumes, DoneIsPublishedAgainBeforeThePortOpensAndTheRunGoesOn) {
     EXPECT_TRUE(run.complete);
     EXPECT_TRUE(check_complete(run));
     EXPECT_EQ(std::ranges::count(run.events, EventKind::resumed, &EventRecord::kind), 1);
+}
+
+TEST_F(StationResumes, TheInterruptionNamesTheVersionThatGoesOn) {
+    die_after(6);
+    pause(20s);
+    Life life{shop};
+    const RunRecord run = only_run();
+    const auto event = std::ranges::find(run.events, EventKind::interrupted, &EventRecord::kind);
+    ASSERT_NE(event, run.events.end());
+    EXPECT_NE(event->text.find(std::string{" Version "} + software_version() + " goes on. "),
+              std::string::npos)
+        << event->text;
+}
+
+TEST(TakenUp, ByAnotherVersionNamesBoth) {
+    RunRecord run;
+    run.software_version = "0.0.9";
+    EXPECT_EQ(taken_up_in_words(run), std::string{"Version "} + software_version() +
+                                          " goes on; version 0.0.9 opened the run. ");
+    run.software_version = software_version();
+    EXPECT_EQ(taken_up_in_words(run), std::string{"Version "} + software_version() + " goes on. ");
 }
 
 TEST_F(StationResumes, OnAFullDiskTheRunWaitsForRoomAndGoesOnByItself) {
@@ -117,7 +140,7 @@ TEST_F(StationResumes, AnyOtherRequestIsASequenceLost) {
     EXPECT_EQ(life.port->refusals.at(0),
               (std::pair<std::uint16_t, Fault>{9, Fault::sequence_lost}));
     EXPECT_EQ(life.status().run->state, "incomplete");
-    EXPECT_EQ(life.port->done, 6);
+    EXPECT_EQ(life.port->done, 65535) << "no run takes requests";
     EXPECT_FALSE(only_run().complete);
 }
 

@@ -1,4 +1,5 @@
 // Pre-flight, retakes and exclusions through the whole station.
+#include "tests/support/full_disk.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ TEST_F(StationRevises, DoesNotArmWhileACheckFailsUnlessItIsOverridden) {
     ASSERT_TRUE(life.arm(request));
     ASSERT_TRUE(life.take(0));
     const auto checks = contents().revisions.preflight;
-    ASSERT_EQ(checks.size(), 10U);
+    ASSERT_EQ(checks.size(), 11U);
     const auto dates = std::ranges::find(checks, "certificates", &PreflightRecord::name);
     ASSERT_NE(dates, checks.end());
     EXPECT_FALSE(dates->passed);
@@ -215,6 +216,62 @@ TEST_F(StationRevises, LeavesAReadingOutOfARunThatTheLastDaemonClosed) {
     EXPECT_TRUE(contents().closed && contents().run.complete);
 }
 
+/// Virtual time plays the same twice: the first life tells when the commit of point 2 begins, in
+/// the second an order comes in while it is failing.
+class StationRevisesOnAFailingDisk : public StationRevises {
+protected:
+    /// @returns when point 2 was asked to be written
+    static MonotonicTime ask_for_the_second(Life& life) {
+        life.drive_to(life.shop.plan().points[1]);
+        // Laser and capture look at the same instants then, the capture first.
+        const Duration beat = life.laser->send_every;
+        life.run(beat - life.scheduler.now().time_since_epoch() % beat);
+        life.ask(Life::request_for(life.shop.plan().points[1], 2));
+        for (int i = 0; i < 4000 && life.port->done == 1 && life.port->refusals.empty(); ++i)
+            life.run(1ms);
+        return life.scheduler.now();
+    }
+    static MonotonicTime when_it_is_written() {
+        Shop twin;
+        twin.shorten();
+        Life life{twin};
+        EXPECT_TRUE(life.arm());
+        EXPECT_TRUE(life.take(0));
+        return ask_for_the_second(life);
+    }
+};
+
+TEST_F(StationRevisesOnAFailingDisk, AnOrderLeavesTheRunAliveAndIsNotWrittenLater) {
+    const MonotonicTime written = when_it_is_written();
+    Life life{shop};
+    std::optional<Result<RetakeAnswer>> answer;
+    bool asked = false;
+    shop.drift_um = [&](MonotonicTime at) {
+        if (at == written && !std::exchange(asked, true))
+            boost::asio::co_spawn(
+                life.scheduler.loop(), life.station->retake(of_target(0)),
+                [&answer](std::exception_ptr, Result<RetakeAnswer> r) { answer = std::move(r); });
+        return 0.0;
+    };
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    {
+        const FullDisk full;
+        ask_for_the_second(life);
+        life.run(100ms);
+        ASSERT_TRUE(asked && answer) << "the order came in while the commit failed";
+        ASSERT_FALSE(*answer);
+        EXPECT_EQ(answer->error().fault, Fault::not_durable);
+        ASSERT_EQ(life.port->refusals.size(), 1U) << "and the commit did fail";
+    }
+    life.port->refusals.clear();
+    life.run_until([&] { return life.port->done == 2; });
+    for (int step = 2; step < 10; ++step)
+        ASSERT_TRUE(life.take(step)) << step;
+    life.run_until([&] { return life.status().run->state == "complete"; });
+    EXPECT_TRUE(contents().revisions.retakes.empty()) << "who ordered it was told that it is not";
+}
+
 TEST_F(StationRevises, SaysThatThereIsNothingToTakeAgain) {
     Life life{shop};
     const auto answer = life.retake(of_target(2));
@@ -230,7 +287,7 @@ TEST_F(StationRevises, AnotherJobIsNotArmedWhileARetakeIsOpen) {
     ASSERT_FALSE(armed);
     EXPECT_EQ(armed.error().fault, Fault::busy);
     EXPECT_FALSE(life.retake(of_target(2))) << "it is asked for already";
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(2s);
     EXPECT_TRUE(contents().run.complete);
 }

@@ -107,7 +107,7 @@ TEST_F(StationRuns, EachCaptureStatesItsSynchronisationErrorInTheRunFileAndTheSt
 TEST_F(StationRuns, WhatWasReadBetweenTwoRunsIsInNeither) {
     Life life{shop};
     ASSERT_TRUE(life.arm());
-    ASSERT_TRUE(life.station->abort("first"));
+    ASSERT_TRUE(life.abort("first"));
     life.run(60s);
     const MonotonicTime between = life.scheduler.now();
     ASSERT_TRUE(life.arm());
@@ -262,7 +262,7 @@ TEST_F(StationRuns, AnAbortWhileTheDatumIsTiedEndsTheArming) {
     Life life{shop};
     const auto answer = life.begin_arm();
     life.run(100ms);
-    ASSERT_TRUE(life.station->abort("the wrong machine"));
+    ASSERT_TRUE(life.abort("the wrong machine"));
     life.run(1s);
     ASSERT_TRUE(*answer);
     EXPECT_FALSE(**answer);
@@ -270,7 +270,7 @@ TEST_F(StationRuns, AnAbortWhileTheDatumIsTiedEndsTheArming) {
     EXPECT_EQ(life.status().run->last_fault, "") << "a person's reason is no fault";
     EXPECT_EQ(life.status().run->last_sentence, "the wrong machine");
     EXPECT_EQ(life.port->armed, 0);
-    EXPECT_FALSE(life.station->abort("again"));
+    EXPECT_FALSE(life.abort("again"));
 }
 
 TEST_F(StationRuns, ArmingNeedsLaserBeamAndEnvironment) {
@@ -320,7 +320,11 @@ TEST_F(StationRuns, ARunAbortedOnAFullDiskIsClosedWhenItHasRoom) {
     {
         const FullDisk full;
         EXPECT_FALSE(life.take(1));
-        ASSERT_TRUE(life.station->abort("disk full"));
+        const auto answer = life.abort("disk full");
+        ASSERT_FALSE(answer) << "nothing was closed";
+        EXPECT_EQ(answer.error().fault, Fault::not_durable);
+        EXPECT_NE(answer.error().detail.find("closes it once the disk takes records"),
+                  std::string::npos);
         life.run(3s);
         EXPECT_EQ(life.status().run->state, "incomplete");
     }
@@ -374,6 +378,57 @@ TEST_F(StationRuns, ATechniciansOwnTriggerAnswersForItselfOnly) {
     ASSERT_TRUE(run && run->points.size() == 1);
     EXPECT_EQ(run->points[0].origin, TriggerOrigin::manual);
     EXPECT_EQ(life.port->done, 1);
+}
+
+TEST_F(StationRuns, ATriggerWhileTheDatumIsTiedIsRefusedAndTheArmingGoesOn) {
+    Life life{shop};
+    shop.axis.go(shop.plan().datum.in(mm), life.scheduler.now());
+    life.run(4s);
+    const auto armed = life.begin_arm();
+    life.run(40ms);
+    ASSERT_TRUE(life.status().run_open && !*armed) << "the datum is being tied";
+    const auto triggered = life.station->trigger();
+    ASSERT_FALSE(triggered);
+    EXPECT_EQ(triggered.error().fault, Fault::busy);
+    EXPECT_NE(triggered.error().detail.find("tied to the datum"), std::string::npos);
+    life.run(3s);
+    ASSERT_TRUE(*armed);
+    EXPECT_TRUE(**armed) << describe((*armed)->error());
+    EXPECT_TRUE(life.take(0));
+}
+
+/// Whatever a person asks for in vain, the cause of the fault stays where it was.
+TEST_F(StationRuns, ARequestInVainLeavesTheCauseOfTheFault) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    life.ask(Life::request_for(shop.plan().points[3], 1));
+    ASSERT_EQ(life.status().run->last_fault, "wrong_target");
+    const std::string cause = life.status().run->last_sentence;
+    RevisionRequest none;
+    none.selection.target = 99;
+    none.reason = "mistyped";
+    EXPECT_EQ(life.retake(none).error().fault, Fault::bad_request);
+    EXPECT_EQ(life.exclude(none).error().fault, Fault::bad_request);
+    EXPECT_FALSE(life.arm());
+    DriftRequest drift;
+    const auto drifted = life.begin_drift(drift);
+    EXPECT_TRUE(*drifted && !**drifted);
+    EXPECT_FALSE(life.station->align({AlignmentAction::keep, {}}));
+    EXPECT_FALSE(life.station->type_reading(3));
+    EXPECT_EQ(life.status().run->last_fault, "wrong_target");
+    EXPECT_EQ(life.status().run->last_sentence, cause);
+    EXPECT_EQ(life.notes_with("no such point"), 0);
+}
+
+TEST_F(StationRuns, AnAbortAnswersWhenTheRunIsClosed) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    const auto answer = life.begin_abort("enough");
+    EXPECT_FALSE(*answer);
+    life.run_until([&] { return answer->has_value(); });
+    EXPECT_TRUE(**answer);
+    EXPECT_TRUE(summarize_run_file(shop.run_files().front())->closed);
 }
 
 TEST_F(StationRuns, StatementsOfTheArmingReplaceThoseOfTheFile) {

@@ -59,7 +59,7 @@ TEST_F(StationWithScale, ArmsWithoutTheAirSensorsButNotWithoutTheScalesTemperatu
     life.air->silent = true;
     life.run(120s); // the readings of air grow old
     EXPECT_TRUE(life.arm());
-    ASSERT_TRUE(life.station->abort("enough"));
+    ASSERT_TRUE(life.abort("enough"));
     life.run(2s);
     life.material->silent = true;
     life.run(120s);

@@ -32,6 +32,18 @@ TEST_F(Supervision, PausesGrowToTwoSecondsAndStartSmallAgain) {
     EXPECT_EQ(view("air").state, InstrumentState::available);
 }
 
+/// 2026-11-24: "does not answer: check cable" stayed beside "available".
+TEST_F(Supervision, WhatCausedAnOutageIsNotShownOnceItIsOver) {
+    life.air->unplugged = true;
+    life.run(20s);
+    EXPECT_NE(view("air").last_note.find("no such device"), std::string::npos);
+    life.air->unplugged = false;
+    life.run(5s);
+    ASSERT_EQ(view("air").state, InstrumentState::available);
+    EXPECT_EQ(view("air").last_note, "");
+    EXPECT_EQ(view("air").last_fault, Fault::none);
+}
+
 TEST_F(Supervision, TheSameFaultIsToldOnce) {
     life.air->unplugged = true;
     life.run(120s);

@@ -255,7 +255,7 @@ void Week::measure(Trouble trouble) {
 void Week::close_and_check(const std::string& path, bool all_taken, std::int64_t armed_utc_ns) {
     if (!all_taken) {
         ++tally_.left_open;
-        (void)life_.station->abort("the week's CNC gave up");
+        (void)life_.abort("the week's CNC gave up");
     }
     life_.run_until([&] { return !life_.status().run_open; });
     if (all_taken) life_.run_until([&] { return !life_.status().run->certificate.empty(); });

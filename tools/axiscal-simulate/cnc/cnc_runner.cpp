@@ -75,6 +75,7 @@ Result<void> CncRunner::start(const std::string& path) {
 }
 
 void CncRunner::finish(const Result<void>& outcome) {
+    come_to_rest();
     const std::lock_guard lock{mutex_};
     state_ = !outcome || left_travel_ ? "failed" : stop_ ? "stopped" : "done";
     if (!outcome) message_ = outcome.error().detail;
@@ -149,23 +150,38 @@ void CncRunner::move(double target_mm, double feed_mm_per_min) {
         left_travel_ = true;
         return stop();
     }
-    if (!may_move()) return;
+    if (!come_to_rest() || !may_move()) return;
     const double fastest = axis.rapid_mm_per_min;
     const double feed = feed_mm_per_min > 0 ? std::min(feed_mm_per_min, fastest) : fastest;
     const double end_s = axis_.move(clock_.now_s(), physical_mm(target_mm), feed / 60.0);
     if (!sleep_until(end_s)) axis_.halt(clock_.now_s());
 }
 
+/// A CNC looks ahead: the next way is told before this one ends, and begins where and when it does.
+/// Told afterwards, the machine would halt between the two for as long as a busy computer likes.
 void CncRunner::trace(const PlaneMove& way) {
+    constexpr double ahead_s = 0.5;
     if (!may_move()) return;
-    sleep_until(plane_.move(clock_.now_s(), way));
+    way_end_s_ = plane_.move(std::max(clock_.now_s(), way_end_s_), way);
+    sleep_until(way_end_s_ - ahead_s);
+}
+
+bool CncRunner::come_to_rest() {
+    return sleep_until(way_end_s_);
 }
 
 void CncRunner::dwell(double seconds) {
+    come_to_rest();
     sleep_until(clock_.now_s() + seconds);
 }
 
+bool CncRunner::input(int input) {
+    come_to_rest();
+    return lines_.input(input);
+}
+
 void CncRunner::set_analog(int output, double value) {
+    come_to_rest();
     if (output == table_output && table_ != nullptr && scenario_.indexing_table) {
         const TableScenario& table = *scenario_.indexing_table;
         table_->move(clock_.now_s(), value * table.step_deg, table.turn_deg_per_s);
@@ -175,10 +191,12 @@ void CncRunner::set_analog(int output, double value) {
 }
 
 void CncRunner::set_digital(int output, bool on) {
+    come_to_rest();
     lines_.set_digital(output, on, clock_.now_s());
 }
 
 bool CncRunner::wait_input(int input, bool high, double timeout_s) {
+    come_to_rest();
     const double end_s = clock_.now_s() + timeout_s;
     while (lines_.input(input) != high) {
         const double now_s = clock_.now_s();
@@ -190,6 +208,7 @@ bool CncRunner::wait_input(int input, bool high, double timeout_s) {
 nlohmann::json CncRunner::status() const {
     const CncAnswer answer = lines_.answer();
     const double drive_mm = axis_.position_mm(clock_.now_s());
+    const ShownPath axis = axis_.shown(), plane = plane_.shown();
     const std::lock_guard lock{mutex_};
     nlohmann::json status{{"program", state_},
                           {"line", line_},
@@ -197,7 +216,9 @@ nlohmann::json CncRunner::status() const {
                           {"requests", lines_.requests()},
                           {"drive_mm", drive_mm},
                           {"result", answer.result},
-                          {"fault_sequence", answer.fault_sequence}};
+                          {"fault_sequence", answer.fault_sequence},
+                          {"late_moves", axis.late() + plane.late()},
+                          {"latest_move_s", std::max(axis.latest_s(), plane.latest_s())}};
     status["done"] = answer.done ? nlohmann::json(*answer.done) : nlohmann::json();
     return status;
 }

@@ -53,13 +53,15 @@ private:
     void set_analog(int output, double value) override;
     void set_digital(int output, bool on) override;
     bool wait_input(int input, bool high, double timeout_s) override;
-    [[nodiscard]] bool input(int input) override { return lines_.input(input); }
+    [[nodiscard]] bool input(int input) override;
     void message(const std::string& text) override;
     void at_line(int line) override;
     [[nodiscard]] bool stopped() override;
 
     /// Sleeps to this instant; false when the operator stopped.
     bool sleep_until(double seconds);
+    /// Waits for the last way's end; false when the operator stopped.
+    bool come_to_rest();
     /// Waits while the feed is held; false when the operator stopped.
     bool may_move();
     [[nodiscard]] double physical_mm(double programmed_mm) const;
@@ -71,6 +73,7 @@ private:
     CncLines& lines_;
     SimClock clock_;
     CommandedAxis* table_;     ///< the indexing table, which hears analog output 6
+    double way_end_s_ = 0;     ///< of the last way in the plane; the program's own thread alone
     mutable std::mutex mutex_; ///< guards all below
     std::condition_variable wake_;
     std::string state_ = "idle", message_, motion_fault_;

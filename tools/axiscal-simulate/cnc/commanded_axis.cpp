@@ -48,21 +48,27 @@ double CommandedAxis::locked_position_mm(double seconds) const {
 
 double CommandedAxis::position_mm(double seconds) const {
     const std::lock_guard lock{mutex_};
+    shown_.show(seconds);
     return locked_position_mm(seconds);
+}
+
+ShownPath CommandedAxis::shown() const {
+    const std::lock_guard lock{mutex_};
+    return shown_;
 }
 
 double CommandedAxis::move(double now_s, double to_mm, double speed_mm_per_s) {
     const std::lock_guard lock{mutex_};
-    const double from_mm = locked_position_mm(now_s);
-    moves_.push_back({now_s, from_mm, to_mm, speed_mm_per_s, acceleration_mm_per_s2_});
+    const double start_s = shown_.begin(now_s), from_mm = locked_position_mm(start_s);
+    moves_.push_back({start_s, from_mm, to_mm, speed_mm_per_s, acceleration_mm_per_s2_});
     if (moves_.size() > remembered_moves) moves_.pop_front();
-    return now_s + moves_.back().duration_s();
+    return start_s + moves_.back().duration_s();
 }
 
 void CommandedAxis::halt(double now_s) {
     const std::lock_guard lock{mutex_};
-    const double here_mm = locked_position_mm(now_s);
-    moves_.push_back({now_s, here_mm, here_mm, 1, acceleration_mm_per_s2_});
+    const double start_s = shown_.begin(now_s), here_mm = locked_position_mm(start_s);
+    moves_.push_back({start_s, here_mm, here_mm, 1, acceleration_mm_per_s2_});
 }
 
 } // namespace axiscal::simulate

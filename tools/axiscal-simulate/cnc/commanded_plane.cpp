@@ -33,13 +33,20 @@ PlanePoint CommandedPlane::locked_position(double seconds) const {
 
 PlanePoint CommandedPlane::position(double seconds) const {
     const std::lock_guard lock{mutex_};
+    shown_.show(seconds);
     return locked_position(seconds);
+}
+
+ShownPath CommandedPlane::shown() const {
+    const std::lock_guard lock{mutex_};
+    return shown_;
 }
 
 double CommandedPlane::move(double now_s, const PlaneMove& move) {
     const std::lock_guard lock{mutex_};
+    const double start_s = shown_.begin(now_s);
     Way way;
-    way.from = locked_position(now_s);
+    way.from = locked_position(start_s);
     way.to = move.to;
     double length = std::hypot(way.to[0] - way.from[0], way.to[1] - way.from[1]);
     if (move.arc) {
@@ -55,10 +62,10 @@ double CommandedPlane::move(double now_s, const PlaneMove& move) {
         way.turned = move.ccw ? turned : -turned;
         length = turned * way.radius;
     }
-    way.along = {now_s, 0, length, move.feed_mm_per_min / 60, acceleration_mm_per_s2_};
+    way.along = {start_s, 0, length, move.feed_mm_per_min / 60, acceleration_mm_per_s2_};
     ways_.push_back(way);
     if (ways_.size() > remembered_ways) ways_.pop_front();
-    return now_s + way.along.duration_s();
+    return start_s + way.along.duration_s();
 }
 
 } // namespace axiscal::simulate

@@ -23,10 +23,12 @@ struct PlaneMove {
 class CommandedPlane {
 public:
     CommandedPlane(PlanePoint start, double acceleration_mm_per_s2);
-    /// Starts a way at this time; earlier ones have ended. It comes to rest at its end.
+    /// Starts a way at this time, or where it has been shown; earlier ones have ended. It comes to
+    /// rest at its end.
     /// @returns its end, seconds.
     double move(double now_s, const PlaneMove& way);
     [[nodiscard]] PlanePoint position(double seconds) const;
+    [[nodiscard]] ShownPath shown() const;
 
 private:
     struct Way {
@@ -38,6 +40,7 @@ private:
     [[nodiscard]] PlanePoint locked_position(double seconds) const;
 
     mutable std::mutex mutex_;
+    mutable ShownPath shown_;
     std::deque<Way> ways_; ///< the latest, so that a late sampler still finds its past
     PlanePoint start_;
     double acceleration_mm_per_s2_;

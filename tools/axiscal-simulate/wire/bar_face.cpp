@@ -92,6 +92,7 @@ void BarFace::run(std::stop_token stop) {
     while (!stop.stop_requested()) {
         std::this_thread::sleep_until(clock_.at(due_s(sample_ + together - 1)));
         const std::lock_guard lock{mutex_};
+        latest_s_ = std::max(latest_s_, clock_.now_s() - due_s(sample_ + together - 1));
         std::string frame;
         for (std::uint64_t i = 0; i < together; ++i)
             frame += record(plane_.position(due_s(sample_)));
@@ -109,7 +110,9 @@ nlohmann::json BarFace::status() const {
     return {{"path", path_},
             {"samples", sample_},
             {"sequence", counter_.sequence()},
-            {"dropped", pty_.dropped()}};
+            {"dropped", pty_.dropped()},
+            {"records_dropped", pty_.lines_dropped()},
+            {"latest_s", latest_s_}};
 }
 
 } // namespace axiscal::simulate

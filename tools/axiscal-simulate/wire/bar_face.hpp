@@ -54,6 +54,7 @@ private:
     UmdCounter counter_;
     std::uint64_t sample_ = 0; ///< written by its own thread alone
     std::uint64_t left_out_ = 0;
+    double latest_s_ = 0; ///< frame, after its time
 };
 
 } // namespace axiscal::simulate

@@ -84,6 +84,7 @@ nlohmann::json LaserFace::status() const {
     return {{"path", scenario_.laser.path},
             {"samples", sample_},
             {"dropped", pty_.dropped()},
+            {"records_dropped", pty_.lines_dropped()},
             {"slide_mm", slide_mm_}};
 }
 

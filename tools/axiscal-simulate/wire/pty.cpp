@@ -1,5 +1,6 @@
 #include "wire/pty.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
@@ -57,8 +58,10 @@ Pty::Pty(Pty&& other) noexcept
     , slave_{std::exchange(other.slave_, -1)}
     , link_{std::exchange(other.link_, "")}
     , rest_{std::move(other.rest_)}
+    , gone_{other.gone_}
     , largest_rest_{other.largest_rest_}
     , dropped_{other.dropped_}
+    , lines_dropped_{other.lines_dropped_}
     , stuck_since_{other.stuck_since_} {}
 
 Pty::~Pty() {
@@ -67,17 +70,29 @@ Pty::~Pty() {
     if (!link_.empty()) ::unlink(link_.c_str());
 }
 
-/// Writes as much as the line takes; false when it takes nothing.
+/// Writes as much as the line takes; false when it takes nothing. What was written is not cut off
+/// each time: of megabytes that wait for a late reader that would cost more than the reader takes.
 bool Pty::flush_rest() {
-    const ssize_t n = ::write(master_, rest_.data(), rest_.size());
-    if (n > 0) rest_.erase(0, static_cast<std::size_t>(n));
-    return n > 0;
+    bool took = false;
+    for (ssize_t n = 1; n > 0 && !rest().empty();) {
+        n = ::write(master_, rest().data(), rest().size());
+        if (n <= 0) break;
+        gone_ += static_cast<std::size_t>(n);
+        took = true;
+    }
+    if (gone_ >= rest_.size() / 2) {
+        rest_.erase(0, gone_);
+        gone_ = 0;
+    }
+    return took;
 }
 
 void Pty::drop() {
     ++dropped_;
+    lines_dropped_ += static_cast<std::uint64_t>(std::ranges::count(rest(), '\n'));
     ::tcflush(slave_, TCIFLUSH);
     rest_.clear();
+    gone_ = 0;
     stuck_since_.reset();
 }
 
@@ -86,7 +101,7 @@ void Pty::write(std::string_view record) {
     if (flush_rest()) return stuck_since_.reset();
     const auto now = std::chrono::steady_clock::now();
     if (!stuck_since_) stuck_since_ = now;
-    if (rest_.size() > largest_rest_ || now - *stuck_since_ >= patience) drop();
+    if (rest().size() > largest_rest_ || now - *stuck_since_ >= patience) drop();
 }
 
 std::string Pty::read(std::chrono::milliseconds wait) {

@@ -24,7 +24,8 @@ struct Options {
     DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
     std::string token_file;
     std::string config = "/etc/axiscal/station.toml";
-    std::string file, out = ".", reason, certificate;
+    std::string file, out = ".", reason, by;
+    VerifyAgainst against;
     double reading_arcsec = 0;
     bool until_published = false, drivers = false;
     ArmOrder arm;
@@ -35,6 +36,7 @@ struct Options {
     RevisionOrder revision;
     bool exclude_instead = false;
     ProgramRequest program;
+    ResultRequest result;
     ConformanceOrder conformance;
     DevicesRequest devices;
     DoctorRequest doctor;

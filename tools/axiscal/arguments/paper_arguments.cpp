@@ -9,6 +9,12 @@ constexpr const char* analyze_footer = R"(Examples:
   axiscal analyze - <case.json
 Prints JSON. An array of cases gives an array of results; one that is refused names field and reason.)";
 
+constexpr const char* result_footer = R"(Examples:
+  axiscal result                                  of the newest run of this station
+  axiscal result 20261121T093005Z-X --json        of one run, by its id or its file
+  axiscal result --tolerances limits.json         with a verdict on each limit (ISO 14253-1)
+A run that was aborted or interrupted gives a partial result: it says which planned readings are missing.)";
+
 constexpr const char* program_footer = R"(Examples:
   axiscal program --config station.toml --out .             X-whole.ngc for LinuxCNC
   axiscal program --config station.toml --dialect marlin    for a 3D printer
@@ -25,9 +31,32 @@ Every mistake at once, each with its line and the key that is near; then the pas
 
 constexpr const char* verify_footer = R"(Example:
   axiscal verify RUN.axiscal --certificate certificate.json
+  axiscal verify RUN.axiscal --public-key public-keys.pem --receipt receipt.json
 Computes the figures anew; each row that is not as it was written is named with its table and number, and
 the certificate must say the same. A run that is still open can be verified as well. See docs/run-file.md
-for what the chain can show.)";
+for what chain, signature and receipt can show.)";
+
+void add_result(CLI::App& app, Options& options, Command& chosen) {
+    auto* result = app.add_subcommand("result", "E, A, R, B, M of a run, each with its U");
+    result->add_option("RUN", options.result.run, "run id or run file; default: the newest run");
+    result->add_option("--config", options.config, "station file: where the runs lie")
+        ->capture_default_str();
+    auto* limits =
+        result->add_option("--tolerances", options.result.tolerances,
+                           "limits as JSON, as in a case (docs/analysis/positioning.md)");
+    result
+        ->add_option(
+            "--travel", options.result.travel,
+            "of the axis, mm or degrees, for the limits' bands; default: the targets' span")
+        ->needs(limits);
+    teach(*result, result_footer, {exit_ok, exit_usage, exit_refused});
+    result->callback([&] {
+        chosen = [&] {
+            options.result.station_file = options.config;
+            return command_result(options.result, options.json);
+        };
+    });
+}
 
 void add_program(CLI::App& app, Options& options, Command& chosen) {
     auto* program = app.add_subcommand("program", "Write the part program of the planned cycle");
@@ -68,6 +97,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     teach(*analyze, analyze_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
 
+    add_result(app, options, chosen);
     add_program(app, options, chosen);
 
     auto* write = app.add_subcommand(
@@ -81,12 +111,17 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* verify = app.add_subcommand(
         "verify", "Is a run file what was written? Names each changed, missing or added row");
     verify->add_option("RUN", options.file, "run file")->required();
-    verify->add_option("--certificate", options.certificate,
+    verify->add_option("--certificate", options.against.certificate,
                        "certificate.json to hold against it; default: the one beside it, if it is "
                        "of the same run");
+    verify->add_option("--public-key", options.against.public_keys,
+                       "public-keys.pem of the station, which came by another way than the run "
+                       "file; default: no signature is called good");
+    verify->add_option("--receipt", options.against.receipt,
+                       "receipt.json of the publisher: what was published earlier of this run");
     teach(*verify, verify_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_changed});
     verify->callback([&] {
-        chosen = [&] { return command_verify(options.file, options.certificate, options.json); };
+        chosen = [&] { return command_verify(options.file, options.against, options.json); };
     });
 
     auto* check = app.add_subcommand("check-config",

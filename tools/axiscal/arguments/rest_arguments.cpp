@@ -61,6 +61,7 @@ void add_drift_command(CLI::App& app, Options& options, Command& chosen) {
         "travel far from the interferometer, of a rotary axis its datum");
     drift->add_flag("--wait", options.drift.wait, "wait for the end and the certificate");
     drift->add_option("--state-that", options.statements, "KEY=TEXT for the certificate");
+    drift->add_option("--by", options.drift.by, "who orders it, as kept with the test");
     teach(*drift, drift_footer,
           {exit_ok, exit_failed, exit_usage, exit_forbidden, exit_no_contact, exit_incomplete});
     drift->callback([&] {

@@ -46,7 +46,8 @@ One reading a face, in the order of the plan; axiscal status shows the next one.
 
 constexpr const char* abort_footer = R"(Example:
   axiscal abort --reason "the beam is cut by a chip"
-A test of drift is ended the same way. What was measured stays in the run file: axiscal analyze reads it.)";
+A test of drift is ended the same way. What was measured stays in the run file: axiscal result and
+axiscal analyze give its partial result, without certificate number and verdict.)";
 
 void arming_options(CLI::App& command, Options& options) {
     command.add_option(
@@ -61,7 +62,15 @@ void arming_options(CLI::App& command, Options& options) {
         ->capture_default_str();
 }
 
+/// Of every order that decides about a run.
+void orderer_option(CLI::App& command, std::string& name) {
+    command.add_option("--by", name,
+                       "who orders it, as kept with the run; beside it stands the user of this "
+                       "computer");
+}
+
 void revision_options(CLI::App& command, Options& options) {
+    orderer_option(command, options.revision.by);
     command.add_option("--target", options.revision.target, "target, from 1; left out: every one")
         ->check(CLI::PositiveNumber);
     command.add_option("--direction", options.revision.direction, "up or down; left out: both")
@@ -111,6 +120,7 @@ void add_arm_commands(CLI::App& app, Options& options, Command& chosen) {
                     "seed of the targets' random parts, as the part program says");
     arm->add_flag("--datum-by-cnc", options.arm.datum_by_cnc,
                   "wait for the CNC's prepare command instead of tying now");
+    orderer_option(*arm, options.arm.by);
     arming_options(*arm, options);
     teach(*arm, arm_footer, {exit_ok, exit_usage, exit_refused, exit_forbidden, exit_no_contact});
     arm->callback([&] {
@@ -169,9 +179,12 @@ void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
     });
     auto* abort = app.add_subcommand("abort", "Close the run as incomplete; its file is kept");
     abort->add_option("--reason", options.reason, "stands in the run file");
+    orderer_option(*abort, options.by);
     teach(*abort, abort_footer, asking_codes);
     abort->callback([&] {
-        chosen = [&] { return command_abort(client_of(options), options.reason, options.json); };
+        chosen = [&] {
+            return command_abort(client_of(options), options.reason, options.by, options.json);
+        };
     });
 }
 

@@ -1,5 +1,6 @@
 #include "tools/axiscal/cases/case_reader.hpp"
 
+#include "config/measure.hpp"
 #include "tools/axiscal/case_text.hpp"
 
 #include <algorithm>
@@ -80,7 +81,8 @@ one_of(const json& object, const std::string& key, const std::string& field, con
     for (const std::string& item : allowed)
         list += (list.empty() ? "\"" : ", \"") + item + '"';
     return refuse(Fault::bad_case, field,
-                  (allowed.size() == 1 ? "must be " : "must be one of ") + list);
+                  (allowed.size() == 1 ? "must be " : "must be one of ") + list +
+                      did_you_mean(word, allowed));
 }
 
 std::string indexed(const std::string& field, std::size_t index) {

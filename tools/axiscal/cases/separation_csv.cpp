@@ -129,7 +129,9 @@ Result<MeasuredPoint> point_of(const std::vector<std::string>& cells,
         return refuse_line(line, "has " + std::to_string(cells.size()) + " cells, the header has " +
                                      std::to_string(columns.size() + 1));
     if (cells[0].empty()) return refuse_line(line, "names no feature");
-    if (!is_utf8(cells[0])) return refuse_line(line, "has a feature name that is not UTF-8");
+    if (!is_utf8(cells[0]))
+        return refuse_line(
+            line, "has a feature name that is not UTF-8: save the file as UTF-8 in your editor");
     MeasuredPoint point{cells[0], line, {}, {}, {}};
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (cells[i + 1].empty()) continue;

@@ -1,5 +1,6 @@
 #include "tools/axiscal/conformance/judge.hpp"
 
+#include "config/json_text.hpp"
 #include "tools/axiscal/case_text.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ const json* value_at(const json& document, const std::string& at) {
 }
 
 std::string shown(double number) {
-    return json(number).dump();
+    return json_text(json(number));
 }
 
 void judge_number(FigureVerdict& verdict) {
@@ -48,7 +49,7 @@ void judge_equal(FigureVerdict& verdict) {
     verdict.agrees = verdict.got == verdict.wanted.equals;
     if (!verdict.agrees)
         verdict.complaint =
-            "got " + verdict.got.dump() + ", expected " + verdict.wanted.equals.dump();
+            "got " + json_text(verdict.got) + ", expected " + json_text(verdict.wanted.equals);
 }
 
 FigureVerdict judge_figure(const Expectation& wanted, const json& document) {

@@ -1,5 +1,6 @@
 #include "tools/axiscal/conformance/report.hpp"
 
+#include "config/json_text.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -25,7 +26,7 @@ std::string padded(std::string text, std::size_t width) {
 std::string line_of(const FigureVerdict& figure) {
     const std::string place = "  " + padded(figure.wanted.at, 36);
     if (!figure.agrees) return "  DISAGREES" + place + " " + figure.complaint + "\n";
-    const std::string value = figure.got.is_null() ? "absent" : figure.got.dump();
+    const std::string value = figure.got.is_null() ? "absent" : json_text(figure.got);
     return "  " + padded(digits_text(figure), 9) + place + " " + value + "\n";
 }
 

@@ -47,6 +47,15 @@ Finding check_allowed(const TriggerConfig& trigger) {
             ""};
 }
 
+/// A console that hears this PC alone is the usual one and worth no line.
+std::optional<Finding> check_readers(const ConsoleConfig& console) {
+    if (is_loopback(console.host)) return std::nullopt;
+    return Finding{Health::good, "port",
+                   std::to_string(console.allowed_clients.size()) +
+                       " addresses or networks may read at the console's port",
+                   ""};
+}
+
 bool is_member(const std::string& name) {
     const std::vector<gid_t> groups = own_groups();
     const auto wanted = group_named(name);
@@ -85,16 +94,18 @@ std::vector<Finding> check_ports(const Patient& patient) {
     std::vector<Finding> found;
     const TriggerConfig& trigger = patient.config->trigger;
     if (trigger.transport == TriggerTransport::tcp_server) {
-        found.push_back(
-            judge_port_trial({"the CNC's Modbus port", trigger.host, trigger.port,
-                              try_port(trigger.host, trigger.port), patient.daemon_answers}));
+        found.push_back(judge_port_trial({"the CNC's Modbus port", trigger.host, trigger.port,
+                                          try_port(trigger.host, trigger.port),
+                                          patient.daemon_answers, ::geteuid() == 0}));
         found.push_back(check_allowed(trigger));
     }
     const ConsoleConfig& console = patient.config->console;
-    if (console.port > 0)
-        found.push_back(
-            judge_port_trial({"the console's port", console.host, console.port,
-                              try_port(console.host, console.port), patient.daemon_answers}));
+    if (console.port > 0) {
+        found.push_back(judge_port_trial({"the console's port", console.host, console.port,
+                                          try_port(console.host, console.port),
+                                          patient.daemon_answers, ::geteuid() == 0}));
+        if (auto readers = check_readers(console)) found.push_back(*std::move(readers));
+    }
     if (!patient.trigger_note.empty())
         found.push_back({Health::note, "port",
                          "axiscald says of its trigger: " + patient.trigger_note,

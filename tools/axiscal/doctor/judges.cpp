@@ -106,10 +106,25 @@ std::vector<Finding> judge_disk(const DiskReading& disk) {
     return {judge_file_system(disk), judge_space(disk)};
 }
 
+namespace {
+
+/// ip(7), ip_unprivileged_port_start.
+constexpr int first_port_for_all = 1024;
+
+Finding no_right_to_port(const std::string& place) {
+    return {Health::note, "port",
+            place + " is below 1024: the service needs a right that it does not have by itself",
+            "take a port above 1023, or give CAP_NET_BIND_SERVICE as install.md says"};
+}
+
+} // namespace
+
 Finding judge_port_trial(const PortReading& port) {
     const std::string place = place_of(port);
     switch (port.trial) {
     case PortTrial::free:
+        if (port.tried_by_root && port.port < first_port_for_all && !port.daemon_answers)
+            return no_right_to_port(place);
         if (port.daemon_answers)
             return {Health::broken, "port", place + " is not held, although axiscald runs",
                     "sudo systemctl restart axiscald, then: journalctl -u axiscald"};
@@ -119,10 +134,7 @@ Finding judge_port_trial(const PortReading& port) {
             return {Health::good, "port", place + " is held while axiscald runs", ""};
         return {Health::broken, "port", place + " is held by another program",
                 "sudo ss -ltnp 'sport = :" + std::to_string(port.port) + "' names it"};
-    case PortTrial::no_right:
-        return {Health::note, "port",
-                place + " is below 1024: the service needs a right that it does not have by itself",
-                "take a port above 1023, or give CAP_NET_BIND_SERVICE as install.md says"};
+    case PortTrial::no_right: return no_right_to_port(place);
     case PortTrial::no_address:
         return {Health::broken, "port", place + ": no network card of this PC has that address",
                 "ip -brief address shows what there is; write one of them as host"};

@@ -45,6 +45,8 @@ struct PortReading {
     int port = 0;
     PortTrial trial = PortTrial::free;
     bool daemon_answers = false;
+    /// The trial was made by root, who may listen below 1024 as the service may not.
+    bool tried_by_root = false;
 };
 Finding judge_port_trial(const PortReading& port);
 

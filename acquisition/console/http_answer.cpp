@@ -1,0 +1,74 @@
+#include "acquisition/console/http_answer.hpp"
+
+#include "acquisition/console/api_json.hpp"
+#include "analysis/quantity/valid_text.hpp"
+#include "config/json_text.hpp"
+
+namespace axiscal {
+namespace {
+
+namespace http = boost::beast::http;
+
+http::status status_of(Fault fault) {
+    switch (fault) {
+    case Fault::bad_request:
+    case Fault::bad_configuration: return http::status::bad_request;
+    case Fault::not_found: return http::status::not_found;
+    case Fault::refused: return http::status::forbidden;
+    case Fault::internal:
+    case Fault::io:
+    case Fault::not_durable: return http::status::internal_server_error;
+    default: return http::status::conflict;
+    }
+}
+
+const char* fault_of(http::status status) {
+    switch (status) {
+    case http::status::not_found:
+    case http::status::method_not_allowed: return "not_found";
+    case http::status::internal_server_error: return "internal";
+    default: return "refused";
+    }
+}
+
+std::string field(const HttpRequest& request, http::field name) {
+    const auto found = request.find(name);
+    return found == request.end() ? std::string{} : std::string{found->value()};
+}
+
+} // namespace
+
+RequestHead head_of(const HttpRequest& request, Door door) {
+    RequestHead head;
+    head.door = door;
+    head.changes_state =
+        request.method() != http::verb::get && request.method() != http::verb::head;
+    head.host = valid_text(field(request, http::field::host));
+    head.origin = valid_text(field(request, http::field::origin));
+    head.authorization = field(request, http::field::authorization); // compared, never shown
+    return head;
+}
+
+HttpResponse
+answer(const HttpRequest& request, http::status status, const nlohmann::ordered_json& body) {
+    HttpResponse response{status, request.version()};
+    response.set(http::field::content_type, "application/json; charset=utf-8");
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.keep_alive(request.keep_alive());
+    response.body() = json_text(body) + "\n";
+    response.prepare_payload();
+    return response;
+}
+
+HttpResponse answer(const HttpRequest& request, const Error& error) {
+    return answer(request, status_of(error.fault), to_json(error));
+}
+
+HttpResponse
+answer_in_words(const HttpRequest& request, http::status status, const std::string& sentence) {
+    return answer(request, status,
+                  {{"error", {{"fault", fault_of(status)}, {"sentence", sentence}}}});
+}
+
+} // namespace axiscal

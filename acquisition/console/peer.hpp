@@ -1,0 +1,17 @@
+#pragma once
+// Who is at the other end of the Unix socket, as the kernel knows it.
+
+#include "analysis/run_revisions.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// The user of that id in a file as /etc/passwd; empty where it names none. Users that only a
+/// directory service knows have no name here: asking it could hold the loop up.
+std::string user_name_of(std::int64_t uid, const std::string& passwd = "/etc/passwd");
+
+/// Door "socket", with the credentials that the kernel noted when the process connected.
+Orderer peer_of_socket(int descriptor);
+
+} // namespace axiscal

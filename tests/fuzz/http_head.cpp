@@ -1,0 +1,65 @@
+// Heads of HTTP requests as anybody may send them: read by Beast, judged, answered.
+
+#include "acquisition/console/access.hpp"
+#include "acquisition/console/http_answer.hpp"
+#include "acquisition/console/stream_json.hpp"
+#include "tests/fuzz/judge.hpp"
+
+#include <boost/beast/http.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace axiscal;
+namespace http = boost::beast::http;
+
+namespace {
+
+const std::string token(64, 't');
+
+/// What was sent is shown in the answer: text that everybody's JSON reader takes.
+void judge_answer(const HttpResponse& response) {
+    const auto body = nlohmann::json::parse(response.body(), nullptr, false);
+    fuzz::require(!body.is_discarded(), "every answer is JSON");
+    fuzz::require(!body.at("error").at("sentence").get<std::string>().empty(),
+                  "a refusal has its sentence");
+    for (const auto& field : response)
+        fuzz::require(field.value().find_first_of("\r\n") == boost::beast::string_view::npos,
+                      "no header line holds another");
+}
+
+void judge_verdict(const HttpRequest& request, const RequestHead& head, const AccessRules& rules) {
+    const AccessVerdict verdict = judge_access(head, rules);
+    if (verdict.status == 200) {
+        fuzz::require(!head.changes_state || head.door == Door::unix_socket ||
+                          head.authorization == "Bearer " + token,
+                      "over TCP only the token changes the station");
+        fuzz::require(head.door == Door::unix_socket || head.host == "localhost" ||
+                          head.host == "bay3.plant.example",
+                      "over TCP only names of the station are answered");
+        return;
+    }
+    judge_answer(
+        answer_in_words(request, static_cast<http::status>(verdict.status), verdict.sentence));
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view bytes = fuzz::as_text(data, size);
+    http::request_parser<http::string_body> parser;
+    parser.eager(true);
+    boost::beast::error_code error;
+    static_cast<void>(parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error));
+    if (!parser.is_header_done()) return 0;
+    const HttpRequest& request = parser.get();
+    const AccessRules rules{{"localhost", "bay3.plant.example"}, token};
+    for (const Door door : {Door::tcp, Door::unix_socket})
+        judge_verdict(request, head_of(request, door), rules);
+    const auto points = stream_points_of({request.target().data(), request.target().size()});
+    if (points) {
+        fuzz::require(*points >= 1 && *points <= 4096,
+                      "a stream is thinned to what a screen holds");
+    } else {
+        judge_answer(answer(request, points.error()));
+    }
+    return 0;
+}

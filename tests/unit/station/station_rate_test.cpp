@@ -1,0 +1,66 @@
+// What the loop does at 50 kHz on eight channels. CPU time is read, not the clock: what else the
+// computer does is none of it.
+#include "station_bench.hpp"
+
+#include <ctime>
+
+namespace axiscal::station_rate_test {
+namespace {
+
+using namespace testing;
+
+constexpr double longest_ms = 2; ///< of one callback
+
+double cpu_ms() {
+    timespec spent{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);
+    return static_cast<double>(spent.tv_sec) * 1e3 + static_cast<double>(spent.tv_nsec) * 1e-6;
+}
+
+template <class Work> double cost_ms(Work work) {
+    const double before = cpu_ms();
+    work();
+    return cpu_ms() - before;
+}
+
+/// Of thousands: now and then the kernel works on the thread's account.
+double tenth_longest(std::vector<double> costs) {
+    std::ranges::nth_element(costs, costs.begin() + 9, std::greater{});
+    return costs[9];
+}
+
+struct FastShop : Shop {
+    FastShop() {
+        laser_period = 20us;
+        further_axes = 7;
+        config.capture.window = 1s;
+        config.capture.timeout = 30s;
+        shorten();
+    }
+};
+
+TEST(StationAt50Kilohertz, IsNeverHeldWhileItWaitsForTheAxisToStand) {
+    FastShop shop;
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const PlannedPoint point = shop.plan().points.front();
+    life.drive_to(point);
+    const MonotonicTime since = life.scheduler.now();
+    bool creeps = true; // 20 um/s: never still
+    shop.drift_um = [&](MonotonicTime at) { return creeps ? 20 * seconds_of(at - since) : 0.0; };
+    life.ask(Life::request_for(point, 1));
+    std::vector<double> costs, views;
+    for (int i = 0; i < 9000; ++i) { // of a millisecond: fifty callbacks and a look at times
+        costs.push_back(cost_ms([&] { life.run(1ms); }));
+        if (i % 100 == 0) views.push_back(cost_ms([&] { (void)life.status(); }));
+    }
+    EXPECT_EQ(life.port->done, 0);
+    EXPECT_LT(tenth_longest(costs), longest_ms);
+    EXPECT_LT(tenth_longest(views), longest_ms);
+    creeps = false;
+    life.run(1500ms);
+    EXPECT_EQ(life.port->done, 1) << "and the point is taken once the axis stands";
+}
+
+} // namespace
+} // namespace axiscal::station_rate_test

@@ -1,0 +1,109 @@
+// `axiscal result`: the figures of one run, for somebody who has just measured it.
+#include "acquisition/journal/run_order.hpp"
+#include "acquisition/publish/certificate_json.hpp"
+#include "acquisition/publish/run_certificate.hpp"
+#include "acquisition/station/station_loader.hpp"
+#include "config/json_text.hpp"
+#include "tools/axiscal/cases/tolerances_member.hpp"
+#include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/result_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<std::string> runs_folder_of(const std::string& station_file) {
+    const auto station = load_station(station_file);
+    if (!station)
+        return fail(Fault::refused, station.error().front().describe() +
+                                        "; name the run's file, or another --config");
+    return station->config.state_directory + "/runs";
+}
+
+/// A path that is there, else the id of a run of this station; nothing: the newest run.
+Result<std::string> find_run(const std::string& run, const std::string& station_file) {
+    std::error_code error;
+    if (!run.empty() && std::filesystem::exists(run, error)) return run;
+    AXISCAL_TRY(const std::string folder, runs_folder_of(station_file));
+    if (!run.empty()) {
+        std::string path = folder + "/" + run + std::string{run_file_ending};
+        if (std::filesystem::exists(path, error)) return path;
+        return fail(Fault::not_found,
+                    "there is no file " + run + " and no run of this name in " + folder);
+    }
+    const std::vector<RunSummary> runs = list_run_files(folder);
+    const RunSummary* newest = newest_run(runs, {});
+    if (newest == nullptr)
+        return fail(Fault::not_found, "no run was measured yet: there is none in " + folder);
+    return newest->path;
+}
+
+/// Another kind of test has other figures.
+Result<void> check_positioning(const RunSummary& run) {
+    const char* kind = run.drift      ? "a drift test"
+                       : run.probing  ? "a probing test"
+                       : run.circular ? "a circular test"
+                                      : nullptr;
+    if (kind == nullptr) return {};
+    return fail(Fault::refused, run.run_id + " is " + kind +
+                                    ", which has no E, A, R, B and M: 'axiscal analyze " +
+                                    run.path + "' gives its figures");
+}
+
+Result<void> add_limits(const ResultRequest& request, const Certificate& made, Json& document) {
+    if (request.tolerances.empty()) return {};
+    std::ifstream file{request.tolerances};
+    if (!file) return fail(Fault::io, "cannot read " + request.tolerances);
+    const auto member = nlohmann::json::parse(file, nullptr, false);
+    if (!member.is_object())
+        return fail(Fault::bad_case, request.tolerances + " is no set of limits in JSON");
+    const bool rotary = made.run.plan.axis_kind == AxisKind::rotary;
+    const std::string unit = rotary ? "deg" : "mm";
+    AXISCAL_TRY(
+        const ToleranceSet set,
+        tolerance_set_of(member, {made.run.statements.axis, made.run.plan.axis_kind, unit, unit}));
+    const auto [low, high] = std::ranges::minmax(made.planned_targets);
+    add_verdicts(set, request.travel.value_or(high - low), document);
+    return {};
+}
+
+std::string about(const Certificate& certificate) {
+    const Statements& said = certificate.run.statements;
+    const auto or_unstated = [](const std::string& text) {
+        return text.empty() ? std::string{"not stated"} : text;
+    };
+    return "Axis " + or_unstated(said.axis) + ", machine " + or_unstated(said.machine) +
+           ", measured from " + certificate.started_utc + " to " + certificate.finished_utc;
+}
+
+Result<void> print_result(const ResultRequest& request, bool json) {
+    AXISCAL_TRY(const std::string path, find_run(request.run, request.station_file));
+    AXISCAL_TRY(const RunSummary run, summarize_run_file(path));
+    AXISCAL_CHECK(check_positioning(run));
+    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(path));
+    Json document = certificate_to_json(certificate);
+    AXISCAL_CHECK(add_limits(request, certificate, document));
+    const Json summary = result_summary(document);
+    std::cout << (json ? json_text(summary) + "\n" : result_text(summary, about(certificate)))
+              << std::flush;
+    return {};
+}
+
+} // namespace
+
+int command_result(const ResultRequest& request, bool json) {
+    if (const auto printed = print_result(request, json); !printed) {
+        std::cerr << describe(printed.error()) << "\n";
+        return exit_refused;
+    }
+    return exit_ok;
+}
+
+} // namespace axiscal

@@ -1,0 +1,158 @@
+#include "tools/axiscal/result_text.hpp"
+
+#include "analysis/positioning/standards.hpp"
+#include "config/json_text.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <sstream>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Columns that a terminal gives to UTF-8 text without wide letters; a combining mark takes none.
+std::size_t columns_of(const std::string& text) {
+    std::size_t columns = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const bool mark = byte == 0xCC || (byte == 0xCD && i + 1 < text.size() &&
+                                           static_cast<unsigned char>(text[i + 1]) < 0xB0);
+        if ((byte & 0xC0U) != 0x80U && !mark) ++columns;
+    }
+    return columns;
+}
+
+std::string padded(std::string text, std::size_t columns) {
+    const std::size_t has = columns_of(text);
+    return has < columns ? text + std::string(columns - has, ' ') : text;
+}
+
+std::string right(const std::string& text, std::size_t columns) {
+    const std::size_t has = columns_of(text);
+    return has < columns ? std::string(columns - has, ' ') + text : text;
+}
+
+/// Words in lines of at most 80 columns, each begun with `indent` spaces.
+std::string wrapped(const std::string& words, std::size_t indent) {
+    constexpr std::size_t widest = 80;
+    std::istringstream in{words};
+    std::string text, line, word;
+    while (in >> word) {
+        if (!line.empty() && indent + columns_of(line) + 1 + columns_of(word) > widest) {
+            text += std::string(indent, ' ') + line + "\n";
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+    }
+    return line.empty() ? text : text + std::string(indent, ' ') + line + "\n";
+}
+
+struct PaperUnit {
+    const char* name;
+    double factor; ///< from the unit of the result
+};
+PaperUnit paper_unit_of(const std::string& unit) {
+    return unit == "deg" ? PaperUnit{"arcsec", 3600} : PaperUnit{"um", 1000};
+}
+
+std::string hundredths(double value) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "%.2f", value);
+    return text.data();
+}
+
+/// Away from zero: no U is told smaller than it is.
+std::string hundredths_up(double value) {
+    return hundredths(std::ceil(value * 100 - 1e-9) / 100);
+}
+
+std::string line_of(const std::string& key, const Json& parameter, const PaperUnit& unit) {
+    const FigureLabel label = figure_label(key, "ISO 230-2:2014", "");
+    const std::string name = label.name.substr(0, label.name.find(','));
+    const Json& u = parameter.at("U");
+    std::string line =
+        "  " + padded(label.symbol, 3) +
+        right(hundredths(parameter.at("value").get<double>() * unit.factor), 10) + "  " +
+        padded(u.is_null() ? "U not known" : "± " + hundredths_up(u.get<double>() * unit.factor),
+               12) +
+        name;
+    const Json& verdict = parameter.at("verdict");
+    if (verdict.is_string()) line += ": " + verdict.get<std::string>();
+    return line + "\n";
+}
+
+std::string completeness_text(const Json& completeness) {
+    const auto used = completeness.at("used").get<int>(),
+               expected = completeness.at("expected").get<int>();
+    const std::string count =
+        std::to_string(used) + " of " + std::to_string(expected) + " planned readings";
+    if (completeness.at("status") == "complete") return wrapped("Complete: " + count + ".", 0);
+    std::string text =
+        wrapped("PARTIAL: " + count + ". No certificate: no number, no verdict. In no figure:", 0);
+    for (const Json& entry : completeness.at("left_out")) {
+        std::ostringstream position;
+        position << entry.at("position").get<double>();
+        text += wrapped("P" + std::to_string(entry.at("target").get<int>() + 1) +
+                            (entry.at("direction") == "positive" ? " ↑ (" : " ↓ (") +
+                            position.str() + "): " + json_text(entry.at("count")) + " " +
+                            entry.at("why").get<std::string>(),
+                        2);
+    }
+    return text;
+}
+
+/// "R, A: reason", one paragraph a reason.
+std::string not_evaluated_text(const Json& reasons) {
+    std::map<std::string, std::string> symbols;
+    for (const auto& [key, reason] : reasons.items()) {
+        std::string& list = symbols[reason.get<std::string>()];
+        list += (list.empty() ? "" : ", ") + figure_label(key, "ISO 230-2:2014", "").symbol;
+    }
+    std::string text;
+    for (const auto& [reason, list] : symbols)
+        text += wrapped("Not evaluated: " + list + ": " + reason + ".", 2);
+    return text;
+}
+
+} // namespace
+
+Json result_summary(const Json& document) {
+    Json summary;
+    summary["run"] = document.at("run").at("id");
+    summary["unit"] = document.at("unit");
+    summary["k"] = nullptr;
+    summary["completeness"] = document.at("completeness");
+    summary["parameters"] = Json::object();
+    const bool partial = document.at("completeness").at("status") == "partial";
+    const Json verdicts = partial ? Json::object() : document.value("verdicts", Json::object());
+    for (const auto& [key, parameter] : document.at("parameters").items()) {
+        Json& figure = summary["parameters"][key];
+        figure["value"] = parameter.at("value");
+        figure["U"] = nullptr;
+        figure["verdict"] = verdicts.contains(key) ? verdicts.at(key).at("verdict") : Json{};
+        if (!parameter.contains("expanded_uncertainty")) continue;
+        figure["U"] = parameter.at("expanded_uncertainty").at("value");
+        summary["k"] = parameter.at("expanded_uncertainty").at("k");
+    }
+    summary["not_evaluated"] = document.value("not_evaluated", Json::object());
+    return summary;
+}
+
+std::string result_text(const Json& summary, const std::string& about) {
+    const PaperUnit unit = paper_unit_of(summary.at("unit").get<std::string>());
+    std::string text = wrapped("Run " + summary.at("run").get<std::string>(), 0);
+    text += wrapped(about, 0) + completeness_text(summary.at("completeness"));
+    text += std::string{"Figures in "} + unit.name;
+    text +=
+        summary.at("k").is_null() ? ":\n" : ", with U (k = " + json_text(summary.at("k")) + "):\n";
+    for (const auto& [key, parameter] : summary.at("parameters").items())
+        text += line_of(key, parameter, unit);
+    return text + not_evaluated_text(summary.at("not_evaluated"));
+}
+
+} // namespace axiscal
