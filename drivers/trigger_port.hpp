@@ -82,7 +82,7 @@ struct PortStatus {
 struct PortCounters {
     std::uint64_t requests = 0;     ///< answered, exceptions included
     std::uint64_t exceptions = 0;   ///< of these, refused by the map or the protocol
-    std::uint64_t refused = 0;      ///< clients beyond the limit
+    std::uint64_t refused = 0;      ///< idle clients that had to make room for another
     std::uint64_t strangers = 0;    ///< clients that the allow-list does not name
     std::uint64_t hung_up = 0;      ///< clients cut off: garbage, silence in a frame, not reading
     std::uint64_t reconnects = 0;   ///< lines opened again after an error

@@ -25,6 +25,13 @@ constexpr auto quietly = asio::as_tuple(asio::use_awaitable);
 constexpr int unread_answers = 16 * 1024; // bytes the kernel keeps for a client that does not read
 constexpr auto pause_after_failed_accept = std::chrono::milliseconds{100};
 
+/// Unspecified of a client that has hung up already.
+asio::ip::address remote_of(const tcp::socket& socket) {
+    boost::system::error_code gone;
+    const auto remote = socket.remote_endpoint(gone);
+    return gone ? asio::ip::address{} : remote.address();
+}
+
 } // namespace
 
 /// One connection; lives as long as its coroutine.
@@ -38,7 +45,9 @@ struct ModbusTcpPort::Client {
         , count{std::move(open_clients)}
         , scheduler{its_scheduler}
         , patience{its_patience}
-        , socket{std::move(connected)} {
+        , socket{std::move(connected)}
+        , from{remote_of(socket)}
+        , heard{scheduler->now()} {
         ++*count;
     }
     ~Client() { --*count; }
@@ -55,6 +64,8 @@ struct ModbusTcpPort::Client {
     bool frame_begun = false; ///< part of a frame was left over by the last read
     std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> buffer{};
     tcp::socket socket; // after its buffer
+    asio::ip::address from;
+    MonotonicTime heard; ///< when it last asked, or came
 };
 
 ModbusTcpPort::ModbusTcpPort(std::unique_ptr<RegisterMap> map,
@@ -108,30 +119,40 @@ Task<void> ModbusTcpPort::accept_clients(Acceptor& acceptor, Scheduler* schedule
     }
 }
 
-/// Told once for each address that is not followed by another one; counted always.
-bool ModbusTcpPort::is_stranger(const tcp::socket& socket) {
+/// Counted always, told now and then.
+bool ModbusTcpPort::is_stranger(const tcp::socket& socket, MonotonicTime now) {
     if (config_.allowed_clients.empty()) return false;
-    boost::system::error_code gone;
-    const auto remote = socket.remote_endpoint(gone);
-    const std::string from = gone ? "" : remote.address().to_string();
+    const auto remote = remote_of(socket);
+    const std::string from = remote.is_unspecified() ? "" : remote.to_string();
     if (any_covers(config_.allowed_clients, from)) return false;
     ++desk_->counters.strangers;
-    if (!from.empty() && std::exchange(last_stranger_, from) != from)
-        desk_->note(Fault::refused, describe() + " turned " + from +
-                                        " away: trigger.allowed_clients does not name it.");
+    if (const auto words = strangers_.take(from, now))
+        desk_->note(Fault::refused, describe() + " turned " + *words +
+                                        ": trigger.allowed_clients does not name it.");
     return true;
 }
 
-void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
+/// The longest idle connection gives way (MODBUS Messaging on TCP/IP V1.0b, 4.2): a CNC that was
+/// switched off leaves its own behind. One of the newcomer's address goes first, so that whoever
+/// never closes his connections loses those, and not the CNC's.
+void ModbusTcpPort::make_room(const asio::ip::address& newcomer) {
     std::erase_if(clients_, [](const auto& client) { return client.expired(); });
-    if (is_stranger(socket)) return; // the socket closes here
-    if (*open_clients_ >= config_.client_limit) {
-        ++desk_->counters.refused;
-        desk_->note(Fault::refused, describe() + " has all its " +
-                                        std::to_string(config_.client_limit) +
-                                        " clients; one more was turned away.");
-        return; // the socket closes here
-    }
+    if (std::ssize(clients_) < config_.client_limit) return;
+    const auto first_to_go = [&](const auto& one, const auto& other) {
+        const auto a = one.lock(), b = other.lock();
+        const bool a_own = a->from == newcomer, b_own = b->from == newcomer;
+        return a_own != b_own ? a_own : a->heard < b->heard;
+    };
+    const auto leaves = std::ranges::min_element(clients_, first_to_go);
+    boost::system::error_code ignored; // closing cannot be refused
+    leaves->lock()->socket.close(ignored);
+    clients_.erase(leaves);
+    ++desk_->counters.refused;
+}
+
+void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
+    if (is_stranger(socket, scheduler->now())) return; // the socket closes here
+    make_room(remote_of(socket));
     auto answerer = ModbusAnswerer::open();
     if (!answerer) {
         desk_->note(Fault::io, axiscal::describe(answerer.error()));
@@ -160,6 +181,7 @@ Task<void> ModbusTcpPort::serve(Client& client) {
         const auto [error, length] =
             co_await client.socket.async_read_some(asio::buffer(client.buffer), quietly);
         if (error) co_return;
+        client.heard = client.scheduler->now();
         client.framer.feed({client.buffer.data(), length});
         if (!co_await answer_frames(client)) co_return;
         if (client.framer.broken()) {

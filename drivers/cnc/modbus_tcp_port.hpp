@@ -3,6 +3,7 @@
 // slow, split, broken or never-reading client holds up nobody but itself. Loop-bound.
 
 #include "drivers/cnc/trigger_desk.hpp"
+#include "drivers/turned_away.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
 
@@ -30,7 +31,8 @@ private:
     using Acceptor = boost::asio::ip::tcp::acceptor;
     [[nodiscard]] Result<Acceptor> listen(const TriggerContext& context) const;
     Task<void> accept_clients(Acceptor& acceptor, Scheduler* scheduler);
-    [[nodiscard]] bool is_stranger(const boost::asio::ip::tcp::socket& socket);
+    [[nodiscard]] bool is_stranger(const boost::asio::ip::tcp::socket& socket, MonotonicTime now);
+    void make_room(const boost::asio::ip::address& newcomer);
     void admit(boost::asio::ip::tcp::socket socket, Scheduler* scheduler);
     static Task<void> attend(std::shared_ptr<Client> client);
     static Task<void> serve(Client& client);
@@ -42,7 +44,7 @@ private:
     std::vector<std::weak_ptr<Client>> clients_;
     std::shared_ptr<int> open_clients_ = std::make_shared<int>(0); ///< shared with the clients
     int bound_port_ = 0;
-    std::string last_stranger_; ///< address
+    TurnedAway strangers_;
 };
 
 } // namespace axiscal

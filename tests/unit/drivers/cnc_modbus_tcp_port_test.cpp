@@ -1,5 +1,6 @@
 #include "drivers/cnc/mbap_framer.hpp"
 #include "drivers/cnc/modbus_tcp_port.hpp"
+#include "drivers/turned_away.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/raw_modbus_client.hpp"
@@ -227,21 +228,34 @@ TEST_F(ModbusTcp, SurvivesRandomBytes) {
     EXPECT_EQ(ask(good, {3, 0, 18, 0, 1}, 4).size(), 4U);
 }
 
-TEST_F(ModbusTcp, TurnsTheNinthClientAwayAndTakesItWhenOneLeaves) {
-    std::vector<RawModbusClient> clients;
-    for (int taken = 0; taken < 8; ++taken)
-        clients.push_back(connect());
+// MODBUS Messaging on TCP/IP V1.0b, 4.2: of the connections without priority the one unused longest.
+TEST_F(ModbusTcp, TheLongestIdleConnectionGivesWayToTheNinth) {
+    std::vector<RawModbusClient> vanished;
+    for (int taken = 0; taken < 8; ++taken) {
+        vanished.push_back(connect());
+        EXPECT_EQ(ask(vanished.back(), read_request_words, 8), zero_words);
+        scheduler.run_for(1s);
+    }
+    EXPECT_EQ(ask(vanished[0], read_request_words, 8), zero_words); // now [1] is idle longest
     RawModbusClient ninth{port.bound_port()};
-    EXPECT_TRUE(is_hung_up(ninth));
+    EXPECT_EQ(ask(ninth, read_request_words, 8), zero_words);
+    EXPECT_TRUE(is_hung_up(vanished[1]));
     EXPECT_EQ(port.counters().refused, 1U);
-    ASSERT_FALSE(running.sink.notes.empty());
-    EXPECT_EQ(running.sink.notes[0].first, Fault::refused);
-    for (auto& client : clients)
-        EXPECT_EQ(ask(client, read_request_words, 8), zero_words);
-    clients.pop_back();
-    ASSERT_TRUE(pump_until([&] { return port.clients() == 7; }));
-    auto late = connect();
-    EXPECT_EQ(ask(late, read_request_words, 8), zero_words);
+    for (const std::size_t i : {0, 2, 3, 4, 5, 6, 7})
+        EXPECT_EQ(ask(vanished[i], read_request_words, 8), zero_words) << i;
+    ASSERT_TRUE(pump_until([&] { return port.clients() == 8; }));
+}
+
+TEST_F(ModbusTcp, AHundredAbandonedConnectionsKeepNobodyOut) {
+    auto cnc = connect();
+    std::vector<RawModbusClient> abandoned;
+    for (int i = 0; i < 100; ++i) {
+        abandoned.emplace_back(port.bound_port());
+        scheduler.run_for(10ms);
+        ASSERT_EQ(ask(cnc, read_request_words, 8), zero_words) << "the CNC asks now and then";
+    }
+    ASSERT_TRUE(pump_until([&] { return port.clients() <= 8; }));
+    EXPECT_EQ(ask(cnc, read_request_words, 8), zero_words);
 }
 
 /// The allow-list names others than this PC.
@@ -273,6 +287,22 @@ TEST_F(ModbusTcpForOthers, TurnsAwayWhomTheListDoesNotNameAndSaysSoOnce) {
     named.send(framed(7, read_request_words));
     EXPECT_TRUE(receives(named, 15));
     EXPECT_EQ(here.counters().strangers, 0U);
+}
+
+// Two monitors that knock in turn filled the status with their notes.
+TEST(TurnedAway, NamesAnAddressOnceADayAndFourOfADay) {
+    TurnedAway turned_away;
+    MonotonicTime now{};
+    int told = 0;
+    for (int i = 0; i < 1000; ++i, now += 1s)
+        for (const char* address : {"127.0.0.2", "127.0.0.3"})
+            told += turned_away.take(address, now) ? 1 : 0;
+    EXPECT_EQ(told, 2);
+    for (int i = 4; i < 200; ++i)
+        told += turned_away.take("127.0.0." + std::to_string(i), now) ? 1 : 0;
+    EXPECT_EQ(told, 4);
+    EXPECT_FALSE(turned_away.take("", now)) << "it has hung up already";
+    EXPECT_EQ(turned_away.take("127.0.0.2", now + 24h), "127.0.0.2 away");
 }
 
 TEST_F(ModbusTcp, EndsWithoutExceptionWhenCancelled) {
