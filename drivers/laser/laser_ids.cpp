@@ -326,18 +326,21 @@ Task<Result<void>> Ids::read_environment() {
     co_return Result<void>{};
 }
 
+/// What is asked seldom is due by the grid of the polls, half a poll beside it: by the moment of an
+/// answer, a tape that is played could ask it one poll earlier than the recorder did.
 Task<Result<void>> Ids::measure() {
-    MonotonicTime next = context_.scheduler->now(), slow = next, air = next + air_period;
+    const Duration half = setup_.poll_period / 2;
+    MonotonicTime next = context_.scheduler->now(), slow = next, air = next + air_period - half;
     for (;;) {
         auto done = co_await read_displacement();
-        if (done && context_.scheduler->now() >= slow) {
-            slow = context_.scheduler->now() + slow_period;
+        if (done && next >= slow) {
+            slow = next + slow_period + half;
             done = co_await check_mode();
             if (done) done = co_await read_quality();
             if (done && unit_connected_) done = co_await read_environment();
         }
-        if (done && context_.scheduler->now() >= air) {
-            air = context_.scheduler->now() + air_period;
+        if (done && next >= air) {
+            air = next + air_period + half;
             done = co_await check_air();
         }
         if (!done) co_return done;
