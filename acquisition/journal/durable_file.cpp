@@ -1,8 +1,10 @@
 #include "acquisition/journal/durable_file.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -66,6 +68,45 @@ Result<void> write_synced(const std::string& path, std::string_view content) {
     if (::fsync(file.get()) != 0) return fail_io("cannot sync", path);
     if (!file.close()) return fail_io("cannot close", path);
     return {};
+}
+
+namespace {
+
+/// Where a new content is put together: beside the file itself, whatever links lead there.
+std::string name_beside(const std::filesystem::path& file) {
+    return (file.parent_path() / ("." + file.filename().string() + ".new")).string();
+}
+
+/// The file itself, there or not: a link to a disk that is not mounted leads somewhere, too.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+    constexpr int most = 40; // as the kernel's
+    std::error_code none;
+    for (int i = 0; i < most && std::filesystem::is_symlink(path, none); ++i)
+        path = path.parent_path() / std::filesystem::read_symlink(path, none);
+    return path;
+}
+
+Result<void> write_through(const std::string& path, std::string_view content) {
+    std::ofstream stream{path, std::ios::binary};
+    if (stream << content << std::flush) return {};
+    return fail_io("cannot write", path);
+}
+
+} // namespace
+
+Result<void> replace_synced(const std::string& path, std::string_view content) {
+    std::error_code ignored;
+    const auto found = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(found) && !std::filesystem::is_regular_file(found))
+        return write_through(path, content);
+    const std::filesystem::path file = end_of_links(path);
+    const std::string unfinished = name_beside(file);
+    const auto written = write_synced(unfinished, content);
+    if (written && ::rename(unfinished.c_str(), file.c_str()) == 0)
+        return sync_folder(folder_of(file.string()));
+    const int reason = written ? errno : written.error().cause.value();
+    ::unlink(unfinished.c_str());
+    return fail_io("cannot write", path, reason);
 }
 
 Result<void> try_folder(const std::string& folder) {

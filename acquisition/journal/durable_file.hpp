@@ -44,6 +44,10 @@ Result<void> sync_file(const std::string& path);
 Result<void> sync_folder(const std::string& path);
 /// Creates or replaces the content, synced; the name itself needs sync_folder.
 Result<void> write_synced(const std::string& path, std::string_view content);
+/// Creates or replaces the file in one step, synced with its name: whoever opens it finds the whole
+/// content, or the one before; on failure nothing is left of the new one. A link stays a link. What
+/// is no plain file (a terminal, /dev/stdout) is written to.
+Result<void> replace_synced(const std::string& path, std::string_view content);
 /// May files grow in this folder? Writes and syncs as much as a run file needs to be gone on with,
 /// and removes it.
 Result<void> try_folder(const std::string& folder);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace axiscal {
@@ -36,6 +38,13 @@ Error judged(Error error) {
     if (error.fault == Fault::io && of_the_whole_share(error.cause.value()))
         return share_lost(std::move(error.detail), error.cause.value()).value();
     return error;
+}
+
+/// What rename to a free name and hard link answer where the file system has neither (rclone,
+/// davfs2, vboxsf).
+bool knows_no_such_call(const Error& error) {
+    constexpr std::array all{EINVAL, ENOSYS, EPERM, EOPNOTSUPP, EMLINK};
+    return error.fault == Fault::io && std::ranges::find(all, error.cause.value()) != all.end();
 }
 
 Result<void>
@@ -70,14 +79,23 @@ std::string FolderDestination::at(const std::string& path) const {
     return path.empty() ? root_ : root_ + "/" + path;
 }
 
+Result<void> FolderDestination::check_mount() const {
+    if (const auto absent = absent_mount(root_, mounts_))
+        return share_lost(absent_mount_words(*absent));
+    return {};
+}
+
 Result<void> FolderDestination::check() {
+    AXISCAL_CHECK(check_mount());
     std::error_code error;
-    if (fs::is_directory(root_, error)) return {};
+    if (fs::is_directory(root_, error)) return try_refused_move();
     return share_lost("The destination " + root_ +
-                      " is not there: mount the share or make the folder");
+                      " is not there: mount the share, or make the folder where it belongs on "
+                      "this PC's own disk");
 }
 
 Result<bool> FolderDestination::make_folder(const std::string& path) {
+    AXISCAL_CHECK(check_mount());
     std::error_code error;
     if (fs::create_directory(at(path), error)) return true;
     std::error_code ignored;
@@ -112,7 +130,7 @@ Result<std::string> FolderDestination::write_and_read_back(const std::string& so
     if (!from) return fail_io("cannot open", source);
     FileHandle to{
         ::open(at(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0664)};
-    if (!to) return share_fails("cannot write to the share:", at(path));
+    if (!to) return share_fails("cannot create", at(path));
     AXISCAL_CHECK(copy_bytes(from, to, at(path), progress));
     if (::fsync(to.get()) != 0) return share_fails("cannot sync", at(path));
     // Best effort: what is read back should come from the share, not from this machine's memory.
@@ -122,7 +140,40 @@ Result<std::string> FolderDestination::write_and_read_back(const std::string& so
 }
 
 Result<void> FolderDestination::move_to_free_name(const std::string& from, const std::string& to) {
-    return axiscal::move_to_free_name(at(from), at(to)).map_error(judged);
+    auto moved = axiscal::move_to_free_name(at(from), at(to)).map_error(judged);
+    if (moved || !knows_no_such_call(moved.error())) return moved;
+    return look_and_rename(from, to);
+}
+
+// Not by O_EXCL on the final name: an empty file would bear it for a while, and after a crash for
+// ever. A program that makes the very name between look and rename loses its file. Nobody but this
+// station makes names in the folder of its runs.
+Result<void> FolderDestination::look_and_rename(const std::string& from, const std::string& to) {
+    struct stat found {};
+    if (::lstat(at(to).c_str(), &found) == 0)
+        return fail(Fault::refused, at(to) + " exists already and is never overwritten");
+    if (errno != ENOENT) return share_fails("cannot look for", at(to));
+    if (::rename(at(from).c_str(), at(to).c_str()) == 0) return {};
+    const int error = errno;
+    if (of_the_whole_share(error)) return share_fails("cannot rename to", at(to), error);
+    refused_ = Move{from, to};
+    const auto kind = file_system_of(root_, mounts_);
+    return share_lost("The file system of " + root_ + (kind.empty() ? "" : " (" + kind + ")") +
+                          " lets no finished file take its name, neither by a rename nor by a "
+                          "link: let axiscal-publish speak to the server itself, destination = "
+                          "\"smb://server/share/folder\"",
+                      error);
+}
+
+// A name that somebody took meanwhile, or a file that is gone, is the next copy's to see.
+Result<void> FolderDestination::try_refused_move() {
+    if (!refused_) return {};
+    const Move move = *std::exchange(refused_, std::nullopt);
+    struct stat found {};
+    if (::lstat(at(move.from).c_str(), &found) != 0) return {};
+    auto moved = move_to_free_name(move.from, move.to);
+    if (!moved && moved.error().fault != Fault::refused) return moved;
+    return {};
 }
 
 Result<void> FolderDestination::remove_file(const std::string& path) {
@@ -131,7 +182,11 @@ Result<void> FolderDestination::remove_file(const std::string& path) {
     return {};
 }
 
+// The root is synced last: before a receipt says so, it is still the share that has it all.
 Result<void> FolderDestination::sync_folder(const std::string& path) {
+    if (path.empty()) {
+        AXISCAL_CHECK(check_mount());
+    }
     return axiscal::sync_folder(at(path)).map_error(judged);
 }
 

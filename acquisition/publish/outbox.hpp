@@ -3,6 +3,7 @@
 // Functions on files, no state; a name without a dot in front appears only with all its content,
 // synced. Flat: an entry holds files, no folders.
 
+#include "acquisition/publish/destination.hpp"
 #include "analysis/quantity/result.hpp"
 
 #include <string>
@@ -45,8 +46,12 @@ Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run
 
 /// Moves an entry that has its receipt to <outbox>/../published/<run-id>; returns where it lies.
 /// Where the name is taken a number is added. On disk after sync_outbox(): until then a power cut
-/// may undo the move, and it is made again. @errors Fault::refused without a receipt.
-Result<std::string> archive_entry(const OutboxEntry& entry);
+/// may undo the move, and it is made again. Where `published` leads to another disk the entry is
+/// copied, synced, read back and compared under a hidden name, which then becomes its own; only
+/// then it leaves the outbox. Interrupted anywhere it may be called again.
+/// @errors Fault::refused without a receipt; Fault::checksum when the other disk gives back other
+/// bytes; Fault::io.
+Result<std::string> archive_entry(const OutboxEntry& entry, const Progress& progress = {});
 /// Makes moves between the outbox and its archive durable.
 Result<void> sync_outbox(const std::string& outbox);
 

@@ -87,7 +87,7 @@ Result<void> Publisher::publish(const std::string& run_id) {
         if (troubles_.erase("") > 0) listener_.destination_back();
         listener_.published(*receipt);
     }
-    AXISCAL_TRY([[maybe_unused]] const auto place, archive_entry(entry));
+    AXISCAL_TRY([[maybe_unused]] const auto place, archive_entry(entry, delivery.progress));
     return {};
 }
 

@@ -126,7 +126,7 @@ void SecondHand::publish_by(Destination& destination,
         const auto receipt = deliver_entry(*entry, delivery, utc_ns_());
         if (!receipt) return;
         if (*receipt) listener_.published(**receipt);
-        if (!archive_entry(*entry)) return;
+        if (!archive_entry(*entry, delivery.progress)) return;
         self.beat();
     }
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <random>
+#include <sys/stat.h>
 
 namespace axiscal::outbox_test {
 namespace {
@@ -40,6 +41,21 @@ TEST(Outbox, StartsAnewAfterACrashWhileStaging) {
     const auto folder = stage_entry(outbox_in(scratch), "run-1", {{"whole", "y"}}).value();
     EXPECT_FALSE(std::filesystem::exists(folder + "/half"));
     EXPECT_EQ(read_bytes(folder + "/whole"), "y");
+}
+
+// A station that starts knows by this folder that a certificate is still to be made. It was removed and
+// made anew: killed in between, a complete run never got its certificate.
+TEST(Outbox, BeginningAnewKeepsTheFolderThatSaysSo) {
+    const ScratchFolder scratch;
+    const std::string staging = begin_entry(outbox_in(scratch), "run-1").value();
+    struct stat before {}, after {};
+    ASSERT_EQ(::stat(staging.c_str(), &before), 0);
+    write_bytes(staging + "/certificate.pdf", "half");
+    std::filesystem::create_directory(staging + "/odd");
+    EXPECT_EQ(begin_entry(outbox_in(scratch), "run-1").value(), staging);
+    ASSERT_EQ(::stat(staging.c_str(), &after), 0);
+    EXPECT_EQ(after.st_ino, before.st_ino);
+    EXPECT_TRUE(std::filesystem::is_empty(staging));
 }
 
 TEST(Outbox, NeverReplacesAWaitingEntry) {
