@@ -12,6 +12,7 @@
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/publish/report/certificate_files.hpp"
 #include "acquisition/publish/run_certificate.hpp"
+#include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "tools/axiscal/circular_case_certificate.hpp"
 #include "tools/describe/describe.hpp"
@@ -171,10 +172,13 @@ int run(int argc, char** argv) {
 } // namespace axiscal
 
 int main(int argc, char** argv) {
+    axiscal::open_standard_streams();
+    axiscal::StandardOutput output;
+    int code = axiscal::exit_failed;
     try {
-        return axiscal::run(argc, argv);
+        code = axiscal::run(argc, argv);
     } catch (const std::exception& error) {
         std::cerr << "axiscal-report: " << error.what() << "\n";
-        return 1;
     }
+    return output.end("axiscal-report", code);
 }

@@ -10,10 +10,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <fcntl.h>
 #include <fstream>
 #include <iostream>
+#include <system_error>
 #include <unistd.h>
 
 namespace {
@@ -59,7 +61,12 @@ int print_truth(const Options& options) {
     const auto plan = plan_of(options, *scenario);
     if (!plan) return complain(plan.error(), is_refused);
     const std::string text = truth_of(*scenario, *plan).dump(1) + "\n";
-    if (options.truth.empty()) return std::cout << text << std::flush, 0;
+    if (options.truth.empty()) {
+        if (std::cout << text << std::flush) return 0;
+        std::cerr << "axiscal-simulate: could not write all of its output to standard output: "
+                  << std::generic_category().message(errno) << "\n";
+        return can_not_open;
+    }
     std::ofstream file{options.truth};
     file << text;
     return file.flush() ? 0 : can_not_open;

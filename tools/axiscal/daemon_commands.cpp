@@ -2,6 +2,8 @@
 
 #include "analysis/quantity/counted.hpp"
 #include "config/json_text.hpp"
+#include "config/version.hpp"
+#include "tools/axiscal/daemon_reply.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/status_text.hpp"
 #include "tools/axiscal/terminal/terminal.hpp"
@@ -23,11 +25,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr auto repaint =
     std::chrono::milliseconds{250}; // a reading twice a second, asking included
-
-int no_contact(const Error& error) {
-    std::cerr << error.detail << (error.cause ? " (" + error.cause.message() + ")" : "") << "\n";
-    return exit_no_contact;
-}
 
 std::string checks_text(const Json& checks) {
     std::string text;
@@ -59,11 +56,7 @@ int refused(const Reply& reply) {
                      "prints it.\n";
         return exit_forbidden;
     }
-    const bool known = body.is_object() && body.contains("error");
-    std::cerr << (known ? body["error"].value("sentence", "")
-                        : "the station answered " + std::to_string(reply.status))
-              << "\n";
-    return exit_forbidden;
+    return tell_refusal(reply);
 }
 
 bool all_hold(const Json& checks) {
@@ -74,7 +67,7 @@ bool all_hold(const Json& checks) {
 
 /// Asks, prints, and turns the answer into an exit code.
 template <class Show> int ask(const Result<Reply>& reply, bool json, Show show) {
-    if (!reply) return no_contact(reply.error());
+    if (!reply) return tell_no_contact(reply.error());
     if (reply->status >= 300) return refused(*reply);
     if (json) return std::cout << reply->body << std::flush, exit_ok;
     std::cout << show(Json::parse(reply->body)) << std::flush;
@@ -173,20 +166,30 @@ Result<void> read_program_header(const std::string& path, Json& body) {
                 path + " is not a program of 'axiscal program': its header names no pass");
 }
 
+/// After an update the old daemon may still be at work.
+std::string other_version(const std::string& of_daemon) {
+    if (of_daemon == software_version()) return "";
+    return "axiscald is version " + of_daemon + ", this axiscal " + software_version() +
+           ": sudo systemctl restart axiscald\n";
+}
+
 } // namespace
 
 int command_status(const StationClient& client, bool json) {
-    return ask(client.get("/v1/status"), json, status_text);
+    return ask(client.get("/v1/status"), json, [](const Json& status) {
+        return status_text(status) + other_version(status.value("version", software_version()));
+    });
 }
 
 int command_watch(const StationClient& client, bool json, bool until_published) {
     Frames frames{json, until_published};
     for (;;) {
         const auto reply = client.get("/v1/status");
-        if (!reply) return no_contact(reply.error());
+        if (!reply) return tell_no_contact(reply.error());
         if (reply->status >= 300) return refused(*reply);
         const Json status = Json::parse(reply->body);
         frames.show(reply->body, status);
+        if (!std::cout) return exit_failed; // nobody can read it any more; main tells why
         if (!goes_on(status, until_published)) return frames.end(status);
         std::this_thread::sleep_for(repaint);
     }
@@ -250,13 +253,15 @@ int command_retake(const StationClient& client, const RevisionOrder& order, bool
 }
 
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json) {
-    return ask(client.post("/v1/run/exclude", json_text(body_of(order))), json, [](const Json& answer) {
-        const auto excluded = answer.at("excluded").get<long>();
-        return counted(excluded, "reading") +
-               (excluded == 1 ? " is left out of every figure; it stays in the file and is drawn.\n"
-                              : " are left out of every figure; they stay in the file and are "
-                                "drawn.\n");
-    });
+    return ask(
+        client.post("/v1/run/exclude", json_text(body_of(order))), json, [](const Json& answer) {
+            const auto excluded = answer.at("excluded").get<long>();
+            return counted(excluded, "reading") +
+                   (excluded == 1
+                        ? " is left out of every figure; it stays in the file and is drawn.\n"
+                        : " are left out of every figure; they stay in the file and are "
+                          "drawn.\n");
+        });
 }
 
 int command_trigger(const StationClient& client, bool json) {

@@ -4,7 +4,7 @@ namespace axiscal {
 
 int tell_no_contact(const Error& error) {
     std::cerr << error.detail << (error.cause ? " (" + error.cause.message() + ")" : "") << "\n";
-    return exit_no_contact;
+    return error.fault == Fault::bad_request ? exit_usage : exit_no_contact;
 }
 
 int tell_refusal(const Reply& reply) {

@@ -10,7 +10,7 @@
 
 namespace axiscal {
 
-/// @returns exit_no_contact, said on standard error.
+/// Said on standard error. @returns exit_no_contact, of an address that is none exit_usage.
 int tell_no_contact(const Error& error);
 /// Prints the station's own sentence for a refused call. @returns exit_forbidden.
 int tell_refusal(const Reply& reply);

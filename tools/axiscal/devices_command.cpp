@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 
 namespace axiscal {
@@ -22,11 +22,14 @@ using Json = nlohmann::ordered_json;
 struct StationPart {
     Json instruments; ///< null without an answer
     std::string note;
+    int code = exit_no_contact; ///< where nothing else can be shown
 };
 
 StationPart ask_station(const StationClient& client) {
     const auto reply = client.get("/v1/instruments");
-    if (!reply) return {Json{}, reply.error().detail};
+    if (!reply)
+        return {Json{}, reply.error().detail,
+                reply.error().fault == Fault::bad_request ? exit_usage : exit_no_contact};
     const Json body = Json::parse(reply->body, nullptr, false);
     if (reply->status >= 300 || !body.is_array())
         return {Json{}, "the station answered " + std::to_string(reply->status)};
@@ -99,7 +102,7 @@ int command_devices(const StationClient& client, const DevicesRequest& request, 
 
 int command_far_devices(const StationClient& client, bool json) {
     const StationPart station = ask_station(client);
-    if (station.instruments.is_null()) return std::cerr << station.note << "\n", exit_no_contact;
+    if (station.instruments.is_null()) return std::cerr << station.note << "\n", station.code;
     if (json)
         std::cout << json_text(Json{{"instruments", station.instruments}, {"plugged", nullptr}})
                   << "\n";
@@ -113,8 +116,8 @@ int command_list_drivers(bool json) {
     for (const InstrumentDriver& driver : instrument_drivers()) {
         list.push_back({{"driver", driver.name}, {"summary", driver.summary}});
         if (!json)
-            std::printf("  %-12s %s\n", std::string{driver.name}.c_str(),
-                        std::string{driver.summary}.c_str());
+            std::cout << "  " << std::left << std::setw(13) << driver.name << driver.summary
+                      << "\n";
     }
     if (json) std::cout << json_text(list) << "\n";
     return exit_ok;

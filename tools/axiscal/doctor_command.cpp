@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <sys/utsname.h>
 #include <utility>
@@ -65,6 +65,7 @@ void ask_daemon(const StationClient& client, Patient& patient) {
     patient.daemon_answers = reply && reply->status < 300;
     if (!patient.daemon_answers) return;
     const Json status = Json::parse(reply->body, nullptr, false);
+    if (status.is_object()) patient.daemon_version = status.value("version", "");
     if (status.is_object() && status.contains("trigger"))
         patient.trigger_note = status["trigger"].value("note", "");
 }
@@ -106,9 +107,11 @@ std::vector<Finding> examine(const DoctorRequest& request) {
 
 void print(const std::vector<Finding>& findings) {
     for (const Finding& finding : findings) {
-        std::printf("%-6s  %-11s  %s\n", health_words[static_cast<std::size_t>(finding.health)],
-                    finding.area.c_str(), finding.what.c_str());
-        if (!finding.mend.empty()) std::printf("%21s-> %s\n", "", finding.mend.c_str());
+        std::cout << std::left << std::setw(8)
+                  << health_words[static_cast<std::size_t>(finding.health)] << std::setw(13)
+                  << finding.area << finding.what << "\n";
+        if (!finding.mend.empty())
+            std::cout << std::string(21, ' ') << "-> " << finding.mend << "\n";
     }
 }
 
@@ -132,10 +135,8 @@ int command_doctor(const DoctorRequest& request, bool json) {
                   << "\n";
     } else {
         print(findings);
-        std::printf("%s; %d to know\n",
-                    broken == 0 ? "Nothing is broken"
-                                : (std::to_string(broken) + " broken").c_str(),
-                    static_cast<int>(notes));
+        std::cout << (broken == 0 ? "Nothing is broken" : std::to_string(broken) + " broken")
+                  << "; " << notes << " to know\n";
     }
     return broken == 0 ? exit_ok : exit_unwell;
 }

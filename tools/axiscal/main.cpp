@@ -1,7 +1,9 @@
 // The command line. Each command is documented where its arguments are read: `axiscal COMMAND
 // --help`.
 #include "config/measure.hpp"
+#include "config/standard_streams.hpp"
 #include "config/version.hpp"
+#include "tools/axiscal/arguments/encoding.hpp"
 #include "tools/axiscal/arguments/options.hpp"
 #include "tools/describe/describe.hpp"
 
@@ -74,10 +76,14 @@ int run(int argc, char** argv) {
     add_paper_commands(app, options, chosen);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag("--json", options.json, "print JSON for programs");
+    const std::vector<std::string> words{argv + std::min(argc, 1), argv + argc};
+    if (const auto complaint = complaint_of_encoding(words))
+        return std::cerr << *complaint << "\n", exit_usage;
     try {
         app.parse(argc, argv);
+    } catch (const CLI::FileError& error) {
+        return std::cerr << error.what() << "\n", exit_failed;
     } catch (const CLI::ParseError& error) {
-        const std::vector<std::string> words{argv + 1, argv + argc};
         if (!words.empty() && !words.front().starts_with('-')) {
             hint_at_command(app, words.front());
             hint_at_option(app, words);
@@ -91,12 +97,15 @@ int run(int argc, char** argv) {
 } // namespace axiscal
 
 int main(int argc, char** argv) {
+    axiscal::open_standard_streams();
     // Columns of a letter (wcwidth) alone: numbers keep their decimal point. Part of the C library.
     std::setlocale(LC_CTYPE, "C.UTF-8");
+    axiscal::StandardOutput output;
+    int code = axiscal::exit_failed;
     try {
-        return axiscal::run(argc, argv);
+        code = axiscal::run(argc, argv);
     } catch (const std::exception& bug) {
         std::cerr << "axiscal: " << bug.what() << "\n";
-        return axiscal::exit_failed;
     }
+    return output.end("axiscal", code);
 }

@@ -1,5 +1,6 @@
 #include "tools/axiscal/offline_commands.hpp"
 
+#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
@@ -22,7 +23,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -118,12 +118,6 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     return order;
 }
 
-Result<void> write_file(const std::string& path, const std::string& text) {
-    std::ofstream file{path, std::ios::binary | std::ios::trunc};
-    if (file << text << std::flush) return {};
-    return fail(Fault::io, "cannot write " + path, {errno, std::generic_category()});
-}
-
 /// As `axiscal export` does: a folder that is named is wanted.
 Result<void> make_folder(const std::string& path) {
     std::error_code error;
@@ -141,7 +135,7 @@ Result<std::string> write_program(const StationConfig& config,
     AXISCAL_TRY(const std::string text, dialect.write(order));
     const std::string path = request.out_directory + "/" + config.axis.program_axis + "-" +
                              plan.pass + std::string{dialect.extension};
-    AXISCAL_CHECK(write_file(path, text));
+    AXISCAL_CHECK(replace_synced(path, text));
     return path;
 }
 
@@ -165,7 +159,8 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
     const std::string path = request.out_directory + "/" + config.axis.program_axis + "-retake-" +
                              std::to_string(contents->revisions.retakes.back().number) +
                              std::string{dialect->extension};
-    if (const auto written = write_file(path, *text); !written) return complain(written.error());
+    if (const auto written = replace_synced(path, *text); !written)
+        return complain(written.error());
     if (json)
         std::cout << json_text(Json{{"programs",
                                      {{{"file", path},
@@ -181,10 +176,9 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
 /// Beside the linear cycle, where the station file has a circular test.
 Result<std::string> write_circles(const StationConfig& config, const std::string& folder) {
     const CircularPlan& plan = config.circular->setup.plan;
-    const CircularOrder order{plan, config.trigger.shape,
-                              config.trigger.cnc_timeout};
+    const CircularOrder order{plan, config.trigger.shape, config.trigger.cnc_timeout};
     const std::string path = folder + "/" + std::string{name_of(plan.plane)} + "-circular.ngc";
-    AXISCAL_CHECK(write_file(path, write_circular_linuxcnc(order)));
+    AXISCAL_CHECK(replace_synced(path, write_circular_linuxcnc(order)));
     return path;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/axiscal/probing_command.hpp"
 
 #include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/probing_document.hpp"
 #include "acquisition/station/run_header.hpp"
@@ -34,11 +35,8 @@ Result<std::string> text_of_file(const std::string& path) {
 int write_program(const ProbingOrder& order, bool json) {
     const auto text = write_probing_linuxcnc(order.plan, order.log);
     if (!text) return complain(text.error());
-    std::ofstream file{order.program, std::ios::binary | std::ios::trunc};
-    if (!(file << *text << std::flush)) {
-        std::cerr << "cannot write " << order.program << "\n";
-        return exit_failed;
-    }
+    if (const auto written = replace_synced(order.program, *text); !written)
+        return complain(written.error());
     const int touches = 3 * (order.plan.references + order.plan.touches);
     if (json)
         std::cout << json_text(Json{{"file", order.program},

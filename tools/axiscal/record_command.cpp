@@ -1,4 +1,5 @@
 // `axiscal record`: the daemon's driver and link, with a recorder between.
+#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "analysis/quantity/counted.hpp"
 #include "config/json_text.hpp"
@@ -22,7 +23,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -167,9 +167,10 @@ int keep(const RecordRequest& request,
                            "\": is it plugged in, and is axiscald stopped (sudo systemctl stop "
                            "axiscald)?",
                        exit_failed);
-    std::ofstream file{request.tape, std::ios::binary};
-    file << header_text(header_of(request, recording, config, driver)) << "\n" << transfers;
-    if (!file.flush()) return refused("cannot write " + request.tape, exit_failed);
+    const auto written =
+        replace_synced(request.tape, header_text(header_of(request, recording, config, driver)) +
+                                         "\n" + transfers);
+    if (!written) return refused(describe(written.error()), exit_failed);
     const auto count = std::ranges::count(transfers, '\n');
     const Listener& listener = recording.listener;
     if (json)

@@ -1,4 +1,5 @@
 // `axiscal replay`: a tape on a wire for another program, or through its driver in virtual time.
+#include "acquisition/journal/durable_file.hpp"
 #include "config/json_text.hpp"
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/link/tape_wire.hpp"
@@ -102,10 +103,8 @@ int through_the_driver(const ReplayRequest& request, const Tape& tape) {
     if (!said) return refused(said.error(), exit_refused);
     if (request.print) std::cout << *said;
     if (!request.rebuild.empty()) {
-        std::ofstream file{request.rebuild, std::ios::binary};
-        file << *said;
-        if (!file.flush())
-            return std::cerr << "cannot write " << request.rebuild << "\n", exit_failed;
+        if (const auto written = replace_synced(request.rebuild, *said); !written)
+            return refused(written.error(), exit_failed);
         std::cout << request.rebuild << " is written anew. Read the difference before you keep it: "
                   << "git diff " << request.rebuild << "\n";
     }

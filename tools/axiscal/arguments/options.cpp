@@ -1,8 +1,13 @@
 #include "tools/axiscal/arguments/options.hpp"
 
+#include <cerrno>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <system_error>
 
 namespace axiscal {
 namespace {
@@ -23,6 +28,25 @@ const char* meaning_of(ExitCode code) {
     case exit_unwell: return "the doctor found something broken";
     }
     return "";
+}
+
+/// Without what an editor may have put around it: blanks, the line ends of Windows, its mark of
+/// UTF-8.
+std::string token_in(const std::string& path) {
+    std::error_code ignored;
+    const bool folder = std::filesystem::is_directory(path, ignored);
+    errno = EISDIR;
+    std::ifstream file;
+    if (!folder) file.open(path, std::ios::binary);
+    if (!file.is_open())
+        throw CLI::FileError("cannot read the token file " + path + " (" +
+                             std::generic_category().message(errno) + ")");
+    std::string text{std::istreambuf_iterator<char>{file}, {}};
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    constexpr const char* blanks = " \t\r\n\v\f";
+    const auto begin = text.find_first_not_of(blanks);
+    if (begin == std::string::npos) throw CLI::FileError("the token file " + path + " is empty");
+    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
 } // namespace
@@ -51,8 +75,6 @@ StationClient client_of(Options& options) {
         socket != nullptr &&
         options.door.socket_path == DoorAddress{"/run/axiscal/axiscald.sock", "", ""}.socket_path)
         options.door.socket_path = socket;
-    if (std::ifstream file{options.token_file}; !options.token_file.empty())
-        std::getline(file, options.door.token);
     return StationClient{options.door};
 }
 
@@ -63,8 +85,17 @@ void daemon_options(CLI::App& command, Options& options) {
         ->capture_default_str();
     command.add_option("--host", options.door.host,
                        "talk TCP to ADDRESS:PORT instead; reads only, unless a token is given");
-    command.add_option("--token-file", options.token_file,
-                       "file with the bearer token (in the state directory)");
+    command.add_option_function<std::string>(
+        "--token-file",
+        [&options](const std::string& path) { options.door.token = token_in(path); },
+        "file with the bearer token (in the state directory)");
+    command
+        .add_option_function<int>(
+            "--timeout",
+            [&options](int limit_s) { options.door.patience = std::chrono::seconds{limit_s}; },
+            "seconds to wait for an answer (default: 60, of an order as long as the station may "
+            "take)")
+        ->check(CLI::PositiveNumber);
 }
 
 bool split_at_equals(const std::vector<std::string>& given,

@@ -22,7 +22,6 @@ namespace axiscal {
 struct Options {
     bool json = false;
     DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
-    std::string token_file;
     std::string config = "/etc/axiscal/station.toml";
     std::string file, out = ".", reason, by;
     VerifyAgainst against;
@@ -65,7 +64,8 @@ void teach(CLI::App& command, const std::string& text, const std::vector<ExitCod
 
 /// The daemon that `options` names.
 StationClient client_of(Options& options);
-/// --socket, --host and --token-file.
+/// --socket, --host, --token-file and --timeout. A token file that gives no token ends the reading
+/// of the words with CLI::FileError.
 void daemon_options(CLI::App& command, Options& options);
 /// "KEY=TEXT" words into `into`. False when one has no '='.
 bool split_at_equals(const std::vector<std::string>& given,

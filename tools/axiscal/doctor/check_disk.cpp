@@ -1,4 +1,5 @@
 // The state directory and the place where certificates go.
+#include "acquisition/publish/mount_points.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "config/share_address.hpp"
 #include "tools/axiscal/doctor/doctor.hpp"
@@ -36,7 +37,7 @@ Finding check_commit(const std::string& folder) {
             verdict.ok ? "" : "axiscal selftest --state-directory " + folder};
 }
 
-/// An empty mount point looks like a share until the share comes.
+/// Where no file of the system names a mount point, the folders that people mount in are a hint.
 bool is_bare_mount_point(const std::string& path) {
     struct stat here {
     }, root{};
@@ -45,7 +46,9 @@ bool is_bare_mount_point(const std::string& path) {
            here.st_dev == root.st_dev;
 }
 
-Finding check_folder(const std::string& folder, const Account& service) {
+Finding check_folder(const std::string& folder, const Account& service, const MountPlaces& mounts) {
+    if (const auto absent = absent_mount(folder, mounts))
+        return {Health::broken, "share", absent_mount_words(*absent), absent->way_out};
     if (!is_folder(folder))
         return {Health::broken, "share", "the destination " + folder + " is not there",
                 "mount it (sudo mount " + folder + "), or correct publish.destination"};
@@ -87,6 +90,9 @@ std::vector<Finding> check_disk(const Patient& patient) {
                          "the user " + patient.service.name + " may not write to " + folder + " (" +
                              rights_text(folder) + ")",
                          "sudo chown -R axiscal:axiscal " + folder});
+    if (found.back().health == Health::good)
+        for (Finding& finding : check_owners(folder, patient.service))
+            found.push_back(std::move(finding));
     struct statfs about {};
     if (::statfs(folder.c_str(), &about) == 0) {
         DiskReading disk{folder, static_cast<long>(about.f_type), 0, true};
@@ -99,7 +105,8 @@ std::vector<Finding> check_disk(const Patient& patient) {
     return found;
 }
 
-std::vector<Finding> check_share(const Patient& patient, std::int64_t utc_ns) {
+std::vector<Finding>
+check_share(const Patient& patient, std::int64_t utc_ns, const MountPlaces& mounts) {
     const PublishConfig& publish = patient.config->publish;
     if (publish.destination.empty())
         return {{Health::note, "share",
@@ -110,7 +117,7 @@ std::vector<Finding> check_share(const Patient& patient, std::int64_t utc_ns) {
     std::vector<Finding> found;
     found.push_back(is_share_address(publish.destination)
                         ? check_server(outbox, publish.destination)
-                        : check_folder(publish.destination, patient.service));
+                        : check_folder(publish.destination, patient.service, mounts));
     if (!outbox.publisher_runs)
         found.push_back({Health::note, "share", "axiscal-publish does not run",
                          "sudo systemctl enable --now axiscal-publish"});

@@ -1,4 +1,5 @@
 // Who may ask the daemon, and the ports at which it listens.
+#include "config/version.hpp"
 #include "tools/axiscal/doctor/doctor.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -62,6 +63,16 @@ bool is_member(const std::string& name) {
     return wanted && std::ranges::find(groups, *wanted) != groups.end();
 }
 
+/// An update does not restart a daemon that was started by hand.
+Finding check_answer(const std::string& version) {
+    if (version.empty() || version == software_version())
+        return {Health::good, "rights", "axiscald answers at its socket", ""};
+    return {Health::note, "rights",
+            "axiscald answers as version " + version + ", and this is axiscal " +
+                software_version(),
+            "sudo systemctl restart axiscald axiscal-publish; an open run goes on by itself"};
+}
+
 } // namespace
 
 std::vector<Finding> check_account(const Patient& patient) {
@@ -82,7 +93,7 @@ std::vector<Finding> check_account(const Patient& patient) {
     else
         found.push_back({Health::good, "rights", "this user may arm and abort", ""});
     if (patient.daemon_answers)
-        found.push_back({Health::good, "rights", "axiscald answers at its socket", ""});
+        found.push_back(check_answer(patient.daemon_version));
     else
         found.push_back(
             {Health::note, "rights", "axiscald does not answer at its socket",

@@ -2,6 +2,7 @@
 // `axiscal doctor`: what could keep a station from measuring on this PC, and the one line that
 // mends each. It looks and tries, and leaves everything as it was. Blocking.
 
+#include "acquisition/publish/mount_points.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "drivers/plugged/candidates.hpp"
 #include "tools/axiscal/doctor/judges.hpp"
@@ -25,7 +26,8 @@ struct Patient {
     StationWires wires;
     Account service;
     bool daemon_answers = false;
-    std::string trigger_note; ///< what the daemon says of its trigger port
+    std::string daemon_version; ///< as it answers
+    std::string trigger_note;   ///< what the daemon says of its trigger port
 };
 
 std::vector<Finding> check_account(const Patient& patient);
@@ -35,7 +37,11 @@ std::vector<Finding> check_certificates(const StationConfig& config, std::int64_
 std::vector<Finding> check_clock(const DoctorPlaces& places);
 /// The state directory: rights, space, file system, one durable commit where the caller may write.
 std::vector<Finding> check_disk(const Patient& patient);
-std::vector<Finding> check_share(const Patient& patient, std::int64_t utc_ns);
+/// Files in it that the service may not write and that are not its own; none: no finding.
+std::vector<Finding> check_owners(const std::string& folder, const Account& service);
+/// The destination: there, mounted where a file of the system says so, writable; the publisher.
+std::vector<Finding>
+check_share(const Patient& patient, std::int64_t utc_ns, const MountPlaces& mounts = {});
 /// Sockets: the Modbus port of the CNC, the port of the console.
 std::vector<Finding> check_ports(const Patient& patient);
 std::vector<Finding> check_modules(const Patient& patient, const DoctorPlaces& places);
