@@ -2,10 +2,12 @@
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_face.hpp"
 #include "acquisition/journal/digest.hpp"
+#include "acquisition/journal/folder_owner.hpp"
 #include "acquisition/journal/signing_key.hpp"
 #include "acquisition/station/certificate_writer.hpp"
 #include "acquisition/station/station.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "drivers/asio_scheduler.hpp"
 #include "drivers/boot_id.hpp"
@@ -44,6 +46,7 @@ enum ExitCode : int { exit_ok = 0, exit_failed = 1, exit_usage = 2, exit_refused
 Result<int> lock_state(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
+    AXISCAL_CHECK(refuse_root_on_foreign(folder, "axiscald"));
     const std::string path = folder + "/lock";
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640);
     if (file < 0)
@@ -92,17 +95,32 @@ struct Daemon {
         return parts;
     }
 
+    /// The socket is taken before any instrument: of two daemons the second touches nothing.
     Task<void> run() {
-        const Result<void> started = co_await station.start();
-        const Result<void> doors = started ? console.start() : started;
-        if (!doors) {
-            spdlog::critical("{}", describe(doors.error()));
+        Result<void> up = console.bind();
+        const bool alone = up.has_value();
+        if (up) up = co_await station.start();
+        if (up) up = console.start();
+        if (!up) {
+            spdlog::critical("{}", describe(up.error()));
             code = exit_failed;
+            if (alone) co_await station.stop(); // it may have taken an open run over
             loop.stop();
             co_return;
         }
         spdlog::info("ready");
         tell_service_manager("READY=1");
+    }
+
+    /// A terminal that is shut, or somebody who wants the file read anew, must not end a run; to
+    /// systemd an end by SIGHUP would be in order, and nothing would start the daemon again.
+    Task<void> pass_over_hang_ups() {
+        boost::asio::signal_set signals{loop, SIGHUP};
+        for (;;) {
+            co_await signals.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
+            spdlog::info("SIGHUP is passed over: the station file is read at the start alone "
+                         "(systemctl restart axiscald)");
+        }
     }
 
     Task<void> end_on_signal() {
@@ -116,6 +134,7 @@ struct Daemon {
 
     int serve() {
         spawn(scheduler, end_on_signal());
+        spawn(scheduler, pass_over_hang_ups());
         spawn(scheduler, run());
         spawn(scheduler, feed_watchdog(scheduler));
         try {
@@ -205,6 +224,7 @@ int run(int argc, char** argv) {
 } // namespace axiscal
 
 int main(int argc, char** argv) {
+    axiscal::open_standard_streams();
     std::signal(SIGPIPE, SIG_IGN); // a client that left is an error code, not a death
     try {
         return axiscal::run(argc, argv);

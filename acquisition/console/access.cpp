@@ -15,15 +15,46 @@ bool same_secret(std::string_view given, std::string_view wanted) {
     return difference == 0 && !wanted.empty();
 }
 
-bool is_known(const std::string& host, const AccessRules& rules) {
-    return std::ranges::find(rules.known_hosts, host) != rules.known_hosts.end();
+/// Small letters, whatever the locale.
+std::string in_small(std::string_view text) {
+    std::string small{text};
+    for (char& letter : small)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return small;
+}
+
+/// As names of computers are compared (RFC 9110, 4.2.3): without case, and without the dot that
+/// ends a full name ("bay3.shop.example.:8470").
+std::string comparable(std::string_view host) {
+    std::string name = in_small(host);
+    const std::size_t port = name.find(':', name.find(']') == std::string::npos ? 0 : name.find(']'));
+    const std::size_t end = std::min(port, name.size());
+    if (end > 0 && name[end - 1] == '.') name.erase(end - 1, 1);
+    return name;
+}
+
+bool is_known(std::string_view host, const AccessRules& rules) {
+    const std::string asked = comparable(host);
+    const auto same = [&](const std::string& known) { return comparable(known) == asked; };
+    return std::ranges::any_of(rules.known_hosts, same);
 }
 
 bool own_origin(const std::string& origin, const AccessRules& rules) {
-    for (const char* scheme : {"http://", "https://"})
-        if (origin.starts_with(scheme))
-            return is_known(origin.substr(std::string_view{scheme}.size()), rules);
+    const std::string small = in_small(origin);
+    for (const std::string_view scheme : {"http://", "https://"})
+        if (small.starts_with(scheme))
+            return is_known(std::string_view{small}.substr(scheme.size()), rules);
     return false;
+}
+
+/// What stands behind "Bearer ", whose case does not count (RFC 9110, 11.1).
+std::string_view bearer_of(std::string_view authorization) {
+    constexpr std::string_view scheme = "bearer ";
+    if (in_small(authorization.substr(0, scheme.size())) != scheme) return {};
+    authorization.remove_prefix(scheme.size());
+    while (authorization.starts_with(' '))
+        authorization.remove_prefix(1);
+    return authorization;
 }
 
 } // namespace
@@ -36,10 +67,7 @@ AccessVerdict judge_access(const RequestHead& head, const AccessRules& rules) {
         return {403, "Origin '" + head.origin +
                          "' is foreign; pages of other sites may not talk to the station"};
     if (!head.changes_state || head.door == Door::unix_socket) return {};
-    constexpr std::string_view scheme = "Bearer ";
-    if (head.authorization.starts_with(scheme) &&
-        same_secret(std::string_view{head.authorization}.substr(scheme.size()), rules.token))
-        return {};
+    if (same_secret(bearer_of(head.authorization), rules.token)) return {};
     return {401, "Over TCP everybody only reads. Use the Unix socket (group axiscal) or the token "
                  "in the state directory"};
 }

@@ -27,6 +27,10 @@ const char* fault_of(http::status status) {
     case http::status::not_found:
     case http::status::method_not_allowed: return "not_found";
     case http::status::internal_server_error: return "internal";
+    case http::status::bad_request:
+    case http::status::payload_too_large:
+    case http::status::expectation_failed:
+    case http::status::request_header_fields_too_large: return "bad_request";
     default: return "refused";
     }
 }

@@ -5,10 +5,12 @@
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
 #include "acquisition/console/http_answer.hpp"
+#include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "drivers/spawn.hpp"
+#include "drivers/turned_away.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -36,7 +38,7 @@ using Response = HttpResponse;
 constexpr auto quiet = asio::as_tuple(asio::use_awaitable);
 constexpr auto idle_limit =
     std::chrono::seconds{30}; // a client that neither asks nor reads is let go
-constexpr std::uint64_t body_limit = std::uint64_t{64} * 1024;
+constexpr auto try_again = std::chrono::seconds{1}; // for an address that is not there yet
 constexpr std::size_t client_limit = 64; // of each door: who fills one leaves the other open
 
 constexpr std::size_t seat_of(Door door) {
@@ -54,6 +56,15 @@ struct ClientSeat {
     ~ClientSeat() { --taken; }
     std::size_t& taken;
 };
+
+/// What is asked for; a page may hang anything behind it ("?x=1").
+std::string path_of(const Request& request) {
+    std::string_view path{request.target().data(), request.target().size()};
+    path = path.substr(0, path.find('?'));
+    while (path.size() > 1 && path.ends_with('/'))
+        path.remove_suffix(1);
+    return std::string{path};
+}
 
 /// Arming met checks that do not hold: all of them at once.
 Response answer_with_checks(const Request& request,
@@ -76,14 +87,16 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
         rules.token = std::move(secret);
     }
 
+    Task<void> open_tcp_later();
+    void serve_tcp();
     template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
     template <class Socket> Task<void> serve(Socket socket, Door door);
     bool is_stranger(const asio::local::stream_protocol::socket& socket);
     bool is_stranger(const asio::ip::tcp::socket& socket);
     Task<Response> respond_or_tell(Request request, Door door, int descriptor);
     Task<Response> respond(Request request, Door door, int descriptor);
-    Task<Response> change(Request request, Orderer by);
-    Task<Response> arm(Request request, Orderer by);
+    Task<Response> change(Request request, Orderer by, int descriptor);
+    Task<Response> arm(Request request, Orderer by, int descriptor);
     Task<Response> revise(Request request, Orderer by);
 
     Scheduler& scheduler;
@@ -92,23 +105,25 @@ struct HttpFace::Impl : std::enable_shared_from_this<HttpFace::Impl> {
     AccessRules rules;
     asio::ip::tcp::acceptor tcp;
     asio::local::stream_protocol::acceptor local;
+    SocketFile socket_file;
+    bool bound = false, ended = false;
     std::array<std::size_t, 2> clients{}; ///< by door
-    std::string last_stranger;
+    TurnedAway strangers;
+    std::string no_tcp; ///< why nobody is heard over TCP now
 };
 
 bool HttpFace::Impl::is_stranger(const asio::local::stream_protocol::socket& /*socket*/) {
     return false; // the socket's mode and group have judged
 }
 
-/// Told once for each address that is not followed by another one.
 bool HttpFace::Impl::is_stranger(const asio::ip::tcp::socket& socket) {
     if (config.allowed_clients.empty()) return false;
     boost::system::error_code gone;
     const auto remote = socket.remote_endpoint(gone);
     const std::string from = gone ? "" : remote.address().to_string();
     if (any_covers(config.allowed_clients, from)) return false;
-    if (!from.empty() && std::exchange(last_stranger, from) != from)
-        spdlog::warn("The console turned {} away: console.allowed_clients does not name it.", from);
+    if (const auto words = strangers.take(from, scheduler.now()))
+        spdlog::warn("The console turned {}: console.allowed_clients does not name it.", *words);
     return true;
 }
 
@@ -134,16 +149,19 @@ template <class Socket> Task<void> HttpFace::Impl::serve(Socket socket, Door doo
     beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
     beast::flat_buffer buffer;
     for (bool alive = true; alive;) {
-        http::request_parser<http::string_body> parser;
-        parser.body_limit(body_limit);
         stream.expires_after(idle_limit);
-        const auto [read_error, got] = co_await http::async_read(stream, buffer, parser, quiet);
-        if (read_error) break;
-        Response response = co_await respond_or_tell(parser.release(), door, descriptor);
+        HttpAsked asked = co_await read_request(stream, buffer);
+        if (!asked.request && !asked.refusal) break;
+        Response response = asked.refusal ? *std::move(asked.refusal) : Response{};
+        if (asked.request) {
+            Request request = *std::move(asked.request);
+            response = co_await respond_or_tell(std::move(request), door, descriptor);
+        }
         alive = response.keep_alive();
         stream.expires_after(idle_limit);
         const auto [write_error, sent] = co_await http::async_write(stream, response, quiet);
         if (write_error) break;
+        if (!alive) co_await end_gently(stream);
     }
 }
 
@@ -168,25 +186,25 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door, int descripto
         Orderer by;
         by.door = "token";
         if (door == Door::unix_socket) by = peer_of_socket(descriptor);
-        co_return co_await change(std::move(request), std::move(by));
+        co_return co_await change(std::move(request), std::move(by), descriptor);
     }
     if (request.method() != http::verb::get)
         co_return answer_in_words(request, http::status::method_not_allowed,
                                   "GET reads, POST changes");
-    if (request.target() == "/v1/alignment")
+    const std::string path = path_of(request);
+    if (path == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
-    const std::string_view target{request.target().data(), request.target().size()};
-    if (target.substr(0, target.find('?')) == stream_path) {
-        const auto points = stream_points_of(target);
+    if (path == stream_path) {
+        const auto points = stream_points_of({request.target().data(), request.target().size()});
         if (!points) co_return answer(request, points.error());
         co_return answer(request, http::status::ok, to_json(station.stream(*points)));
     }
-    const StationStatus status = station.status();
-    if (request.target() == "/v1/status")
-        co_return answer(request, http::status::ok, to_json(status));
-    if (request.target() == "/v1/instruments")
+    StationStatus status = station.status();
+    if (!no_tcp.empty()) status.notes.push_back(no_tcp);
+    if (path == "/v1/status") co_return answer(request, http::status::ok, to_json(status));
+    if (path == "/v1/instruments")
         co_return answer(request, http::status::ok, to_json(status)["instruments"]);
-    if (request.target() == "/v1/preflight") {
+    if (path == "/v1/preflight") {
         const auto checks = station.preflight({});
         if (!checks) co_return answer(request, checks.error());
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
@@ -200,9 +218,9 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door, int descripto
         "/v1/drift");
 }
 
-Task<Response> HttpFace::Impl::change(Request request, Orderer by) {
-    const std::string target{request.target()};
-    if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by));
+Task<Response> HttpFace::Impl::change(Request request, Orderer by, int descriptor) {
+    const std::string target = path_of(request);
+    if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by), descriptor);
     if (target == "/v1/preflight") {
         const auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
@@ -256,12 +274,13 @@ Task<Response> HttpFace::Impl::change(Request request, Orderer by) {
         "/v1/alignment, /v1/drift");
 }
 
-Task<Response> HttpFace::Impl::arm(Request request, Orderer by) {
+Task<Response> HttpFace::Impl::arm(Request request, Orderer by, int descriptor) {
     auto wanted = arm_request_from_json(request.body());
     if (!wanted) co_return answer(request, wanted.error());
     ArmRequest order = *std::move(wanted);
     by.name = order.by.name;
     order.by = std::move(by);
+    order.has_gone = [descriptor] { return has_hung_up(descriptor); };
     ArmRequest asked = order;
     const auto run = co_await station.arm(std::move(asked));
     if (!run && run.error().field == "preflight")
@@ -276,7 +295,7 @@ Task<Response> HttpFace::Impl::revise(Request request, Orderer by) {
     RevisionRequest order = *std::move(wanted);
     by.name = order.by.name;
     order.by = std::move(by);
-    if (request.target() == "/v1/run/retake") {
+    if (path_of(request) == "/v1/run/retake") {
         const auto retake = co_await station.retake(std::move(order));
         if (!retake) co_return answer(request, retake.error());
         co_return answer(request, http::status::ok, to_json(*retake));
@@ -293,21 +312,53 @@ HttpFace::HttpFace(Scheduler& scheduler,
     : impl_{std::make_shared<Impl>(scheduler, station, std::move(config), std::move(token))} {}
 
 HttpFace::~HttpFace() {
+    impl_->ended = true;
     boost::system::error_code ignored;
     impl_->tcp.close(ignored);
     impl_->local.close(ignored);
-    if (!impl_->config.socket_path.empty()) ::unlink(impl_->config.socket_path.c_str());
+    impl_->socket_file = {};
+}
+
+Result<void> HttpFace::bind() {
+    if (std::exchange(impl_->bound, true)) return {};
+    AXISCAL_TRY(impl_->socket_file, listen(impl_->local, impl_->config));
+    return {};
 }
 
 Result<void> HttpFace::start() {
-    AXISCAL_CHECK(listen(impl_->local, impl_->config));
-    AXISCAL_CHECK(listen(impl_->tcp, impl_->config));
-    impl_->rules.known_hosts =
-        known_hosts_of(impl_->config.host, impl_->config.port, impl_->config.allowed_hosts);
+    AXISCAL_CHECK(bind());
+    const Result<void> tcp = listen(impl_->tcp, impl_->config);
+    if (!tcp && tcp.error().fault != Fault::io) return tcp;
     if (impl_->local.is_open())
         spawn(impl_->scheduler, impl_->accept(impl_->local, Door::unix_socket));
-    if (impl_->tcp.is_open()) spawn(impl_->scheduler, impl_->accept(impl_->tcp, Door::tcp));
+    if (tcp) {
+        impl_->serve_tcp();
+        return {};
+    }
+    impl_->no_tcp = "The console: " + describe(tcp.error()) + ". It is tried again each second.";
+    spdlog::warn("{}", impl_->no_tcp);
+    spawn(impl_->scheduler, impl_->open_tcp_later());
     return {};
+}
+
+void HttpFace::Impl::serve_tcp() {
+    rules.known_hosts = known_hosts_of(config.host, config.port, config.allowed_hosts);
+    if (tcp.is_open()) spawn(scheduler, accept(tcp, Door::tcp));
+}
+
+/// An address comes with its network, perhaps long after the daemon's start. Who only looks over
+/// TCP holds up neither trigger nor run meanwhile.
+Task<void> HttpFace::Impl::open_tcp_later() {
+    const auto self = shared_from_this();
+    Result<void> opened = fail(Fault::io, "");
+    while (!opened) {
+        co_await scheduler.sleep_for(try_again);
+        if (ended) co_return;
+        opened = listen(tcp, config);
+    }
+    no_tcp.clear();
+    spdlog::info("The console listens on {}:{} now.", config.host, config.port);
+    serve_tcp();
 }
 
 int HttpFace::port() const {

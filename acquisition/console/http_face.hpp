@@ -19,8 +19,12 @@ public:
 
     /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
     /// clients of its own.
-    /// Binds both doors and starts serving. The socket gets mode 0660 and the configured group.
-    /// @errors Fault::io naming the path or port and who may hold it.
+    /// Takes the path of the Unix socket, which says that no other daemon answers there; who
+    /// connects waits for start(). The socket gets mode 0660 and the configured group.
+    /// @errors those of listen(), naming the path.
+    Result<void> bind();
+    /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and
+    /// tried again each second. @errors those of bind(); Fault::bad_configuration for the host.
     Result<void> start();
     /// The bound TCP port; 0: none. A configured -1 (tests) lets the kernel choose.
     [[nodiscard]] int port() const;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <poll.h>
 #include <pwd.h>
 #include <sys/socket.h>
 
@@ -28,6 +29,11 @@ Orderer peer_of_socket(int descriptor) {
     by.uid = peer.uid;
     by.user = user_name_of(peer.uid);
     return by;
+}
+
+bool has_hung_up(int descriptor) {
+    pollfd look{descriptor, POLLRDHUP, 0}; // errors and a full hang-up are told unasked
+    return ::poll(&look, 1, 0) > 0;
 }
 
 } // namespace axiscal

@@ -1,5 +1,5 @@
 #pragma once
-// Who is at the other end of the Unix socket, as the kernel knows it.
+// Who is at the other end of a connection, as the kernel knows it.
 
 #include "analysis/run_revisions.hpp"
 
@@ -13,5 +13,8 @@ std::string user_name_of(std::int64_t uid, const std::string& passwd = "/etc/pas
 
 /// Door "socket", with the credentials that the kernel noted when the process connected.
 Orderer peer_of_socket(int descriptor);
+
+/// Whether the other end is closed, so that nobody reads the answer. Never waits.
+bool has_hung_up(int descriptor);
 
 } // namespace axiscal

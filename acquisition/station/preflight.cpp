@@ -38,7 +38,7 @@ std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
         check_instruments(facts), check_soak(facts),         check_sensors(facts),
         check_contact(facts),     check_strength(facts),     check_drift(facts),
         check_expansion(facts),   check_compensation(facts), check_certificates(facts),
-        check_environment(facts), check_computer(facts)};
+        check_environment(facts), check_computer(facts),     check_clock(facts)};
     if (facts.config.axis.angle && !facts.circular) checks.push_back(check_run_out(facts));
     return checks;
 }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -47,8 +48,12 @@ struct PreflightFacts {
     std::optional<Duration> face_age = {};   ///< of its last reading, with a face in sight or not
     std::string run_out = {};                ///< of a rotary axis's set-up, as stated
     bool boot_known = true;                  ///< the kernel tells the daemon its boot id
+    std::string newest_run = {}, newest_run_day = {}; ///< its ISO date; empty: none is stored
     std::string may_sleep = {}; ///< why the computer may fall asleep in mid-run; empty: it may not
 };
+
+/// No run is of an earlier day.
+inline constexpr std::string_view earliest_date = "2026-01-01";
 
 /// How far back `laser_samples` go: a laser that is asked seldom has its last sample before the
 /// window there.
@@ -57,8 +62,8 @@ inline Duration drift_reach(const PreflightConfig& config) {
 }
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
-/// "certificates", "environment", "computer", in this order, of a linear or rotary run and of a
-/// circular test alike; of a rotary run also "run_out".
+/// "certificates", "environment", "computer", "clock", in this order, of a linear or rotary run and
+/// of a circular test alike; of a rotary run also "run_out".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

@@ -51,5 +51,6 @@ PreflightRecord check_run_out(const PreflightFacts& facts);
 
 // preflight_computer.cpp
 PreflightRecord check_computer(const PreflightFacts& facts);
+PreflightRecord check_clock(const PreflightFacts& facts);
 
 } // namespace axiscal::preflight_checks

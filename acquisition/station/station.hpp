@@ -29,6 +29,7 @@
 
 #include <boost/asio/cancellation_signal.hpp>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -91,6 +92,7 @@ private:
         std::optional<Error> not_shut; ///< why it is closed, and its file is not
         /// Why the reading could not be tied to the datum: the answer to who armed it.
         std::optional<Error> not_tied;
+        std::function<bool()> orderer_has_gone; ///< while the datum is sought
         bool limits_waived = false; ///< armed in spite of the environment
         bool resumed = false;       ///< of an earlier daemon: who answers late may be another
         bool taken_over = false;    ///< an earlier daemon closed it, perhaps in another boot
@@ -155,6 +157,7 @@ private:
     void perform(SetState action);
     void perform(Close action);
     Task<void> watch_window(OpenWindow window);
+    bool drop_order_of_who_has_gone(MonotonicTime now);
 
     // station_polygon.cpp: the faces of a polygon, typed or read
     Task<void> await_typed(OpenWindow window);
@@ -453,6 +456,8 @@ private:
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
     double live_scale_ = 0;         ///< the last EnvironmentNow known; for live positions only
     std::optional<CurrentDrift> drift_;
+    std::string newest_run_; ///< id of the stored one that was opened latest; empty: none
+    std::int64_t newest_run_utc_ns_ = 0;
     std::optional<AlignmentWatch> aligning_;
     std::int64_t aligning_since_utc_ns_ = 0;
     MonotonicTime strength_placed_at_;         ///< of the strength that was given a place last

@@ -140,9 +140,12 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     run_->limits_waived = waives_limits(checks);
     note_orders_of_arming(request.by, checks);
     journal_.note(std::move(checks));
+    if (!request.datum_by_cnc) run_->orderer_has_gone = std::move(request.has_gone);
     feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
     if (request.datum_by_cnc) co_return run_->header.run_id;
-    if (auto tied = co_await await_datum(); !tied) co_return tl::unexpected<Error>(tied.error());
+    auto tied = co_await await_datum();
+    run_->orderer_has_gone = nullptr; // the connection that it asks about ends with the answer
+    if (!tied) co_return tl::unexpected<Error>(tied.error());
     co_return run_->header.run_id;
 }
 
@@ -164,6 +167,8 @@ void Station::note_orders_of_arming(const Orderer& by,
 }
 
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
+    newest_run_ = header.run_id;
+    newest_run_utc_ns_ = header.opened.utc_ns;
     CurrentRun fresh;
     fresh.header = std::move(header);
     fresh.path = std::move(path);
@@ -259,6 +264,10 @@ Task<Result<void>> Station::take_over_stored_runs() {
         if (trouble) co_return tl::unexpected<Error>(*trouble);
     }
     if (!stored) co_return tl::unexpected<Error>(stored.error());
+    if (stored->newest) {
+        newest_run_ = stored->newest->run_id;
+        newest_run_utc_ns_ = stored->newest->opened_utc_ns;
+    }
     for (RunSummary& run : stored->looked_into) {
         if (run.closed) continue;
         const Result<void> resumed = co_await resume_or_close(run.path);

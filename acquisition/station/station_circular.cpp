@@ -107,6 +107,8 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
 }
 
 void Station::begin_circular(RunRecord header, std::string path, const CircularSetup& setup) {
+    newest_run_ = header.run_id;
+    newest_run_utc_ns_ = header.opened.utc_ns;
     CurrentRun fresh;
     fresh.header = std::move(header);
     fresh.path = std::move(path);

@@ -13,6 +13,7 @@
 #include "drivers/scheduler.hpp"
 #include "drivers/trigger_port.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -108,6 +109,7 @@ struct ArmRequest {
     std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...
     std::map<std::string, std::string> overrides;  ///< reason by name of a pre-flight check
     Orderer by;
+    std::function<bool()> has_gone; ///< nobody waits for the answer any more; empty: stays
 };
 
 /// What a person wants taken again, or left out.
@@ -167,7 +169,8 @@ class StationFace {
 public:
     virtual ~StationFace() = default;
     [[nodiscard]] virtual StationStatus status() const = 0;
-    /// Opens a run and ties the datum; returns its id when the datum is durable.
+    /// Opens a run and ties the datum; returns its id when the datum is durable. Dropped, and the
+    /// run closed again, when who ordered it has gone before the datum was found.
     virtual Task<Result<std::string>> arm(ArmRequest request) = 0;
     /// The technician's own capture of the next point, marked manual.
     virtual Result<void> trigger() = 0;

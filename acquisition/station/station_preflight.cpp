@@ -51,6 +51,9 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     if (config_.axis.angle)
         facts.run_out = stated(request, "run_out", config_.axis.angle->setup.run_out);
     facts.boot_known = boot_id_.known();
+    facts.newest_run = newest_run_;
+    if (!newest_run_.empty())
+        facts.newest_run_day = iso8601_utc(newest_run_utc_ns_).substr(0, day_letters);
     facts.may_sleep = sleep_lock_.refusal();
     facts.polygon = reads_polygon();
     const bool asked = request.pass == circular_pass || !roles_.laser;

@@ -89,6 +89,7 @@ Task<void> Station::watch_window(OpenWindow window) {
     StillWindowSearch still{window.from, config_.capture};
     while (open_window_ == window.window && !stopping_) {
         const MonotonicTime now = scheduler_.now();
+        if (drop_order_of_who_has_gone(now)) co_return;
         const WindowSearch search = still.look(history_, now);
         Result<Capture> found = fail(Fault::none, "");
         if (search.failure)
@@ -104,6 +105,16 @@ Task<void> Station::watch_window(OpenWindow window) {
         }
         co_await scheduler_.sleep_for(look_every);
     }
+}
+
+/// Asked in each look for the datum, so that none is tied for nobody: the part program waits for
+/// that alone, and goes on by itself.
+bool Station::drop_order_of_who_has_gone(MonotonicTime now) {
+    if (datum_ || !run_->orderer_has_gone || !run_->orderer_has_gone()) return false;
+    feed(Abort{"Who armed the run hung up before its datum was tied.", now});
+    run_->not_tied = Error{Fault::refused, "who armed the run hung up before its datum was tied",
+                           {}, {}};
+    return true;
 }
 
 void Station::perform(CommitPoint action) {

@@ -1,6 +1,7 @@
 // axiscal-publish: a process of its own, because a dead network share can hold one for ever, and a
 // work of its own: with libsmbclient the program as a whole is under the GPL (LICENSES/).
 
+#include "acquisition/journal/folder_owner.hpp"
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 #include "acquisition/publish/publisher_report.hpp"
@@ -8,6 +9,7 @@
 #include "acquisition/publish/smb/smb_destination.hpp"
 #include "config/json_text.hpp"
 #include "config/station_config.hpp"
+#include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "tools/describe/describe.hpp"
 
@@ -265,7 +267,8 @@ int run(int count, char** words) {
     const sigset_t stop = stop_signals();
     ::pthread_sigmask(SIG_BLOCK, &stop, nullptr);
     if (options.json) options.json_lines = own_stdout();
-    const auto lock = lock_outbox(options.outbox);
+    const auto owned = refuse_root_on_foreign(options.outbox, "axiscal-publish");
+    const auto lock = owned ? lock_outbox(options.outbox) : tl::unexpected<Error>(owned.error());
     if (!lock) {
         std::cerr << describe(lock.error()) << '\n';
         return exit_refused;
@@ -277,6 +280,8 @@ int run(int count, char** words) {
 } // namespace axiscal
 
 int main(int count, char** words) {
+    axiscal::open_standard_streams();
+    std::signal(SIGHUP, SIG_IGN); // a terminal that is shut ends no copy; nothing is read anew
     // No time stamps: the service manager's journal has its own. stdout belongs to --json.
     spdlog::set_default_logger(spdlog::stderr_logger_st("axiscal-publish"));
     spdlog::set_pattern("%^%l%$: %v");

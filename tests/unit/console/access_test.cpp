@@ -85,5 +85,30 @@ TEST(Access, AForeignOriginIsRefusedOnBothDoors) {
     }
 }
 
+// RFC 9110, 4.2.3 and 11.1: neither case nor the dot behind a full name tells hosts apart.
+TEST(Access, ANameIsKnownInAnyCase) {
+    AccessRules known{known_hosts_of("::1", 8470, {"BAY3-PC", "bay3.shop.example."}),
+                      std::string(64, 'a')};
+    for (const char* host : {"bay3-pc:8470", "BAY3-PC", "Bay3-Pc.:8470", "LOCALHOST", "localhost.",
+                             "bay3.shop.example:8470", "[::1]:8470", "[::1]"}) {
+        RequestHead head = over_tcp(true);
+        head.host = host;
+        head.origin = std::string{"HTTP://"} + host;
+        head.authorization = "bearer  " + std::string(64, 'a');
+        EXPECT_EQ(judge_access(head, known).status, 200U) << host;
+    }
+    for (const char* host : {"bay3-pc.:8471", "bay3", "", ".", "localhost..", "[::1"}) {
+        RequestHead head = over_tcp(false);
+        head.host = host;
+        EXPECT_EQ(judge_access(head, known).status, 421U) << host;
+    }
+}
+
+TEST(Access, TheLettersOfATokenKeepTheirCase) {
+    RequestHead head = over_tcp(true);
+    head.authorization = "Bearer " + std::string(64, 'A');
+    EXPECT_EQ(judge_access(head, rules()).status, 401U);
+}
+
 } // namespace
 } // namespace axiscal::access_test

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -49,6 +50,11 @@ public:
     Task<Result<std::string>> arm(ArmRequest request) override {
         armed = request;
         if (request.pass == "soak") co_return refuse(Fault::refused, "preflight", "soak: Wait.");
+        if (request.pass == "slow") {
+            while (!request.has_gone())
+                co_await scheduler_of_arm->sleep_for(std::chrono::milliseconds{1});
+            noticed = true;
+        }
         if (request.pass == "busy") co_return fail(Fault::busy, "run 7 is open");
         co_return "bench-1";
     }
@@ -100,6 +106,8 @@ public:
         return {};
     }
 
+    Scheduler* scheduler_of_arm = nullptr;
+    std::atomic<bool> noticed = false;
     ArmRequest armed;
     RevisionRequest revision;
     AlignmentView aligned;
@@ -124,6 +132,7 @@ protected:
         config.group.clear();
         config.port = -1;
         configure(config);
+        station.scheduler_of_arm = &scheduler;
         face = std::make_unique<HttpFace>(scheduler, station, config, std::string(64, 't'));
         const auto started = face->start();
         ASSERT_TRUE(started) << describe(started.error());
@@ -497,6 +506,85 @@ TEST_F(HttpDoor, WhatOneRequestThrowsEndsThatRequestAlone) {
     EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
 }
 
+TEST_F(HttpDoor, WhatIsNoRequestIsAnsweredInJsonAndEndsTheConnection) {
+    const std::string start = "POST /v1/run HTTP/1.1\r\nHost: localhost\r\n";
+    const std::pair<std::string, std::string> wrong[] = {
+        {start + "Content-Length: 70000\r\n\r\n" + std::string(70'000, 'x'), "413"},
+        {start + "X-Long: " + std::string(9'000, 'y') + "\r\n\r\n", "431"},
+        {"GET /" + std::string(70'000, 'a') + " HTTP/1.1\r\n\r\n", "431"},
+        {"GARBAGE\r\n\r\n", "400"},
+        {"GARBAGE\n", "400"},
+        {std::string{"\x16\x03\x01\x02\x00\x01", 6}, "400"},
+        {"GET /v1/status HTTP/9.9\r\n\r\n", "400"},
+        {start + "Content-Length: seven\r\n\r\n", "400"},
+        {start + "Expect: tea\r\nContent-Length: 2\r\n\r\n{}", "417"},
+    };
+    for (const auto& [bytes, status] : wrong) {
+        const std::string reply = raw_over_tcp(bytes);
+        ASSERT_TRUE(reply.starts_with("HTTP/1.1 " + status)) << bytes.substr(0, 80) << reply;
+        EXPECT_NE(reply.find("Connection: close"), std::string::npos) << reply;
+        const auto body = nlohmann::json::parse(body_of(reply));
+        EXPECT_EQ(body.at("error").at("fault"), "bad_request") << reply;
+        EXPECT_FALSE(body.at("error").at("sentence").get<std::string>().empty());
+    }
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
+TEST_F(HttpDoor, ARequestCutShortByItsEndIsAnswered) {
+    asio::io_context own;
+    asio::ip::tcp::socket socket{own};
+    socket.connect({asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(face->port())});
+    asio::write(socket, asio::buffer(std::string{"GARBAGE"}));
+    socket.shutdown(asio::socket_base::shutdown_send);
+    EXPECT_TRUE(talk(socket, "").starts_with("HTTP/1.1 400"));
+}
+
+// RFC 9110, 10.1.1: curl waits for it before it sends a long body.
+TEST_F(HttpDoor, WhoAsksWhetherToGoOnIsToldSo) {
+    asio::io_context own;
+    asio::local::stream_protocol::socket socket{own};
+    socket.connect({(folder / "door.sock").string()});
+    asio::write(socket, asio::buffer(std::string{
+                            "POST /v1/run/abort HTTP/1.1\r\nHost: x\r\nConnection: close\r\n"
+                            "Expect: 100-Continue\r\nContent-Length: 20\r\n\r\n"}));
+    std::string go_on(25, '\0');
+    asio::read(socket, asio::buffer(go_on));
+    EXPECT_EQ(go_on, "HTTP/1.1 100 Continue\r\n\r\n");
+    EXPECT_TRUE(talk(socket, R"({"reason":"coolant"})").starts_with("HTTP/1.1 200"));
+    EXPECT_EQ(station.reason_given, "coolant");
+}
+
+TEST_F(HttpDoor, APathIsKnownWithAQueryOrASlashBehindIt) {
+    for (const char* target : {"/v1/status?x=1", "/v1/status/", "/v1/instruments/?"})
+        EXPECT_TRUE(over_tcp("GET", target).starts_with("HTTP/1.1 200")) << target;
+    EXPECT_TRUE(over_tcp("GET", "/v1/statuses").starts_with("HTTP/1.1 404"));
+}
+
+// A client that gave up after a minute left the order behind: the axis was armed all the same.
+TEST_F(HttpDoor, TheStationHearsThatWhoArmsHasHungUp) {
+    const std::string order = R"({"pass":"slow"})";
+    const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
+                             std::to_string(order.size()) + "\r\nAuthorization: Bearer " +
+                             std::string(64, 't') + "\r\n\r\n";
+    for (const bool over_network : {false, true}) {
+        station.noticed = false;
+        asio::io_context own;
+        if (over_network) {
+            asio::ip::tcp::socket socket{own};
+            socket.connect({asio::ip::make_address("127.0.0.1"),
+                            static_cast<std::uint16_t>(face->port())});
+            asio::write(socket, asio::buffer("POST /v1/run" + head + order));
+        } else {
+            asio::local::stream_protocol::socket socket{own};
+            socket.connect({(folder / "door.sock").string()});
+            asio::write(socket, asio::buffer("POST /v1/run" + head + order));
+        }
+        while (!station.noticed) // the test's own time limit ends a failure
+            std::this_thread::yield();
+    }
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
+}
+
 TEST_F(HttpDoor, WordsOfPeopleAreOneLineOfText) {
     over_socket("POST", "/v1/run",
                 R"({"statements":{"operator":"A\u0000\u001b[2J\n(B) \u5de5 %"}})");
@@ -588,6 +676,32 @@ TEST(Token, ThatOthersMayReadOrWriteIsRefusedWithTheWayOut) {
     std::filesystem::create_symlink("elsewhere", folder / "token");
     EXPECT_EQ(load_or_make_token(folder / "token").error().fault, Fault::refused);
     std::filesystem::remove_all(folder);
+}
+
+// Its address may come with the network, long after the daemon: the socket must serve meanwhile.
+class HttpDoorWithoutItsAddress : public HttpDoor {
+protected:
+    void configure(ConsoleConfig& config) override {
+        taken.open(asio::ip::tcp::v4());
+        taken.bind({asio::ip::make_address("127.0.0.1"), 0});
+        taken.listen();
+        config.port = taken.local_endpoint().port();
+    }
+    asio::io_context other;
+    asio::ip::tcp::acceptor taken{other};
+};
+
+TEST_F(HttpDoorWithoutItsAddress, ServesTheSocketAndTakesTheAddressOnceItIsFree) {
+    const std::string place = "127.0.0.1:" + std::to_string(face->port());
+    const auto notes = [&] {
+        return nlohmann::json::parse(body_of(over_socket("GET", "/v1/status"))).at("notes");
+    };
+    ASSERT_EQ(notes().size(), 1U);
+    EXPECT_NE(notes().at(0).get<std::string>().find(place), std::string::npos) << notes();
+    taken.close();
+    while (!notes().empty()) // a second of the daemon's; the test's own time limit ends a failure
+        std::this_thread::yield();
+    EXPECT_TRUE(over_tcp("GET", "/v1/status").starts_with("HTTP/1.1 200"));
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <grp.h>
 #include <string>
 #include <sys/stat.h>
@@ -78,7 +79,8 @@ TEST_F(SocketDoor, BelongsToTheConfiguredGroupAndIsShutForOthers) {
 
 TEST_F(SocketDoor, KeepsTheGroupOfTheProcessWhereNoneIsNamed) {
     config.group.clear();
-    ASSERT_TRUE(listen(acceptor, config));
+    const auto opened = listen(acceptor, config);
+    ASSERT_TRUE(opened);
     EXPECT_EQ(rights().st_gid, ::getegid());
     EXPECT_EQ(rights().st_mode & 07777U, 0660U);
 }
@@ -103,6 +105,77 @@ TEST_F(SocketDoor, NamesAnUnknownGroupItsPlaceAndTheWayOutAndLeavesNoSocket) {
                                     config.socket_path, std::string{"systemd-sysusers"}})
         EXPECT_NE(told.find(word), std::string::npos) << told;
     EXPECT_FALSE(std::filesystem::exists(config.socket_path));
+}
+
+// A second daemon with another state directory took the socket of the first one away.
+TEST_F(SocketDoor, IsNotTakenFromWhoAnswersThere) {
+    config.group.clear();
+    const auto first = listen(acceptor, config);
+    ASSERT_TRUE(first) << describe(first.error());
+    boost::asio::local::stream_protocol::acceptor other{loop};
+    const auto second = listen(other, config);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().fault, Fault::busy);
+    EXPECT_NE(second.error().detail.find(config.socket_path), std::string::npos);
+    EXPECT_TRUE(S_ISSOCK(rights().st_mode));
+}
+
+TEST_F(SocketDoor, ReplacesWhatAKilledDaemonLeft) {
+    config.group.clear();
+    {
+        boost::asio::local::stream_protocol::acceptor killed{loop};
+        killed.open();
+        killed.bind({config.socket_path});
+        killed.listen();
+    } // closed, and its file stays
+    const auto opened = listen(acceptor, config);
+    ASSERT_TRUE(opened) << describe(opened.error());
+    EXPECT_EQ(rights().st_mode & 07777U, 0660U);
+}
+
+TEST_F(SocketDoor, LeavesAFileOrALinkAtItsPathAlone) {
+    config.group.clear();
+    const std::string notes = folder / "notes.txt";
+    std::ofstream{notes} << "feeds";
+    for (const std::string& path : {notes, std::string{folder / "link.sock"}}) {
+        if (path != notes) std::filesystem::create_symlink(notes, path);
+        config.socket_path = path;
+        const auto refused = listen(acceptor, config);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().fault, Fault::refused);
+        EXPECT_NE(refused.error().detail.find(path), std::string::npos);
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(path)));
+    }
+    EXPECT_EQ(std::filesystem::file_size(notes), 5U);
+}
+
+TEST_F(SocketDoor, AtItsEndTakesAwayItsOwnFileAlone) {
+    config.group.clear();
+    {
+        const auto opened = listen(acceptor, config);
+        ASSERT_TRUE(opened);
+    }
+    EXPECT_FALSE(std::filesystem::exists(config.socket_path));
+    boost::asio::local::stream_protocol::acceptor later{loop};
+    auto moved_aside = listen(later, config);
+    ASSERT_TRUE(moved_aside);
+    std::filesystem::rename(config.socket_path, config.socket_path + ".old");
+    std::ofstream{config.socket_path} << "of somebody else";
+    *moved_aside = SocketFile{};
+    EXPECT_TRUE(std::filesystem::exists(config.socket_path));
+}
+
+TEST(TcpDoor, NamesThePlaceOfAnAddressThatIsNotOfThisComputer) {
+    boost::asio::io_context loop;
+    boost::asio::ip::tcp::acceptor tcp{loop};
+    ConsoleConfig config;
+    config.host = "192.0.2.77"; // RFC 5737: of no computer
+    config.port = 8470;
+    const auto refused = listen(tcp, config);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::io);
+    EXPECT_NE(refused.error().detail.find("192.0.2.77:8470"), std::string::npos);
+    EXPECT_FALSE(tcp.is_open()) << "it is tried again";
 }
 
 } // namespace

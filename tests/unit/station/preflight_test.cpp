@@ -297,6 +297,32 @@ TEST_F(Preflight, AComputerThatMayFallAsleepIsWarnedOf) {
         EXPECT_NE(computer.verdict.find(words), std::string::npos) << computer.verdict;
 }
 
+// A battery that is dead: "in date" in 1970, and a certificate that ran out a year behind.
+TEST_F(Preflight, AClockThatCannotBeRightIsToldWithWhatProvesIt) {
+    EXPECT_TRUE(named(judge_preflight(facts()), "clock").passed);
+    auto reset = facts();
+    reset.today = "1970-01-02";
+    expect_failure(reset, "clock", "1970-01-02");
+    config.instruments[0].calibrated_on = "2026-03-02";
+    auto behind = facts();
+    behind.today = "2026-03-01";
+    expect_failure(behind, "clock", "2026-03-02 has passed, for laser was calibrated then");
+    behind.today = "2026-03-02";
+    EXPECT_TRUE(named(judge_preflight(behind), "clock").passed);
+    config.instruments[1].channels.emplace_back().channel = "pressure";
+    config.instruments[1].channels.back().calibration.calibrated_on = "2026-03-05";
+    expect_failure(behind, "clock", "air/pressure was calibrated then");
+    auto unused = behind;
+    unused.in_use = {"laser"};
+    EXPECT_TRUE(named(judge_preflight(unused), "clock").passed) << "nobody needs it";
+    auto stored = facts();
+    stored.newest_run = "bay-20261122T080000Z-X";
+    stored.newest_run_day = "2026-11-22";
+    expect_failure(stored, "clock", "run bay-20261122T080000Z-X was measured then");
+    stored.today = "2026-11-22";
+    EXPECT_TRUE(named(judge_preflight(stored), "clock").passed);
+}
+
 TEST_F(Preflight, AnInstrumentOutOfDateIsNamed) {
     config.instruments[1].due_on = "2026-11-20";
     expect_failure(facts(), "certificates", "air was due for calibration on 2026-11-20");

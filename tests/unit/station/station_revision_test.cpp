@@ -43,7 +43,7 @@ TEST_F(StationRevises, DoesNotArmWhileACheckFailsUnlessItIsOverridden) {
     ASSERT_TRUE(life.arm(request));
     ASSERT_TRUE(life.take(0));
     const auto checks = contents().revisions.preflight;
-    ASSERT_EQ(checks.size(), 11U);
+    ASSERT_EQ(checks.size(), 12U);
     const auto dates = std::ranges::find(checks, "certificates", &PreflightRecord::name);
     ASSERT_NE(dates, checks.end());
     EXPECT_FALSE(dates->passed);

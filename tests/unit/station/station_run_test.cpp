@@ -273,6 +273,49 @@ TEST_F(StationRuns, AnAbortWhileTheDatumIsTiedEndsTheArming) {
     EXPECT_FALSE(life.abort("again"));
 }
 
+// `axiscal arm` gave up after a minute, and the axis was armed all the same: the part program went on.
+TEST_F(StationRuns, AnOrderIsDroppedWhenWhoGaveItHasGoneBeforeTheDatum) {
+    Life life{shop};
+    shop.axis.speed_mm_per_s = 1;
+    shop.axis.go(5, life.scheduler.now());
+    bool gone = false;
+    ArmRequest order;
+    order.has_gone = [&gone] { return gone; };
+    const auto answer = life.begin_arm(order);
+    life.run(2s);
+    EXPECT_FALSE(*answer) << "the axis still moves";
+    gone = true;
+    life.run(10s); // it stands after three of them
+    ASSERT_TRUE(*answer);
+    ASSERT_FALSE(**answer);
+    EXPECT_EQ((*answer)->error().fault, Fault::refused);
+    EXPECT_EQ(life.port->armed, 0);
+    EXPECT_EQ(life.status().run->state, "incomplete");
+    const auto run = read_run_file(shop.run_files().at(0));
+    ASSERT_TRUE(run);
+    EXPECT_NE(run->closing_reason.find("hung up"), std::string::npos) << run->closing_reason;
+    gone = false;
+    shop.axis.speed_mm_per_s = 400;
+    EXPECT_TRUE(life.arm(order));
+    gone = true; // with the answer
+    life.run(10s);
+    EXPECT_EQ(life.status().run->state, "armed");
+}
+
+TEST_F(StationRuns, AfterARunTheClockMayNotSayAnEarlierDay) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.abort("enough"));
+    life.run(1s);
+    life.scheduler.utc_at_zero_ns -= std::int64_t{24 * 3600} * 1'000'000'000;
+    const auto refused = life.arm();
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().detail.find("clock: "), std::string::npos) << refused.error().detail;
+    ArmRequest all_the_same;
+    all_the_same.overrides["clock"] = "the last run had the wrong date";
+    EXPECT_TRUE(life.arm(all_the_same));
+}
+
 TEST_F(StationRuns, ArmingNeedsLaserBeamAndEnvironment) {
     Life life{shop};
     ArmRequest other_pass;
