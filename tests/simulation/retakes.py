@@ -165,7 +165,7 @@ def preflight(b):
     told = " ".join(certificate["run"]["remarks"])
     for words in ("a test", "the new one is on its way", "2020-01-01"):
         expect(words in told, f"'{words}' is not said: {told}")
-    expect(len(certificate["run"]["preflight"]) == 11, f"{certificate['run']['preflight']}")
+    expect(len(certificate["run"]["preflight"]) == 12, f"{certificate['run']['preflight']}")
 
 
 if __name__ == "__main__":
