@@ -17,12 +17,12 @@ public:
     HttpFace(const HttpFace&) = delete;
     HttpFace& operator=(const HttpFace&) = delete;
 
-    /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
-    /// clients of its own.
     /// Takes the path of the Unix socket, which says that no other daemon answers there; who
     /// connects waits for start(). The socket gets mode 0660 and the configured group.
     /// @errors those of listen(), naming the path.
     Result<void> bind();
+    /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
+    /// clients of its own.
     /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and
     /// tried again each second. @errors those of bind(); Fault::bad_configuration for the host.
     Result<void> start();
