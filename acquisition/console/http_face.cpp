@@ -248,7 +248,9 @@ Task<Response> HttpFace::Impl::change(Request request, Orderer by, int descripto
         by.name = order->by;
         const auto done = co_await station.abort(std::move(order->reason), std::move(by));
         if (!done) co_return answer(request, done.error());
-        co_return answer(request, http::status::ok, {{"run", "aborted"}});
+        co_return answer(
+            request, http::status::ok,
+            {{"run", done->complete ? "complete" : "aborted"}, {"reason", done->reason}});
     }
     if (target == "/v1/drift") {
         auto wanted = drift_request_from_json(request.body());

@@ -13,7 +13,8 @@ CircleOrder::CircleOrder(const CircularPlan& plan, const CirclesBefore& before)
     , requests_a_circle_{requests_a_circle(plan)}
     , last_{before.last}
     , interrupted_{before.last > 0}
-    , whole_{before.whole} {}
+    , whole_{before.whole}
+    , any_accepted_{true} {}
 
 int CircleOrder::begun() const {
     return std::min((last_ + requests_a_circle_ - 1) / requests_a_circle_, circles());
@@ -41,13 +42,41 @@ std::string CircleOrder::words_of(int sequence, const char* begins) const {
 CircleVerdict CircleOrder::out_of_order(int wanted) const {
     return {CircleAnswer::refuse, static_cast<std::uint16_t>(wanted),
             "Request " + std::to_string(wanted) + " came, " + std::to_string(last_ + 1) +
-                " was expected: start program and test anew."};
+                " was expected: start program and test anew.",
+            Fault::sequence_lost};
 }
+
+namespace {
+
+/// A circle that was skipped, or one less, would make another test than the one that was armed.
+CircleVerdict no_such_command(const TriggerEvent& event, std::uint16_t sequence) {
+    const char* const name = event.command == TriggerCommand::prepare ? "1, prepare,"
+                             : event.command == TriggerCommand::skip  ? "3, skip,"
+                                                                      : "5, end,";
+    return {CircleAnswer::refuse, sequence,
+            std::string{"A circular test has no command "} + name +
+                " only 2, capture, before each circle and 4, abort.",
+            Fault::bad_command};
+}
+
+} // namespace
 
 CircleVerdict CircleOrder::judge(const TriggerEvent& event) {
     if (event.origin == TriggerOrigin::dwell) return {};
+    // What stands there when a test is armed belongs to another one: the baseline.
+    if (event.standing && !any_accepted_) return {};
     if (event.command == TriggerCommand::abort)
         return {CircleAnswer::abort, event.sequence, "The CNC aborted the test."};
+    CircleVerdict verdict = judge_number(event);
+    if (verdict.answer != CircleAnswer::begin && verdict.answer != CircleAnswer::end)
+        return verdict;
+    if (event.command != TriggerCommand::capture) return no_such_command(event, verdict.sequence);
+    any_accepted_ = true;
+    pending_ = verdict.sequence;
+    return verdict;
+}
+
+CircleVerdict CircleOrder::judge_number(const TriggerEvent& event) const {
     const bool cut = interrupted_ && !whole_;
     const int again = interrupted_ ? first_of(last_) : 0;
     const int next = cut ? again : last_ + 1;
@@ -55,17 +84,14 @@ CircleVerdict CircleOrder::judge(const TriggerEvent& event) {
     if (wanted == 0 || wanted == pending_) return {};
     const auto sequence = static_cast<std::uint16_t>(wanted);
     if (pending_) return out_of_order(wanted);
-    if (interrupted_ && wanted == again) {
-        pending_ = wanted;
+    if (interrupted_ && wanted == again)
         return {CircleAnswer::begin, sequence, words_of(wanted, "begins again")};
-    }
     if (wanted == last_) return {CircleAnswer::again, sequence, {}};
     if (cut && wanted > again && wanted <= again + requests_a_circle_)
         return {CircleAnswer::broken, sequence,
                 "Circle " + std::to_string((last_ - 1) / requests_a_circle_ + 1) +
                     " was driven while the station was away: start the test anew."};
     if (wanted != last_ + 1 || wanted > requests() + 1) return out_of_order(wanted);
-    pending_ = wanted;
     if (wanted == requests() + 1) return {CircleAnswer::end, sequence, "Every circle was driven."};
     return {CircleAnswer::begin, sequence, words_of(wanted, "begins")};
 }

@@ -17,13 +17,14 @@ enum class CircleAnswer : std::uint8_t {
     again,  ///< the last durable request came again: acknowledge it again
     abort,  ///< the CNC gives up
     broken, ///< a circle was driven while the station was away: the test cannot go on
-    refuse  ///< out of order: the count is lost
+    refuse  ///< out of order, or a command that no circle has: `fault` says which
 };
 
 struct CircleVerdict {
     CircleAnswer answer = CircleAnswer::ignore;
     std::uint16_t sequence = 0;
     std::string sentence; ///< what begins, or why it is refused
+    Fault fault = Fault::none; ///< with `refuse`
 };
 
 /// What a restarted station knows of the circles of an open test.
@@ -58,12 +59,14 @@ private:
     [[nodiscard]] int first_of(int sequence) const;
     [[nodiscard]] std::string words_of(int sequence, const char* begins) const;
     [[nodiscard]] CircleVerdict out_of_order(int wanted) const;
+    [[nodiscard]] CircleVerdict judge_number(const TriggerEvent& event) const;
 
     std::vector<PlannedCircle> circles_;
     int requests_a_circle_ = 1;
     int last_ = 0;             ///< sequence that is durable
     bool interrupted_ = false; ///< since then, and nothing was asked yet
     bool whole_ = false;       ///< and its circle was recorded all the same
+    bool any_accepted_ = false; ///< by the station that opened the test, if it is another one
     std::optional<int> pending_;
 };
 

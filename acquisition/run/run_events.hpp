@@ -41,10 +41,12 @@ struct CommitFailed {
     MonotonicTime at;
 };
 /// The disk takes records again. What it holds was verified and synced anew: the record whose
-/// commit had failed may be among it after all.
+/// commit had failed, or an order that was lost, may be among it after all.
 struct DiskBack {
     std::shared_ptr<const RunRecord> on_disk;
     MonotonicTime at;
+    std::shared_ptr<const RunRevisions> orders{}; ///< none: as they are known
+    bool reopened = false; ///< the run was closed, and its file holds an order that opened it
 };
 /// By what share a reading in vacuum wavelengths exceeds the length at 20 degC, from fresh air and
 /// material readings: n (1 + alpha (T - 20 degC)) - 1, by a linear scale (1 + alpha (T - 20 degC))

@@ -116,7 +116,7 @@ void RunMachine::on(const Committed& committed, RunActions& out) {
     pending_.reset();
     if (settled.step >= static_cast<int>(done_.size())) { // its order was taken back meanwhile
         ++counters_.stray;
-        return;
+        return close_as_wanted(out);
     }
     last_refusal_.reset();
     if (settled.sequence != 0) {
@@ -128,9 +128,14 @@ void RunMachine::on(const Committed& committed, RunActions& out) {
     settle_commit(settled, out);
     if (closed_) return;
     if (!next_step() && without_point() == 0) // a skipped one waits for its retake
-        close(true, "Every planned point is durable.", Fault::none, out);
-    else if (wanted_close_)
-        close(wanted_close_->complete, wanted_close_->reason, wanted_close_->fault, out);
+        return close(true, "Every planned point is durable.", Fault::none, out);
+    close_as_wanted(out);
+}
+
+void RunMachine::close_as_wanted(RunActions& out) {
+    if (!wanted_close_) return;
+    const Close wanted = *std::exchange(wanted_close_, std::nullopt);
+    close(wanted.complete, wanted.reason, wanted.fault, out);
 }
 
 void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
@@ -156,7 +161,7 @@ void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
         skipped_[static_cast<std::size_t>(settled.step)] = true;
         return set_state(PortState::armed, out);
     case Purpose::end:
-        close(false, "The CNC ended the run before its last point.", Fault::none, out);
+        close(false, ended_by_cnc, Fault::none, out);
         return answer_with_close(out);
     }
 }
@@ -200,33 +205,58 @@ void RunMachine::on(const CommitFailed& failed, RunActions& out) {
     // A point of an order that was taken back meanwhile is not written again.
     if (unwritten_->step >= static_cast<int>(done_.size())) unwritten_.reset();
     set_state(PortState::error, out);
-    if (wanted_close_) close(false, wanted_close_->reason, wanted_close_->fault, out);
+    close_as_wanted(out);
 }
 
 /// The record that was captured is written again: the axis stood still for it, whatever it did
 /// since. A CNC that has asked anew in the meantime finds its number finished.
 void RunMachine::on(const DiskBack& back, RunActions& out) {
-    if (!stopped_ || closed_) return;
-    stopped_ = false;
-    set_state(PortState::armed, out);
+    if (back.orders) adopt_orders(*back.orders, *back.on_disk);
+    if (back.reopened && closed_) reopen(back.at, out);
+    if (!std::exchange(stopped_, false)) return;
     const auto lost = std::exchange(unwritten_, std::nullopt);
-    if (!lost || pending_) return;
-    const auto& run = *back.on_disk;
-    pending_ = lost;
-    const auto committed = Committed{lost->sequence, lost->step, back.at};
-    if (lost->purpose == Purpose::point) {
-        if (std::ranges::find(run.points, lost->step, &PointRecord::step) != run.points.end())
-            return on(committed, out);
-        out.push_back(CommitPoint{lost->point, lost->synchronisation});
-    } else if (lost->purpose == Purpose::datum) {
-        if (std::ranges::find(run.datums, lost->datum.id, &DatumRecord::id) != run.datums.end())
-            return on(committed, out);
-        out.push_back(CommitDatum{lost->datum, lost->synchronisation});
-    } else {
-        if (lost->sequence != 0 && last_durable_request(run).sequence == lost->sequence)
-            return on(committed, out);
-        out.push_back(CommitEvent{lost->event, lost->step});
+    if (closed_) {
+        if (lost && holds(*back.on_disk, *lost)) adopt(*lost);
+        return;
     }
+    set_state(PortState::armed, out);
+    if (!lost || pending_) return;
+    pending_ = lost;
+    if (holds(*back.on_disk, *lost)) return on(Committed{lost->sequence, lost->step, back.at}, out);
+    switch (lost->purpose) {
+    case Purpose::point: return out.push_back(CommitPoint{lost->point, lost->synchronisation});
+    case Purpose::datum: return out.push_back(CommitDatum{lost->datum, lost->synchronisation});
+    case Purpose::skip:
+    case Purpose::end: return out.push_back(CommitEvent{lost->event, lost->step});
+    }
+}
+
+/// A sync that fails may have written all the same.
+bool RunMachine::holds(const RunRecord& run, const Pending& record) {
+    switch (record.purpose) {
+    case Purpose::point:
+        return std::ranges::find(run.points, record.step, &PointRecord::step) != run.points.end();
+    case Purpose::datum:
+        return std::ranges::find(run.datums, record.datum.id, &DatumRecord::id) != run.datums.end();
+    case Purpose::skip:
+    case Purpose::end: break;
+    }
+    return record.sequence != 0 && last_durable_request(run).sequence == record.sequence;
+}
+
+/// The run was closed meanwhile, and nobody is answered: but a retake must not take it twice.
+void RunMachine::adopt(const Pending& record) {
+    if (record.step < 0) return;
+    const auto place = static_cast<std::size_t>(record.step);
+    if (record.purpose == Purpose::skip) {
+        skipped_[place] = true;
+    } else {
+        done_[place] = true;
+        last_reading_[static_cast<std::size_t>(record.point.planned.step)] = record.step;
+    }
+    if (record.sequence == 0) return; // a person's
+    last_durable_ = record.sequence;
+    last_durable_step_ = record.step;
 }
 
 void RunMachine::on(const EnvironmentNow& environment, RunActions& /*out*/) {
@@ -280,6 +310,8 @@ void RunMachine::close(bool complete, std::string reason, Fault fault, RunAction
     }
     closed_ = true;
     complete_ = complete;
+    wanted_close_.reset(); // of this end of the run: a retake may open it again
+    first_request_after_resume_ = false;
     set_state(fault == Fault::none ? PortState::idle : PortState::error, out);
     out.push_back(Close{complete, std::move(reason), fault});
 }

@@ -102,6 +102,8 @@ private:
     void on(const Exclude& exclude, RunActions& out);
     void on(const RevisionKept& kept, RunActions& out);
     void on(const RevisionLost& lost, RunActions& out);
+    void reopen(MonotonicTime at, RunActions& out);
+    void adopt_orders(const RunRevisions& orders, const RunRecord& run);
     void take_back_steps(std::size_t first, MonotonicTime at, RunActions& out);
     /// What a person's selection names; the sentence says why none of it can be meant.
     /// @param skipped_too  points that the CNC skipped can be taken, but not left out
@@ -127,6 +129,9 @@ private:
     void settle_commit(const Pending& settled, RunActions& out);
     void close(bool complete, std::string reason, Fault fault, RunActions& out);
     static void answer_with_close(RunActions& out);
+    void close_as_wanted(RunActions& out); ///< once nothing is on its way to the disk
+    [[nodiscard]] static bool holds(const RunRecord& run, const Pending& record);
+    void adopt(const Pending& record);
     void close_when_idle(Close wanted, MonotonicTime at, RunActions& out);
     void refuse(std::uint16_t sequence,
                 TriggerOrigin origin,
@@ -200,6 +205,9 @@ private:
     std::optional<Synchronisation> last_synchronisation_;
     RunCounters counters_;
 };
+
+/// Closing reason of a run that ended by an acknowledged request: its program goes on.
+inline constexpr const char* ended_by_cnc = "The CNC ended the run before its last point.";
 
 /// Faults after which an incremental counter does not know its zero any more.
 bool breaks_counting(Fault fault);

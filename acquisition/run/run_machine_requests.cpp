@@ -134,7 +134,7 @@ void RunMachine::commit_event(const TriggerEvent& event, Purpose purpose, RunAct
     } else {
         note.kind = EventKind::aborted;
         note.text = event.command == TriggerCommand::end
-                        ? "The CNC ended the run before its last point."
+                        ? ended_by_cnc
                         : "The CNC aborted the run.";
     }
     pending.event = note;

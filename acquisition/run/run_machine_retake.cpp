@@ -120,11 +120,34 @@ void RunMachine::on(const Retake& retake, RunActions& out) {
 /// A run that was closed takes requests from now on.
 void RunMachine::on(const RevisionKept& kept, RunActions& out) {
     const auto order = std::exchange(unkept_, std::nullopt);
-    if (!order || !order->reopens) return;
+    if (order && order->reopens) reopen(kept.at, out);
+}
+
+void RunMachine::reopen(MonotonicTime at, RunActions& out) {
     closed_ = complete_ = false;
-    approach_since_ = kept.at; // the way since the closing was not of this run
+    approach_since_ = at; // the way since the closing was not of this run
     approach_unseen_ = false;
     set_state(PortState::armed, out);
+}
+
+/// Of those that were lost, what the file holds all the same: a restart would find it there, and the
+/// next order counts on behind it. A point of one may have been written with it.
+void RunMachine::adopt_orders(const RunRevisions& orders, const RunRecord& run) {
+    const std::size_t known = done_.size();
+    for (auto k = place(retakes_); k < orders.retakes.size(); ++k)
+        append_retakes(orders.retakes[k].points);
+    retakes_ = std::max(retakes_, static_cast<int>(orders.retakes.size()));
+    for (const ExclusionRecord& exclusion : orders.exclusions)
+        if (std::ranges::find(excluded_, exclusion.step) == excluded_.end())
+            excluded_.push_back(exclusion.step);
+    for (const PointRecord& point : run.points) {
+        if (place(point.step) < known || place(point.step) >= done_.size()) continue;
+        Pending taken;
+        taken.sequence = point.sequence;
+        taken.step = point.step;
+        taken.point = point;
+        adopt(taken);
+    }
 }
 
 /// Whatever came in between (a commit that failed, a request, an abort) stays as it is.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -127,9 +128,36 @@ std::vector<std::string> statement_names() {
 
 } // namespace
 
-std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns) {
+std::string run_id_of(const std::string& station,
+                      const std::string& axis,
+                      std::int64_t utc_ns,
+                      int of_this_second) {
+    const std::string further = of_this_second > 1 ? "-" + std::to_string(of_this_second) : "";
     return id_of_name(station, "station", longest_station_part) + "-" + instant_in_name(utc_ns) +
-           "-" + id_of_name(axis, "axis", longest_axis_part);
+           further + "-" + id_of_name(axis, "axis", longest_axis_part);
+}
+
+namespace {
+
+bool is_borne(const std::string& state_directory, const std::string& id) {
+    const std::filesystem::path here{state_directory};
+    std::error_code ignored;
+    return std::filesystem::exists(here / "runs" / (id + std::string{run_file_ending}), ignored) ||
+           std::filesystem::exists(here / "outbox" / id, ignored) ||
+           std::filesystem::exists(here / "outbox" / ("." + id + ".staging"), ignored) ||
+           std::filesystem::exists(here / "published" / id, ignored);
+}
+
+} // namespace
+
+std::string free_run_id(const StationConfig& config,
+                        const std::string& axis,
+                        std::int64_t utc_ns,
+                        const std::string& ending) {
+    for (int k = 1;; ++k) {
+        std::string id = run_id_of(config.station, axis, utc_ns, k) + ending;
+        if (!is_borne(config.state_directory, id)) return id;
+    }
 }
 
 std::string taken_up_in_words(const RunRecord& run) {
@@ -142,7 +170,7 @@ std::string taken_up_in_words(const RunRecord& run) {
 Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request) {
     const StationConfig& config = parts.config;
     RunRecord run;
-    run.run_id = run_id_of(config.station, config.axis.name, parts.opened.utc_ns);
+    run.run_id = free_run_id(config, config.axis.name, parts.opened.utc_ns);
     run.software_version = software_version();
     run.station = config.station;
     run.station_config = config.text;

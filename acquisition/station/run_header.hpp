@@ -1,5 +1,6 @@
 #pragma once
-// What a run file says before its first point: plan, set-up, statements, who measures. Pure.
+// What a run file says before its first point: plan, set-up, statements, who measures. Pure but for
+// the run's id, which looks at what is stored.
 
 #include "acquisition/station/roles.hpp"
 #include "acquisition/station/station_face.hpp"
@@ -17,9 +18,18 @@ struct RunHeaderParts {
     std::string config_hash;
 };
 
-/// "<station>-20261121T100000Z-X": unique a second, sortable, fit for a file name whatever the
-/// names hold (id_of_name).
-std::string run_id_of(const std::string& station, const std::string& axis, std::int64_t utc_ns);
+/// "<station>-20261121T100000Z-X", of the second run of that second "<station>-20261121T100000Z-2-X":
+/// sortable, fit for a file name whatever the names hold (id_of_name).
+std::string run_id_of(const std::string& station,
+                      const std::string& axis,
+                      std::int64_t utc_ns,
+                      int of_this_second = 1);
+/// The first of these, with `ending` behind it, that nothing bears here: no run file, and no
+/// certificate of one that was taken away since. A clock that was set back gives an instant twice.
+std::string free_run_id(const StationConfig& config,
+                        const std::string& axis,
+                        std::int64_t utc_ns,
+                        const std::string& ending = {});
 
 /// "Version 0.2.0 goes on; version 0.1.0 opened the run. ": of an interrupted run, whose next points this program takes; the
 /// second half only where the versions differ.

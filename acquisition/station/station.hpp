@@ -72,7 +72,7 @@ public:
     Task<Result<std::string>> arm(ArmRequest request) override;
     Result<void> trigger() override;
     Result<void> type_reading(double seconds_of_arc) override;
-    Task<Result<void>> abort(std::string reason, Orderer by = {}) override;
+    Task<Result<RunEnding>> abort(std::string reason, Orderer by = {}) override;
     [[nodiscard]] Result<std::vector<PreflightRecord>>
     preflight(const ArmRequest& request) const override;
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
@@ -114,6 +114,7 @@ private:
         bool closing = false, closed = false, complete = false;
         std::string reason, certificate;
         std::optional<Error> no_certificate;
+        std::optional<Error> not_shut; ///< why its file could not be closed
     };
 
     // SupervisorListener, TriggerSink
@@ -232,7 +233,10 @@ private:
     Task<Result<void>> close_file(bool complete, std::string reason);
     Task<Result<void>> close_file_for_now(bool complete, std::string reason);
     Task<void> wait_for_readers();
-    Task<Result<void>> go_on_after_disk(std::shared_ptr<const RunRecord> on_disk);
+    DiskBack disk_back(RunFileContents contents);
+    Task<Result<void>> go_on_after_disk(DiskBack back);
+    Task<Result<void>> look_for_lost_order(std::string path);
+    Task<Result<void>> take_up_order(std::string path, RunFileContents contents);
     Task<Result<void>> close_after_disk();
     Task<Result<void>> finish_after_disk();
     /// What failed and what to do, without the fault's own sentence.
@@ -246,6 +250,7 @@ private:
     /// look_through_runs().
     Task<Result<void>> take_over_stored_runs();
     void open_port();
+    void keep_hold_of_broken_off(const StoredRuns& stored);
     /// Certificates of complete runs that the last daemon could not finish.
     Task<void> certify_left_over(StoredRuns stored);
     [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
@@ -255,7 +260,9 @@ private:
     [[nodiscard]] Result<void> disk_takes_records() const;
     /// Neither run nor drift test is open, and nobody opens one. @errors Fault::busy
     [[nodiscard]] Result<void> nothing_goes_on() const;
-    Task<Result<void>> await_closing(std::string path);
+    Task<Result<RunEnding>> await_closing(std::string path);
+    /// Why a file is not closed yet: a record on its way to the disk, or a reader.
+    [[nodiscard]] tl::unexpected<Error> not_closed_yet() const;
 
     // station_preflight.cpp
     void log_sensor(const Sample& sample);
@@ -284,7 +291,9 @@ private:
     void run_is_open_again();
     Task<void> show_last_number();
     Task<Result<void>> keep_revision(Answer order, Orderer by);
+    void find_out_about_order();
     Task<Result<void>> close_again();
+    Task<void> certify_once_unread(std::string run_id, std::string path);
 
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
     Task<Result<void>> await_datum();
@@ -329,6 +338,8 @@ private:
     Task<void> record_drift(std::string run_id);
     void note_drift();
     Task<Result<void>> close_drift(bool complete, std::string reason);
+    Task<void> abort_drift(std::string reason);
+    Task<Result<RunEnding>> await_drift_closing(std::string run_id);
     [[nodiscard]] bool drift_open() const { return drift_ && !drift_->closed; }
     [[nodiscard]] DriftView drift_view() const;
 
@@ -451,6 +462,7 @@ private:
     std::string interruption_; ///< of a closed run that was taken over, to be recorded
     std::optional<Sample> last_reading_; ///< since the run was closed, or since the start
     std::optional<Sample> first_sample_, settled_sample_; ///< of the laser since the start
+    bool left_broken_off_ = false; ///< the newest run of the last daemon was, as CurrentRun has it
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
@@ -467,6 +479,7 @@ private:
     boost::asio::cancellation_signal end_port_;
     std::optional<Error> environment_outside_; ///< what lies outside its limits, while it does
     MonotonicTime last_outside_{};             ///< when something last did
+    std::string reader_; ///< who reads the file that is being closed, in words
     bool waiting_for_disk_ = false;            ///< the run file could not be written
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;

@@ -201,8 +201,7 @@ Task<Result<void>> Station::await_datum() {
     const Error why =
         run_->not_tied.value_or(Error{Fault::not_still, "no datum was tied in time", {}, {}});
     feed(Abort{"The datum could not be tied: " + describe(why), scheduler_.now()});
-    while (!run_->closed)
-        co_await scheduler_.sleep_for(look_every);
+    (void)co_await await_closing(run_->path); // a reader of the file must not hold up the answer
     co_return tl::unexpected<Error>(why);
 }
 
@@ -216,12 +215,14 @@ Result<void> Station::trigger() {
     return {};
 }
 
-Task<Result<void>> Station::abort(std::string reason, Orderer by) {
+Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
     if (drift_open()) {
         if (drift_->closing) co_return fail(Fault::busy, "the drift test is being closed");
         journal_.note(order_of("abort", by));
         note("The drift test was aborted by " + in_words(by) + ".");
-        co_return co_await close_drift(false, std::move(reason));
+        const std::string test = drift_->run_id;
+        spawn(scheduler_, abort_drift(std::move(reason)));
+        co_return co_await await_drift_closing(test);
     }
     if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     journal_.note(order_of("abort", by));
@@ -233,17 +234,25 @@ Task<Result<void>> Station::abort(std::string reason, Orderer by) {
     co_return co_await await_closing(run_->path);
 }
 
-/// What did not close is told to the one who asked: 200 would be a lie.
-Task<Result<void>> Station::await_closing(std::string path) {
+tl::unexpected<Error> Station::not_closed_yet() const {
+    if (!reader_.empty())
+        return fail(Fault::busy, "nothing more is taken and the closing is on disk, but " + reader_);
+    return fail(Fault::busy,
+                "nothing more is taken, but the file is not closed yet: a record is on its way to "
+                "the disk; it is closed as soon as the disk has answered");
+}
+
+/// What did not close is told to the one who asked: 200 would be a lie. So would "aborted" of a run
+/// whose last point was on its way.
+Task<Result<RunEnding>> Station::await_closing(std::string path) {
     const MonotonicTime limit = scheduler_.now() + closing_limit;
     const auto same = [&] { return run_ && run_->path == path; };
     while (same() && !run_->closed && scheduler_.now() < limit && !stopping_)
         co_await scheduler_.sleep_for(look_every);
-    if (!same() || (run_->closed && run_->shut)) co_return Result<void>{};
-    if (!run_->closed)
-        co_return fail(Fault::busy,
-                       "the run is not closed yet: a record is on its way to the disk; "
-                       "the run ends as soon as the disk has answered");
+    if (!same()) co_return RunEnding{};
+    if (run_->closed && run_->shut)
+        co_return RunEnding{run_->outcome->complete, run_->outcome->reason};
+    if (!run_->closed) co_return not_closed_yet();
     const Error& why = *run_->not_shut;
     co_return fail(Fault::not_durable,
                    "the run takes nothing more, but its file could not be closed: " +
@@ -284,8 +293,19 @@ Task<Result<void>> Station::take_over_stored_runs() {
     // Of one that was not completed `done` stays 65535: it takes no requests.
     if (stored->newest && stored->newest->complete)
         co_await publish_done_of_closed(stored->newest->path);
+    keep_hold_of_broken_off(*stored);
     spawn(scheduler_, certify_left_over(*std::move(stored)));
     co_return Result<void>{};
+}
+
+/// A program that stands at a request of it is to hold, also after a restart: no restart may release
+/// an axis that nobody has answered.
+void Station::keep_hold_of_broken_off(const StoredRuns& stored) {
+    if (!stored.newest || run_open()) return;
+    const auto now = std::ranges::find(stored.looked_into, stored.newest->path, &RunSummary::path);
+    const RunSummary& last = now != stored.looked_into.end() ? *now : *stored.newest;
+    left_broken_off_ =
+        last.closed && !last.complete && !last.drift && last.closing_reason != ended_by_cnc;
 }
 
 Task<Result<void>> Station::resume_or_close(std::string path) {

@@ -52,7 +52,7 @@ Result<RunRecord> Station::header_without_axis(std::string_view pass,
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
-    header.run_id = run_id_of(config_.station, name, parts.opened.utc_ns);
+    header.run_id = free_run_id(config_, name, parts.opened.utc_ns);
     header.uncertainty.reset(); // it speaks of the linear axis
     return header;
 }
@@ -157,7 +157,7 @@ std::optional<Error> Station::take_circular(const TriggerEvent& event) {
         end_circular({false, verdict.sentence, Fault::incomplete_run});
         return error;
     }
-    case CircleAnswer::refuse: return refused(Fault::sequence_lost);
+    case CircleAnswer::refuse: return refused(verdict.fault);
     case CircleAnswer::begin:
     case CircleAnswer::end:
         spawn(scheduler_, commit_circle(event, verdict.sequence, verdict.sentence,

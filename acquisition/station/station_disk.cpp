@@ -12,6 +12,13 @@ namespace {
 
 constexpr Duration try_every = std::chrono::seconds{1};
 
+int points_asked(const RunRevisions& orders) {
+    std::size_t points = 0;
+    for (const RetakeRecord& retake : orders.retakes)
+        points += retake.points.size();
+    return static_cast<int>(points);
+}
+
 } // namespace
 
 std::string Station::disk_in_words(const Error& error) const {
@@ -36,12 +43,13 @@ Task<void> Station::wait_for_disk() {
 /// Whoever reads the file holds up the last step, by which it becomes one file: that is no fault of
 /// the disk, and is waited for. The closing row is durable from the first attempt on.
 Task<Result<void>> Station::close_file(bool complete, std::string reason) {
-    bool told = false;
     for (;;) {
         Result<void> closed = co_await journal_.close(complete, reason);
-        if (closed || closed.error().fault != Fault::busy || stopping_) co_return closed;
-        if (!std::exchange(told, true))
-            note("The run is closed and safe. " + closed.error().detail + ".");
+        const bool is_read = !closed && closed.error().fault == Fault::busy;
+        const bool told = !reader_.empty();
+        reader_ = is_read ? closed.error().detail : "";
+        if (!is_read || stopping_) co_return closed;
+        if (!told) note("The run is closed and safe. " + reader_ + ".");
         co_await scheduler_.sleep_for(try_every);
     }
 }
@@ -95,6 +103,7 @@ Task<void> Station::take_over_when_disk_is_back(std::string told) {
 
 /// One attempt. The first thing written is how long nothing was.
 Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
+    if (run_->shut) co_return co_await look_for_lost_order(std::move(path));
     co_await journal_.let_go();
     const auto opened = co_await journal_.reopen(path);
     if (!opened && run_->closed && opened.error().fault == Fault::refused)
@@ -106,22 +115,75 @@ Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
                              "; the file was verified and synced anew.",
                          Fault::not_durable, 0}});
     if (auto told = co_await journal_.flush(); !told) co_return told;
-    auto run = co_await journal_.read(path);
-    if (!run) co_return tl::unexpected<Error>(run.error());
+    auto contents = co_await journal_.contents(path);
+    if (!contents) co_return tl::unexpected<Error>(contents.error());
     note("The run file is written again.");
-    auto on_disk = std::make_shared<const RunRecord>(*std::move(run));
-    if (run_->closed) co_return co_await close_after_disk();
-    co_return co_await go_on_after_disk(std::move(on_disk));
+    DiskBack back = disk_back(*std::move(contents));
+    if (!run_->closed) co_return co_await go_on_after_disk(std::move(back));
+    feed(std::move(back));
+    co_return co_await close_after_disk();
 }
 
-Task<Result<void>> Station::go_on_after_disk(std::shared_ptr<const RunRecord> on_disk) {
-    if (last_durable_request(*on_disk).sequence != 0) {
-        const auto published = co_await publish_last_done(*on_disk);
+/// What the file holds of an order that was lost holds: the next daemon would find it there.
+DiskBack Station::disk_back(RunFileContents contents) {
+    DiskBack back;
+    if (std::exchange(revision_unknown_, false) && machine_) {
+        const RunView view = machine_->view();
+        const bool asked = points_asked(contents.revisions) > view.retakes_asked;
+        const bool out = std::ssize(contents.revisions.exclusions) > view.excluded;
+        note(asked || out ? "The order that could not be written is in the run file all the same, "
+                            "and holds."
+                          : "The run file can be written again, and nothing of the order is in it: "
+                            "give it anew.");
+        back.reopened = asked && run_->shut && !contents.closed;
+    }
+    back.on_disk = std::make_shared<const RunRecord>(std::move(contents.run));
+    back.orders = std::make_shared<const RunRevisions>(std::move(contents.revisions));
+    back.at = scheduler_.now();
+    return back;
+}
+
+Task<Result<void>> Station::go_on_after_disk(DiskBack back) {
+    if (last_durable_request(*back.on_disk).sequence != 0) {
+        const auto published = co_await publish_last_done(*back.on_disk);
         if (!published) co_return published;
     }
     run_->refusal.reset();
-    feed(DiskBack{std::move(on_disk), scheduler_.now()});
+    feed(std::move(back));
     co_return Result<void>{};
+}
+
+/// For a run that was closed long ago: an order that should have opened its file was lost. The file
+/// that cannot be read is not waited for: the next run has one of its own.
+Task<Result<void>> Station::look_for_lost_order(std::string path) {
+    co_await journal_.let_go();
+    const std::optional<Error> trouble = co_await disk_trouble();
+    if (trouble) co_return tl::unexpected<Error>(*trouble);
+    auto contents = co_await journal_.contents(path);
+    if (!contents) {
+        note("What the run file holds of the order is not known: " + describe(contents.error()));
+        co_return Result<void>{};
+    }
+    if (!contents->closed) co_return co_await take_up_order(std::move(path), *std::move(contents));
+    const auto tidied = co_await journal_.tidy(runs_folder());
+    if (!tidied && tidied.error().fault != Fault::busy) co_return tidied;
+    feed(disk_back(*std::move(contents)));
+    co_return Result<void>{};
+}
+
+/// Points to be taken open the run again; readings that were left out only its file.
+Task<Result<void>> Station::take_up_order(std::string path, RunFileContents contents) {
+    if (auto opened = co_await journal_.reopen(path); !opened) co_return opened;
+    DiskBack back = disk_back(std::move(contents));
+    const bool reopened = back.reopened;
+    if (reopened) run_is_open_again();
+    feed(std::move(back));
+    if (reopened) {
+        co_await show_last_number();
+        co_return Result<void>{};
+    }
+    if (run_->taken_over) mark_another_boot(run_->header.boot_id);
+    co_return co_await close_again();
 }
 
 /// The run ended while nothing could be written: its closing row is due.

@@ -4,6 +4,7 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/station/held.hpp"
+#include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "drivers/spawn.hpp"
 
@@ -116,7 +117,7 @@ Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request)
         config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, statements));
-    header.run_id += "-drift";
+    header.run_id = free_run_id(config_, config_.axis.name, parts.opened.utc_ns, "-drift");
     header.channels = every_channel(*roles_.laser, roles_.environment());
     return RestingTest{std::move(header), setup, *roles_.laser};
 }
@@ -144,7 +145,7 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
         config_.circular ? std::string{name_of(config_.circular->setup.plan.plane)} : "";
     const std::string name = (plane.empty() ? plane : plane + "-") + "ballbar";
     AXISCAL_TRY(RunRecord header, header_without_axis(bar_drift_pass, name, statements));
-    header.run_id += "-drift";
+    header.run_id = free_run_id(config_, name, header.opened.utc_ns, "-drift");
     header.statements.axis = plane;
     header.laser = {};
     header.laser.instrument = config_.ballbar->instrument;
@@ -174,7 +175,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
     DriftRecorder recorder{order.setup, order.watched, newest ? newest->epoch : 0,
                            scheduler_.now()};
     drift_.emplace(CurrentDrift{
-        id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}});
+        id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}, {}});
     if (of_bar) drift_->bar.emplace(SampleHistory::Limits{2 * config_.capture.window});
     journal_.note(order_of("drift", request.by));
     note("Drift test " + id + " has begun, ordered by " + in_words(request.by) + ": leave " +
@@ -211,6 +212,7 @@ Task<Result<void>> Station::close_drift(bool complete, std::string reason) {
     const Result<void> closed = co_await close_file(complete, reason);
     if (!closed) {
         reason = "The run file could not be closed: " + disk_in_words(closed.error());
+        drift_->not_shut = closed.error();
         co_await journal_.let_go(); // the next test or run has a file of its own
     }
     note("Drift test " + drift_->run_id +
@@ -221,6 +223,23 @@ Task<Result<void>> Station::close_drift(bool complete, std::string reason) {
     if (drift_->complete) co_await certify(drift_->run_id, drift_->path);
     if (closed) co_return closed;
     co_return fail(Fault::not_durable, drift_->reason, closed.error().cause);
+}
+
+Task<void> Station::abort_drift(std::string reason) {
+    (void)co_await close_drift(false, std::move(reason)); // await_drift_closing() tells
+}
+
+/// As await_closing(). A file that could not be closed is left to the next start.
+Task<Result<RunEnding>> Station::await_drift_closing(std::string run_id) {
+    const MonotonicTime limit = scheduler_.now() + closing_limit;
+    const auto same = [&] { return drift_->run_id == run_id; };
+    while (same() && !drift_->closed && scheduler_.now() < limit && !stopping_)
+        co_await scheduler_.sleep_for(look_every);
+    if (!same()) co_return RunEnding{};
+    if (!drift_->closed) co_return not_closed_yet();
+    if (drift_->not_shut)
+        co_return fail(Fault::not_durable, drift_->reason, drift_->not_shut->cause);
+    co_return RunEnding{drift_->complete, drift_->reason};
 }
 
 DriftView Station::drift_view() const {

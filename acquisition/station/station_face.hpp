@@ -119,6 +119,12 @@ struct RevisionRequest {
     Orderer by;
 };
 
+/// How a run ended that was to be aborted: its last point may have been on its way to the disk.
+struct RunEnding {
+    bool complete = false;
+    std::string reason; ///< as the run file has it
+};
+
 /// What will be taken again.
 struct RetakeAnswer {
     struct Point {
@@ -179,9 +185,10 @@ public:
     /// reason why the point is refused.
     virtual Result<void> type_reading(double seconds_of_arc) = 0;
     /// Returns when the run, or the drift test, is closed. @errors Fault::busy while a record is
-    /// still on its way to the disk, Fault::not_durable where the file could not be closed: nothing
-    /// more is taken then, and the station closes it as soon as it can.
-    virtual Task<Result<void>> abort(std::string reason, Orderer by) = 0;
+    /// still on its way to the disk, or another program reads the file, Fault::not_durable where the
+    /// file could not be closed: nothing more is taken then, and the station closes it as soon as it
+    /// can.
+    virtual Task<Result<RunEnding>> abort(std::string reason, Orderer by) = 0;
     /// What arming would meet now. @errors Fault::bad_request for an override that is none.
     [[nodiscard]] virtual Result<std::vector<PreflightRecord>>
     preflight(const ArmRequest& request) const = 0;

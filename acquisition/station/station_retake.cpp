@@ -17,8 +17,9 @@ Result<void> Station::run_may_be_revised() const {
         return fail(Fault::not_durable, "the disk of the run does not take records yet");
     if (revision_unknown_)
         return fail(Fault::not_durable,
-                    "an earlier order could not be written, and only a new start of axiscald tells "
-                    "what the run file holds of it");
+                    "an earlier order could not be written, and the run file cannot be read to "
+                    "tell what it holds of it: 'axiscal verify " +
+                        run_->path + "' says why");
     if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
     if (circular_)
         return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
@@ -87,9 +88,16 @@ Task<Result<void>> Station::keep_revision(Answer order, Orderer by) {
         feed(RevisionKept{scheduler_.now()});
     } else {
         feed(RevisionLost{scheduler_.now()});
-        revision_unknown_ = kept.error().fault != Fault::refused; // then nothing was written
+        // Else nothing was written: a reader held the file, or it takes no orders.
+        if (kept.error().fault == Fault::not_durable) find_out_about_order();
     }
     co_return kept;
+}
+
+/// Also of a closed run, under which nobody else waits for the disk.
+void Station::find_out_about_order() {
+    revision_unknown_ = true;
+    if (!std::exchange(waiting_for_disk_, true)) spawn(scheduler_, wait_for_disk());
 }
 
 void Station::run_is_open_again() {
@@ -164,16 +172,22 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
     co_return count;
 }
 
-/// The run stays closed to the CNC; only its file was opened for a moment.
+/// The run stays closed to the CNC; only its file was opened for a moment. Who ordered it does not
+/// wait for a reader of the file: its certificate does.
 Task<Result<void>> Station::close_again() {
     run_->shut = false;
-    auto closed = co_await close_file(true, run_->outcome->reason);
+    auto closed = co_await close_file_for_now(true, run_->outcome->reason);
     if (!closed) co_return closed; // the disk is waited for
     run_->shut = true;
     run_->certificate.clear();
     run_->no_certificate.reset();
-    spawn(scheduler_, certify(run_->header.run_id, run_->path));
+    spawn(scheduler_, certify_once_unread(run_->header.run_id, run_->path));
     co_return closed;
+}
+
+Task<void> Station::certify_once_unread(std::string run_id, std::string path) {
+    co_await wait_for_readers();
+    co_await certify(std::move(run_id), std::move(path));
 }
 
 } // namespace axiscal

@@ -37,7 +37,7 @@ void Station::publish_to_port() {
         status.feed_hold = stopped;
         status.may_move = port_state_ != PortState::settling && !stopped;
     }
-    status.run_broken_off = run_ && run_->broken_off;
+    status.run_broken_off = run_ ? run_->broken_off : left_broken_off_;
     if (circular_ && run_->closed) status.run_complete = run_->outcome && run_->outcome->complete;
     port_->publish(status);
 }

@@ -283,7 +283,9 @@ int command_abort(const StationClient& client,
     Json body = Json::object();
     if (!reason.empty()) body["reason"] = reason;
     if (!by.empty()) body["by"] = by;
-    return ask(client.post("/v1/run/abort", json_text(body)), json, [](const Json&) {
+    return ask(client.post("/v1/run/abort", json_text(body)), json, [](const Json& ended) {
+        if (ended.value("run", "") == "complete")
+            return "The run is complete: " + ended.value("reason", "") + "\n";
         return std::string{"The run is closed as incomplete; its file is kept.\n"};
     });
 }

@@ -64,11 +64,12 @@ public:
         if (seconds_of_arc > 100) return fail(Fault::outside_window, "beyond the range");
         return {};
     }
-    Task<Result<void>> abort(std::string reason, Orderer by) override {
+    Task<Result<RunEnding>> abort(std::string reason, Orderer by) override {
         if (reason == "bug") throw std::runtime_error{"a bug of one request"};
         aborted_by = std::move(by);
         reason_given = std::move(reason);
-        co_return Result<void>{};
+        if (reason_given == "late") co_return RunEnding{true, "Every planned point is durable."};
+        co_return RunEnding{false, reason_given};
     }
 
     [[nodiscard]] Result<std::vector<PreflightRecord>>
@@ -402,6 +403,15 @@ TEST_F(HttpDoor, AbortHandsTheReasonOver) {
     EXPECT_TRUE(over_socket("POST", "/v1/run/abort", R"({"reason":"coolant"})")
                     .starts_with("HTTP/1.1 200"));
     EXPECT_EQ(station.reason_given, "coolant");
+}
+
+TEST_F(HttpDoor, AnAbortSaysHowTheRunEnded) {
+    const std::string in_time = over_socket("POST", "/v1/run/abort", R"({"reason":"coolant"})");
+    EXPECT_NE(in_time.find(R"("run":"aborted")"), std::string::npos) << in_time;
+    EXPECT_NE(in_time.find(R"("reason":"coolant")"), std::string::npos) << in_time;
+    const std::string late = over_socket("POST", "/v1/run/abort", R"({"reason":"late"})");
+    EXPECT_NE(late.find(R"("run":"complete")"), std::string::npos) << late;
+    EXPECT_NE(late.find("Every planned point is durable."), std::string::npos) << late;
 }
 
 TEST_F(HttpDoor, AlignsByOrderAndShowsWhatIsSeen) {

@@ -113,6 +113,15 @@ TEST_F(Mirrored, SeesTheRequestAndWritesTheAnswerIntoTheCnc) {
     EXPECT_EQ(running->sink.events.size(), 1U);
 }
 
+TEST_F(Mirrored, StateIsZeroUntilTheStationHasWritten) {
+    namespace words = sequence_block;
+    EXPECT_EQ(plc->at(words::state), 0);
+    EXPECT_EQ(plc->at(words::permit), 0) << "nobody grants anything yet";
+    connect();
+    EXPECT_EQ(plc->at(words::state), 1);
+    EXPECT_EQ(plc->at(words::permit), 1);
+}
+
 TEST_F(Mirrored, WritesOnlyWholeBlocksOfItsOwnWords) {
     connect();
     pump(20);

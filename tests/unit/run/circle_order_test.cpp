@@ -41,6 +41,57 @@ TEST(CircleOrder, WhatIsOutOfOrderIsRefusedWithBothNumbers) {
     EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
 }
 
+TriggerEvent command(TriggerCommand what, std::uint16_t sequence) {
+    TriggerEvent event = request(sequence);
+    event.command = what;
+    return event;
+}
+
+TEST(CircleOrder, ACommandThatNoCircleHasIsRefusedAndBeginsNone) {
+    for (const auto what : {TriggerCommand::prepare, TriggerCommand::skip, TriggerCommand::end}) {
+        CircleOrder order = order_of_two();
+        const auto verdict = order.judge(command(what, 1));
+        EXPECT_EQ(verdict.answer, CircleAnswer::refuse);
+        EXPECT_EQ(verdict.fault, Fault::bad_command) << "RESULT 5";
+        EXPECT_NE(verdict.sentence.find("only 2, capture"), std::string::npos);
+        EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin) << "its number is free";
+        order.durable();
+        EXPECT_EQ(order.judge(command(what, 1)).answer, CircleAnswer::again)
+            << "finished, whatever is asked by its number";
+    }
+}
+
+TEST(CircleOrder, TheLastRequestEndsTheTestByCaptureAlone) {
+    CircleOrder order = order_of_two();
+    for (const std::uint16_t sequence : {std::uint16_t{1}, std::uint16_t{2}}) {
+        EXPECT_EQ(order.judge(request(sequence)).answer, CircleAnswer::begin);
+        order.durable();
+    }
+    EXPECT_EQ(order.judge(command(TriggerCommand::end, 3)).fault, Fault::bad_command);
+    EXPECT_EQ(order.judge(request(3)).answer, CircleAnswer::end);
+}
+
+TEST(CircleOrder, AfterARestartACommandThatNoCircleHasDoesNotBeginOneAgain) {
+    CircleOrder cut{CircularPlan{}, {1, false}};
+    EXPECT_EQ(cut.judge(command(TriggerCommand::skip, 1)).fault, Fault::bad_command);
+    EXPECT_EQ(cut.judge(request(1)).answer, CircleAnswer::begin);
+}
+
+/// A client that connects anew writes what it stands at, also of the program before.
+TEST(CircleOrder, WhatStandsThereBeforeTheFirstCircleIsTheBaseline) {
+    CircleOrder order = order_of_two();
+    for (const auto what : {TriggerCommand::capture, TriggerCommand::abort}) {
+        TriggerEvent standing = command(what, 7);
+        standing.standing = true;
+        EXPECT_EQ(order.judge(standing).answer, CircleAnswer::ignore);
+    }
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);
+    order.durable();
+    TriggerEvent abort = command(TriggerCommand::abort, 7);
+    abort.standing = true;
+    EXPECT_EQ(order.judge(abort).answer, CircleAnswer::abort);
+}
+
 TEST(CircleOrder, ARequestThatDidNotBecomeDurableMayComeAgain) {
     CircleOrder order = order_of_two();
     EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin);

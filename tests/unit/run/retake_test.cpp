@@ -253,6 +253,115 @@ TEST(RetakeOrder, ThatIsRefusedChangesNothingOfTheRun) {
     EXPECT_FALSE(bench.saw<RecordEvent>()) << "the CNC's repetition is still known as one";
 }
 
+RetakeRecord first_order(std::vector<RetakePoint> points) {
+    RetakeRecord order;
+    order.points = std::move(points);
+    return order;
+}
+
+DiskBack disk_with_orders(int points, RunRevisions orders, MonotonicTime at) {
+    return {disk_with(points), at, std::make_shared<const RunRevisions>(std::move(orders))};
+}
+
+/// A sync that fails may have written all the same, and the next daemon would find it there.
+TEST(RetakeOrder, ThatWasLostIsTakenUpWhereTheDiskHeldItAfterAll) {
+    auto bench = after(3);
+    bench.keeps_orders = false;
+    bench.give(of_target(1)).give(RevisionLost{bench.tick()});
+    RunRevisions orders;
+    orders.retakes.push_back(first_order({{10, 1}}));
+    bench.give(disk_with_orders(3, orders, bench.tick()));
+    EXPECT_EQ(bench.machine.view().retakes_asked, 1);
+    bench.keeps_orders = true;
+    EXPECT_EQ(bench.give(of_target(0)).the<RecordRetake>().retake.number, 2);
+    for (std::uint16_t k = 4; k <= 12; ++k)
+        bench.point(k);
+    EXPECT_TRUE(bench.machine.view().complete);
+    EXPECT_EQ(bench.points.back().planned, bench.setup.plan.points[0]);
+}
+
+TEST(RetakeOrder, OfAClosedRunOpensItWhereTheDiskHeldItAfterAll) {
+    auto bench = after(10);
+    bench.keeps_orders = false;
+    bench.give(of_target(4)).give(RevisionLost{bench.tick()});
+    RunRevisions orders;
+    orders.retakes.push_back(first_order({{10, 4}, {11, 5}}));
+    DiskBack back = disk_with_orders(10, orders, bench.tick());
+    back.reopened = true;
+    bench.give(back);
+    EXPECT_FALSE(bench.machine.view().closed);
+    EXPECT_EQ(bench.the<SetState>().state, PortState::armed);
+    bench.point(11).point(12);
+    EXPECT_TRUE(bench.machine.view().complete);
+}
+
+/// The abort comes while the last record is on its way: it is kept, and the run is complete.
+Bench aborted_too_late(int points, RunSetup setup = small_setup()) {
+    auto bench = after(points - 1, std::move(setup));
+    bench.trigger(static_cast<std::uint16_t>(points)).window_here();
+    bench.give(Abort{"The customer left.", bench.tick()});
+    EXPECT_FALSE(bench.saw<Close>()) << "a point on its way to the disk is not thrown away";
+    bench.commit();
+    EXPECT_TRUE(bench.the<Close>().complete);
+    return bench;
+}
+
+TEST(RetakeOrder, IsTakenAfterAnAbortThatCameTooLate) {
+    auto bench = aborted_too_late(10);
+    ASSERT_TRUE(bench.give(of_target(4)).saw<RecordRetake>()) << refusal_of(bench);
+    bench.point(11);
+    EXPECT_FALSE(bench.machine.view().closed) << "the abort was of what is over";
+    bench.point(12);
+    EXPECT_TRUE(bench.machine.view().complete);
+}
+
+TEST(RetakeOrder, IsTakenAfterAnAbortDuringTheLastPointOfAnother) {
+    auto bench = after(10);
+    bench.give(of_target(4)).point(11).trigger(12).window_here();
+    bench.give(Abort{"The customer left.", bench.tick()}).commit();
+    ASSERT_TRUE(bench.the<Close>().complete);
+    EXPECT_TRUE(bench.give(of_target(4)).saw<RecordRetake>()) << refusal_of(bench);
+}
+
+/// Its commit has come back, though nobody wants its point any more.
+TEST(RetakeOrder, ThatWasNotWrittenDoesNotKeepTheAbortFromClosing) {
+    auto bench = after(10);
+    bench.give(of_target(4)); // written
+    bench.point(11).keeps_orders = false;
+    bench.give(of_target(1)).point(12).trigger(13).window_here();
+    bench.give(Abort{"The customer left.", bench.tick()});
+    bench.give(RevisionLost{bench.tick()}).commit();
+    ASSERT_TRUE(bench.saw<Close>());
+    EXPECT_TRUE(bench.the<Close>().complete);
+}
+
+TEST(RetakeOrder, IsTakenOnceTheDiskIsBackThatFailedUnderTheAbortOfAnother) {
+    auto bench = after(10);
+    bench.give(of_target(4)).point(11).trigger(12).window_here();
+    bench.give(Abort{"The disk is gone.", bench.tick()});
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    ASSERT_TRUE(bench.the<Close>().complete);
+    bench.give(DiskBack{disk_with(11), bench.tick()});
+    EXPECT_FALSE(bench.saw<CommitPoint>()) << "the run is closed";
+    ASSERT_TRUE(bench.give(of_target(1)).saw<RecordRetake>()) << refusal_of(bench);
+    bench.trigger(12); // what was not written is still to be taken
+    EXPECT_EQ(bench.open_window.expected, 420.0_mm);
+}
+
+/// A sync that fails may have written all the same.
+TEST(RetakeOrder, CountsOnFromThePointThatTheDiskHeldAfterAll) {
+    auto bench = after(10);
+    bench.give(of_target(4)).point(11).trigger(12).window_here();
+    bench.give(Abort{"The disk is gone.", bench.tick()});
+    bench.give(CommitFailed{"Input/output error.", bench.tick()});
+    bench.give(DiskBack{disk_with(12), bench.tick()});
+    EXPECT_FALSE(bench.saw<Acknowledge>()) << "no run takes requests";
+    EXPECT_EQ(bench.machine.view().last_durable, 12);
+    ASSERT_TRUE(bench.give(of_target(1)).saw<RecordRetake>()) << refusal_of(bench);
+    bench.trigger(13);
+    EXPECT_EQ(bench.open_window.expected, 120.0_mm);
+}
+
 Exclude one_reading(int target, int approach) {
     Exclude exclude;
     exclude.selection.target = target;
@@ -293,6 +402,24 @@ TEST(Exclusion, ThatWasNotWrittenIsTakenBack) {
     bench.give(RevisionLost{bench.tick()});
     EXPECT_EQ(bench.machine.view().excluded, 0);
     EXPECT_TRUE(bench.give(one_reading(2, 0)).saw<RecordExclusion>());
+}
+
+TEST(Exclusion, ThatWasLostHoldsWhereTheDiskHeldItAfterAll) {
+    auto bench = after(30, repeated_setup());
+    bench.keeps_orders = false;
+    const int step = bench.give(one_reading(2, 1)).the<RecordExclusion>().exclusions.at(0).step;
+    bench.give(RevisionLost{bench.tick()});
+    RunRevisions orders;
+    orders.exclusions.emplace_back().step = step;
+    bench.give(disk_with_orders(30, orders, bench.tick()));
+    EXPECT_EQ(bench.machine.view().excluded, 1);
+    EXPECT_NE(refusal_of(bench.give(one_reading(2, 1))).find("already"), std::string::npos);
+    EXPECT_TRUE(bench.machine.view().closed) << "the CNC has nothing to do with it";
+}
+
+TEST(Exclusion, IsTakenAfterAnAbortThatCameTooLate) {
+    auto bench = aborted_too_late(30, repeated_setup());
+    EXPECT_TRUE(bench.give(one_reading(2, 1)).saw<RecordExclusion>()) << refusal_of(bench);
 }
 
 TEST(Exclusion, NeedsItsReason) {

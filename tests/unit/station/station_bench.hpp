@@ -389,17 +389,18 @@ public:
         return answer ? *answer : Result<RetakeAnswer>{fail(Fault::internal, "still at it")};
     }
     /// The answer stands there once it came.
-    std::shared_ptr<std::optional<Result<void>>> begin_abort(const std::string& reason, Orderer by = {}) {
-        auto answer = std::make_shared<std::optional<Result<void>>>();
+    std::shared_ptr<std::optional<Result<RunEnding>>> begin_abort(const std::string& reason,
+                                                                  Orderer by = {}) {
+        auto answer = std::make_shared<std::optional<Result<RunEnding>>>();
         boost::asio::co_spawn(
             scheduler.loop(), station->abort(reason, std::move(by)),
-            [answer](std::exception_ptr, Result<void> r) { *answer = std::move(r); });
+            [answer](std::exception_ptr, Result<RunEnding> r) { *answer = std::move(r); });
         return answer;
     }
-    Result<void> abort(const std::string& reason, Orderer by = {}) {
+    Result<RunEnding> abort(const std::string& reason, Orderer by = {}) {
         const auto answer = begin_abort(reason, std::move(by));
         run(100ms);
-        return *answer ? **answer : Result<void>{fail(Fault::internal, "still at it")};
+        return *answer ? **answer : Result<RunEnding>{fail(Fault::internal, "still at it")};
     }
     Result<int> exclude(RevisionRequest request) {
         std::optional<Result<int>> answer;

@@ -216,6 +216,10 @@ TEST_F(StationRevises, LeavesAReadingOutOfARunThatTheLastDaemonClosed) {
     EXPECT_TRUE(contents().closed && contents().run.complete);
 }
 
+template <class Value> Fault fault_of(const Result<Value>& answer) {
+    return answer ? Fault::none : answer.error().fault;
+}
+
 /// Virtual time plays the same twice: the first life tells when the commit of point 2 begins, in
 /// the second an order comes in while it is failing.
 class StationRevisesOnAFailingDisk : public StationRevises {
@@ -230,6 +234,18 @@ protected:
         for (int i = 0; i < 4000 && life.port->done == 1 && life.port->refusals.empty(); ++i)
             life.run(1ms);
         return life.scheduler.now();
+    }
+    static RevisionRequest one_reading() {
+        RevisionRequest request = of_target(1);
+        request.selection.direction = Direction::positive;
+        request.selection.approach = 0;
+        return request;
+    }
+    void run_of_four(Life& life) {
+        ASSERT_TRUE(life.arm());
+        for (int step = 0; step < 40; ++step)
+            ASSERT_TRUE(life.take(step)) << step;
+        life.run(2s);
     }
     static MonotonicTime when_it_is_written() {
         Shop twin;
@@ -270,6 +286,103 @@ TEST_F(StationRevisesOnAFailingDisk, AnOrderLeavesTheRunAliveAndIsNotWrittenLate
         ASSERT_TRUE(life.take(step)) << step;
     life.run_until([&] { return life.status().run->state == "complete"; });
     EXPECT_TRUE(contents().revisions.retakes.empty()) << "who ordered it was told that it is not";
+}
+
+TEST_F(StationRevisesOnAFailingDisk, TheNextOrderIsTakenOnceTheDiskIsBack) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    ASSERT_TRUE(life.take(0));
+    {
+        const FullDisk full;
+        EXPECT_EQ(fault_of(life.retake(of_target(0))), Fault::not_durable);
+    }
+    life.run(3s);
+    const auto answer = life.retake(of_target(0));
+    ASSERT_TRUE(answer) << describe(answer.error());
+    ASSERT_EQ(contents().revisions.retakes.size(), 1U) << "of the one that was lost nothing is left";
+    EXPECT_EQ(contents().revisions.retakes[0].number, 1);
+}
+
+TEST_F(StationRevisesOnAFailingDisk, TheNextOrderForAClosedRunIsTakenOnceTheDiskIsBack) {
+    shop.config.cycle.approaches = 4;
+    Life life{shop};
+    run_of_four(life);
+    {
+        const FullDisk full;
+        EXPECT_EQ(fault_of(life.exclude(one_reading())), Fault::not_durable);
+        life.run(3s);
+        const auto meanwhile = life.exclude(one_reading());
+        ASSERT_FALSE(meanwhile);
+        EXPECT_EQ(meanwhile.error().detail, "the disk of the run does not take records yet");
+    }
+    life.run(3s);
+    const auto left_out = life.exclude(one_reading());
+    ASSERT_TRUE(left_out) << describe(left_out.error());
+    EXPECT_EQ(contents().revisions.exclusions.size(), 1U);
+    EXPECT_TRUE(contents().closed);
+    EXPECT_EQ(life.notes_with("nothing of the order is in it"), 1);
+    EXPECT_TRUE(life.retake(of_target(2)));
+}
+
+/// A sync that fails may have written all the same: here another hand does it.
+TEST_F(StationRevisesOnAFailingDisk, ARetakeThatIsInTheFileAfterAllIsTakenUp) {
+    Life life{shop};
+    whole_run(life);
+    {
+        const FullDisk full;
+        ASSERT_EQ(fault_of(life.retake(of_target(2))), Fault::not_durable);
+    }
+    RunBatch batch;
+    RetakeRecord& order = batch.retakes.emplace_back();
+    order.reason = "coolant";
+    order.points = {{10, 2}, {11, 7}};
+    ASSERT_TRUE(RunFileWriter::reopen_closed(shop.run_files().at(0), batch));
+    life.run(3s);
+    EXPECT_TRUE(life.status().run_open);
+    EXPECT_EQ(life.status().run->retakes_left, 2);
+    EXPECT_EQ(life.notes_with("is in the run file all the same"), 1);
+    ASSERT_TRUE(life.take(2, 11));
+    ASSERT_TRUE(life.take(7, 12));
+    life.run(2s);
+    EXPECT_TRUE(contents().closed && contents().run.complete);
+}
+
+TEST_F(StationRevisesOnAFailingDisk, AnExclusionThatIsInTheFileAfterAllHolds) {
+    shop.config.cycle.approaches = 4;
+    Life life{shop};
+    run_of_four(life);
+    {
+        const FullDisk full;
+        ASSERT_EQ(fault_of(life.exclude(one_reading())), Fault::not_durable);
+    }
+    RunBatch batch;
+    batch.exclusions.emplace_back().step = 1;
+    batch.exclusions.back().reason = "coolant";
+    ASSERT_TRUE(RunFileWriter::reopen_closed(shop.run_files().at(0), batch));
+    life.run(3s);
+    EXPECT_FALSE(life.status().run_open);
+    EXPECT_EQ(life.status().run->excluded, 1);
+    EXPECT_TRUE(contents().closed && contents().run.complete);
+    EXPECT_FALSE(life.exclude(one_reading())) << "it is left out already";
+}
+
+/// The last retake was broken off while the disk was gone: the run stays complete.
+TEST_F(StationRevisesOnAFailingDisk, ARetakeIsTakenAfterAnAbortWithoutADisk) {
+    Life life{shop};
+    whole_run(life);
+    ASSERT_TRUE(life.retake(of_target(2)));
+    {
+        const FullDisk full;
+        ASSERT_FALSE(life.take(2, 11));
+        EXPECT_FALSE(life.abort("the disk is full"));
+    }
+    life.port->refusals.clear();
+    life.run_until([&] { return contents().closed; });
+    life.run(3s);
+    const auto answer = life.retake(of_target(1));
+    ASSERT_TRUE(answer) << describe(answer.error());
+    EXPECT_EQ(answer->last_request, 10);
+    ASSERT_TRUE(life.take(2, 11)) << "of the order before";
 }
 
 TEST_F(StationRevises, SaysThatThereIsNothingToTakeAgain) {

@@ -474,6 +474,36 @@ TEST_F(StationRuns, AnAbortAnswersWhenTheRunIsClosed) {
     EXPECT_TRUE(summarize_run_file(shop.run_files().front())->closed);
 }
 
+/// Their names bear seconds.
+TEST_F(StationRuns, ThreeRunsOfOneSecondAreArmed) {
+    Life life{shop};
+    life.run(4s);
+    life.run(1s - (life.scheduler.now().time_since_epoch() % Duration{1s}));
+    ArmRequest request;
+    request.datum_by_cnc = true;
+    for (int k = 0; k < 3; ++k) {
+        const auto armed = life.begin_arm(request);
+        life.run(100ms);
+        ASSERT_TRUE(*armed && **armed) << k << ": " << (*armed ? describe((**armed).error()) : "");
+        ASSERT_TRUE(life.abort("once more"));
+    }
+    EXPECT_EQ(shop.run_files().size(), 3U);
+}
+
+TEST_F(StationRuns, AClockThatWasSetBackDoesNotKeepARunFromBeingArmed) {
+    const MonotonicTime begun = shop.now;
+    for (int life_of = 0; life_of < 2; ++life_of) {
+        shop.now = begun + life_of * 3600s;
+        Life life{shop};
+        const auto armed = life.arm();
+        ASSERT_TRUE(armed) << describe(armed.error());
+        ASSERT_TRUE(life.abort("the wrong day"));
+        shop.utc_at_zero_ns -= 3'600'000'000'000;
+        EXPECT_EQ(*armed, life_of == 0 ? "bench-20261121T100007Z-X" : "bench-20261121T100007Z-2-X");
+    }
+    EXPECT_EQ(shop.run_files().size(), 2U);
+}
+
 TEST_F(StationRuns, StatementsOfTheArmingReplaceThoseOfTheFile) {
     Life life{shop};
     ArmRequest request;

@@ -23,9 +23,14 @@ protected:
                 life.port->words.word(acknowledged_sequence)};
     }
     /// Words 1 to 9 as one FC16.
-    static void write(Life& life, std::uint16_t cmd, std::uint16_t sequence, int step = 0) {
+    static void write(Life& life,
+                      std::uint16_t cmd,
+                      std::uint16_t sequence,
+                      int step = 0,
+                      std::optional<Length> nominal = {}) {
         const PlannedPoint point = life.shop.plan().points[static_cast<std::size_t>(step)];
-        const Length place = life.shop.plan().targets[static_cast<std::size_t>(point.target_index)];
+        const Length place = nominal.value_or(
+            life.shop.plan().targets[static_cast<std::size_t>(point.target_index)]);
         const auto counts = static_cast<std::uint32_t>(std::lround(place.in(um)*10));
         const auto news = life.port->words.write_words(
             1,
@@ -165,6 +170,209 @@ TEST_F(TriggerTable, ARunThatAFaultEndsHolds) {
     EXPECT_EQ(words_of(life), (Words{5, 2, 65535}));
     write(life, 0, 0);
     EXPECT_EQ(words_of(life), (Words{5, 1, 65535}));
+}
+
+TEST_F(TriggerTable, ARunThatAFaultEndsBetweenTwoRequestsDoesNotHold) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    take(life, 0, 1);
+    write(life, 0, 0);
+    life.laser->epoch = 1;
+    life.run(1s);
+    EXPECT_EQ(words_of(life), (Words{5, 1, 65535}));
+}
+
+TEST_F(TriggerTable, AnAbortWithTheNextNumberIsAnsweredFirst) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    take(life, 0, 1);
+    write(life, 4, 2, 1);
+    life.run(1s);
+    EXPECT_EQ(words_of(life), (Words{1, 1, 2}));
+    write(life, 0, 0);
+    EXPECT_EQ(words_of(life), (Words{1, 1, 65535}));
+}
+
+TEST_F(TriggerTable, AnAbortWithAnotherNumberBreaksTheRunOff) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    take(life, 0, 1);
+    write(life, 4, 9, 1);
+    life.run(1s);
+    EXPECT_EQ(words_of(life), (Words{1, 2, 65535}));
+    write(life, 0, 0);
+    EXPECT_EQ(words_of(life), (Words{1, 1, 65535}));
+}
+
+TEST_F(TriggerTable, APrepareIsOnDiskBeforeTheAxisMayMove) {
+    Life life{shop};
+    shop.axis.go(shop.plan().datum.in(mm), life.scheduler.now());
+    life.run(4s);
+    ArmRequest request;
+    request.datum_by_cnc = true;
+    ASSERT_TRUE(life.arm(request));
+    EXPECT_EQ(words_of(life), (Words{2, 1, 0}));
+    write(life, 1, 1, 0, shop.plan().datum);
+    EXPECT_EQ(words_of(life), (Words{3, 0, 0}));
+    life.run(3s);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 1}));
+}
+
+TEST_F(TriggerTable, ARefusalIsTakenBackByAnotherNumber) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    take(life, 0, 1);
+    write(life, 2, 2, 3); // another target than the next
+    EXPECT_EQ(words_of(life), (Words{6, 2, 1}));
+    write(life, 2, 1); // the last durable one
+    EXPECT_EQ(words_of(life), (Words{4, 1, 1}));
+    EXPECT_EQ(life.port->words.word(fault_sequence), 0);
+    write(life, 2, 7); // which is refused itself
+    EXPECT_EQ(words_of(life), (Words{6, 2, 1}));
+    EXPECT_EQ(life.port->words.word(fault_sequence), 7);
+}
+
+/// A client that connects anew writes what it stands at again.
+TEST_F(TriggerTable, ARestartReleasesNoProgramWhoseRunWasBrokenOff) {
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        take(life, 0, 1);
+        ASSERT_TRUE(life.abort("enough"));
+        EXPECT_EQ(words_of(life), (Words{1, 2, 65535}));
+    }
+    Life life{shop};
+    write(life, 2, 1);
+    life.run(200ms);
+    EXPECT_EQ(words_of(life), (Words{1, 2, 65535}));
+    EXPECT_EQ(life.port->words.word(fault_sequence), 0) << "a baseline, and no request";
+    write(life, 0, 0);
+    EXPECT_EQ(words_of(life), (Words{1, 1, 65535}));
+    ASSERT_TRUE(life.arm());
+    EXPECT_EQ(words_of(life), (Words{2, 1, 0}));
+}
+
+TEST_F(TriggerTable, ARestartHoldsNoProgramThatEndedItsRunItself) {
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        take(life, 0, 1);
+        write(life, 5, 2, 1);
+        life.run(1s);
+    }
+    Life life{shop};
+    write(life, 5, 2, 1);
+    life.run(200ms);
+    EXPECT_EQ(words_of(life), (Words{1, 1, 65535}));
+}
+
+/// STATE 0 stands in a CNC's own registers only (cnc_mirrored_port_test.cpp).
+TEST(TriggerWords, OfTheStationNeverReadStateZero) {
+    const MapBench<SequenceBlockMap> words{false, false};
+    EXPECT_EQ(words.word(state), 1);
+    EXPECT_EQ(words.word(permit), 1);
+}
+
+/// The rows of a circular test: two circles, so that request 3 is the last.
+class TriggerTableOfCircles : public TriggerTable {
+protected:
+    void SetUp() override {
+        shop.config.circular = CircularConfig{};
+        shop.config.circular->setup.bar_instrument = "ballbar";
+        shop.config.ballbar = RoleConfig{"ballbar", "ballbar"};
+        InstrumentConfig bar;
+        bar.name = "ballbar";
+        bar.driver = "made";
+        shop.config.instruments.push_back(bar);
+        shop.ballbar = [](MonotonicTime) { return 1e-3; };
+    }
+    static void arm_circles(Life& life) {
+        life.run(2s);
+        ArmRequest request;
+        request.pass = "circular";
+        const auto armed = life.begin_arm(request);
+        life.run(1s);
+        ASSERT_TRUE(*armed && **armed) << describe((**armed).error());
+    }
+    static void ask(Life& life, std::uint16_t cmd, std::uint16_t sequence) {
+        write(life, cmd, sequence);
+        life.run(200ms);
+    }
+};
+
+TEST_F(TriggerTableOfCircles, FromArmingToItsLastRequestTheTestIsArmed) {
+    Life life{shop};
+    arm_circles(life);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 0}));
+    ask(life, 2, 1);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 1}));
+    ask(life, 2, 2);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 2}));
+    ask(life, 2, 3);
+    life.run(1s);
+    EXPECT_EQ(words_of(life), (Words{1, 5, 3}));
+}
+
+TEST_F(TriggerTableOfCircles, ACommandThatNoCircleHasHoldsUntilItIsTakenBack) {
+    Life life{shop};
+    arm_circles(life);
+    for (const std::uint16_t cmd : {std::uint16_t{1}, std::uint16_t{3}, std::uint16_t{5}}) {
+        ask(life, cmd, 1);
+        EXPECT_EQ(words_of(life), (Words{6, 2, 0})) << cmd;
+        EXPECT_EQ(life.port->words.word(result), 5) << cmd;
+        ask(life, 0, 0);
+        EXPECT_EQ(words_of(life), (Words{2, 1, 0})) << cmd;
+    }
+    ask(life, 2, 2);
+    EXPECT_EQ(words_of(life), (Words{6, 2, 0}));
+    EXPECT_EQ(life.port->words.word(result), 11);
+    ask(life, 2, 1);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 1}));
+}
+
+TEST_F(TriggerTableOfCircles, ATestThatIsBrokenOffHoldsTheProgram) {
+    for (const bool by_cnc : {true, false}) {
+        Life life{shop};
+        arm_circles(life);
+        ask(life, 2, 1);
+        if (by_cnc)
+            ask(life, 4, 2); // the next number, and not acknowledged all the same
+        else
+            ASSERT_TRUE(life.abort("enough"));
+        life.run(1s);
+        EXPECT_EQ(words_of(life), (Words{1, 2, 65535})) << by_cnc;
+        ask(life, 0, 0);
+        EXPECT_EQ(words_of(life), (Words{1, 1, 65535})) << by_cnc;
+    }
+}
+
+TEST_F(TriggerTableOfCircles, ARequestThatTheDiskDoesNotTakeIsRefusedAndAskedForAgain) {
+    Life life{shop};
+    arm_circles(life);
+    {
+        const FullDisk full;
+        ask(life, 2, 1);
+        EXPECT_EQ(words_of(life), (Words{6, 2, 0}));
+        EXPECT_EQ(life.port->words.word(result), 7);
+    }
+    life.run(3s);
+    ask(life, 0, 0);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 0}));
+    ask(life, 2, 1);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 1}));
+}
+
+TEST_F(TriggerTableOfCircles, AfterARestartItShowsNoNumberUntilTheCncHasAskedAgain) {
+    {
+        Life life{shop};
+        arm_circles(life);
+        ask(life, 2, 1);
+    }
+    Life life{shop};
+    life.run(2s);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 65535}));
+    ask(life, 2, 1);
+    EXPECT_EQ(words_of(life), (Words{2, 1, 1}));
 }
 
 TEST_F(TriggerTable, ARunThatTheCncEndsIsAnsweredFirst) {
