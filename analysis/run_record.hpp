@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -205,6 +207,27 @@ struct WindowSample {
     std::uint64_t device_count = 0;
 };
 
+/// The samples of one window. They never change, and copies share them: a second at 50 kHz is a
+/// megabyte, which the loop would copy three times on the way of a point to the disk.
+class WindowSamples {
+public:
+    WindowSamples() = default;
+    WindowSamples(std::vector<WindowSample> samples) // NOLINT(google-explicit-constructor)
+        : samples_{std::make_shared<const std::vector<WindowSample>>(std::move(samples))} {}
+    WindowSamples(std::initializer_list<WindowSample> samples)
+        : WindowSamples{std::vector<WindowSample>(samples)} {}
+
+    [[nodiscard]] std::size_t size() const { return samples_ ? samples_->size() : 0; }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] const WindowSample* begin() const { return samples_ ? samples_->data() : nullptr; }
+    [[nodiscard]] const WindowSample* end() const { return begin() + size(); }
+    [[nodiscard]] const WindowSample& front() const { return samples_->front(); }
+    [[nodiscard]] const WindowSample& back() const { return samples_->back(); }
+
+private:
+    std::shared_ptr<const std::vector<WindowSample>> samples_;
+};
+
 /// One accepted point.
 struct PointRecord {
     int step = 0;
@@ -219,7 +242,7 @@ struct PointRecord {
     Length approach_travel; ///< seen in the samples, from the claimed side
     std::string datum_id;
     Length live_deviation; ///< as shown at the machine; never used by the analysis
-    std::vector<WindowSample> samples;
+    WindowSamples samples;
 };
 
 struct EnvironmentReading {

@@ -108,6 +108,15 @@ std::optional<Duration> time_uncertainty_of(std::span<const Sample> samples) {
     return largest;
 }
 
+std::vector<WindowSample> good_ones_of(std::span<const Sample> samples) {
+    std::vector<WindowSample> good;
+    good.reserve(samples.size());
+    for (const Sample& sample : samples)
+        if (const auto reading = sample.value())
+            good.push_back({sample.at, *reading, sample.device_count});
+    return good;
+}
+
 std::string side_of(Direction direction) {
     return direction == Direction::positive ? "below" : "above";
 }
@@ -158,10 +167,7 @@ Result<Capture> make_capture(const SampleHistory& history,
         synchronisation_of(found.slope_um_per_s, time_uncertainty_of(samples));
     capture.epoch = samples.back().epoch;
     capture.device_count = samples.back().device_count;
-    capture.samples.reserve(samples.size());
-    for (const auto& sample : samples)
-        if (const auto reading = sample.value())
-            capture.samples.push_back({sample.at, *reading, sample.device_count});
+    capture.samples = good_ones_of(samples);
     if (claim) capture.approach_travel = approach_travel(history, window, *claim, config);
     return capture;
 }

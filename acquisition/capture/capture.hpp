@@ -27,7 +27,7 @@ struct Capture {
     int n = 0;
     std::uint32_t epoch = 0;
     std::uint64_t device_count = 0; ///< of the last sample
-    std::vector<WindowSample> samples;
+    WindowSamples samples;
     std::optional<Synchronisation> synchronisation; ///< empty unless every sample has its u(t)
     /// How far the axis was seen to come from the claimed side. An error here does not spoil the
     /// reading (its place still tells what is wrong), but the point must be refused. 0 without a

@@ -20,7 +20,7 @@ Value text(std::string_view words) {
     return std::string{words};
 }
 
-Blob as_they_are(const std::vector<WindowSample>& samples) {
+Blob as_they_are(const WindowSamples& samples) {
     Blob blob;
     blob.bytes.reserve(samples.size() * sample_bytes);
     for (const auto& [at, reading_m, device_count] : samples) {

@@ -15,7 +15,7 @@ namespace {
 constexpr Duration shortest_rate_base = std::chrono::seconds{10};
 constexpr Duration shortest_count = std::chrono::seconds{1};
 
-void add_sightings(const std::vector<WindowSample>& samples, std::vector<CounterSighting>& out) {
+void add_sightings(const WindowSamples& samples, std::vector<CounterSighting>& out) {
     for (const auto* sample : {&samples.front(), &samples.back()})
         if (sample->device_count != 0)
             out.push_back({sample->at, metre(sample->reading_m), sample->device_count});

@@ -301,7 +301,7 @@ TEST(Journal, NeverAcknowledgesAgainAfterTheDiskWasFull) {
         Result<Receipt> receipt = Receipt{};
         for (; receipt && step < 1000; ++step) {
             auto point = random.point(step);
-            point.samples.resize(500);
+            point.samples = std::vector<WindowSample>(500);
             receipt = station.receipt(station.journal.commit(point));
         }
         EXPECT_FALSE(receipt);

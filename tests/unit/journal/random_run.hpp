@@ -95,8 +95,10 @@ public:
         point.approach_travel = length();
         point.datum_id = text();
         point.live_deviation = length();
+        std::vector<WindowSample> samples;
         for (int i = pick(40); i > 0; --i)
-            point.samples.push_back({time(), number(), random_()});
+            samples.push_back({time(), number(), random_()});
+        point.samples = std::move(samples);
         return point;
     }
 
@@ -221,6 +223,7 @@ private:
 
 template <class T> struct IsVector : std::false_type {};
 template <class T> struct IsVector<std::vector<T>> : std::true_type {};
+template <> struct IsVector<WindowSamples> : std::true_type {};
 template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
@@ -232,7 +235,7 @@ template <class T> bool same_bits(const T& a, const T& b) {
     } else if constexpr (IsVector<T>::value) {
         bool same = a.size() == b.size();
         for (std::size_t i = 0; same && i < a.size(); ++i)
-            same = same_bits(a[i], b[i]);
+            same = same_bits(a.begin()[i], b.begin()[i]);
         return same;
     } else if constexpr (IsOptional<T>::value) {
         return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));

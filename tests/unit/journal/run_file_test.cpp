@@ -137,7 +137,7 @@ TEST(RunFile, RefusesANumberThatIsNone) {
     auto writer = RunFileWriter::create(scratch.file("r.axiscal"), random.header()).value();
     auto in_field = random.point(0), in_sample = random.point(0);
     in_field.reading = metre(std::numeric_limits<double>::quiet_NaN());
-    in_sample.samples.push_back({MonotonicTime{}, std::numeric_limits<double>::infinity(), 0});
+    in_sample.samples = {{MonotonicTime{}, std::numeric_limits<double>::infinity(), 0}};
     EXPECT_EQ(writer.append_point(in_field).error().fault, Fault::internal);
     EXPECT_EQ(writer.append_point(in_sample).error().fault, Fault::internal);
     EXPECT_TRUE(writer.append_point(random.point(0)));

@@ -146,7 +146,7 @@ TEST(Resume, OfAnAxisMeasuredByAScaleSpeaksOfTheScale) {
     EXPECT_EQ(decide_resume(run, 4, silent).sentence,
               "The datum is lost: the scale gives no reading.");
     for (PointRecord& point : run.points)
-        point.samples.clear();
+        point.samples = {};
     for (DatumRecord& datum : run.datums)
         datum.device_count = 0;
     EXPECT_EQ(decide_resume(run, 4, same_station(200)).sentence,
