@@ -29,7 +29,8 @@ struct AbsentMount {
 /// folder that was bound over itself, as the sandbox of a service does with its ReadWritePaths, is
 /// no mount. Where the list of mounts cannot be read nothing counts as mounted.
 std::optional<AbsentMount> absent_mount(const std::string& folder, const MountPlaces& places = {});
-/// The sentence for people: mount point, who names it, way out.
+/// For people: mount point, who names it, way out. The second one as a sentence about the share.
+std::string not_mounted_words(const AbsentMount& absent);
 std::string absent_mount_words(const AbsentMount& absent);
 
 /// "fuse.rclone", as the kernel calls the file system that carries the folder; "" where unknown.

@@ -144,6 +144,24 @@ Error of_the_archive(const Error& error) {
             error.cause};
 }
 
+/// An archive on a disk of its own that is not mounted is an empty folder, or a link to nothing. A
+/// mount that the outbox misses, too, is not asked for: moving beside it makes nothing worse.
+Result<void>
+make_archive(const fs::path& outbox, const std::string& published, const MountPlaces& mounts) {
+    std::error_code error;
+    const auto link = fs::read_symlink(published, error);
+    const auto leads_to = error ? fs::path{published} : outbox.parent_path() / link;
+    const auto absent = absent_mount(leads_to.string(), mounts);
+    if (absent && !absent_mount(outbox.string(), mounts))
+        return fail(Fault::io, not_mounted_words(*absent));
+    if (!error && !fs::exists(published, error))
+        return fail(Fault::io, published + " is a link to " + link.string() +
+                                   ", which is not there: mount that disk or make the folder");
+    fs::create_directories(published, error);
+    if (error) return fail_io("cannot make", published, error.value());
+    return {};
+}
+
 Result<std::string>
 move_over_disks(const OutboxEntry& entry, const std::string& published, const Progress& progress) {
     AXISCAL_TRY(auto files, plain_files_of(entry.folder));
@@ -236,14 +254,15 @@ std::vector<OutboxEntry> list_entries(const std::string& outbox) {
     return entries;
 }
 
-Result<std::string> archive_entry(const OutboxEntry& entry, const Progress& progress) {
+Result<std::string> archive_entry(const OutboxEntry& entry,
+                                  const Progress& progress,
+                                  const MountPlaces& mounts) {
     if (!entry.has_receipt)
         return fail(Fault::refused, entry.folder + " has no receipt and stays where it is");
     const auto outbox = fs::path{entry.folder}.parent_path();
     const auto published = (outbox.parent_path() / "published").string();
+    AXISCAL_CHECK(make_archive(outbox, published, mounts).map_error(of_the_archive));
     std::error_code error;
-    fs::create_directories(published, error);
-    if (error) return fail_io("cannot make", published, error.value());
     for (int copy = 1; copy <= most_same_names; ++copy) {
         auto place = numbered(published + "/" + entry.run_id, copy);
         if (fs::exists(place, error)) continue;

@@ -4,6 +4,7 @@
 // synced. Flat: an entry holds files, no folders.
 
 #include "acquisition/publish/destination.hpp"
+#include "acquisition/publish/mount_points.hpp"
 #include "analysis/quantity/result.hpp"
 
 #include <string>
@@ -50,8 +51,10 @@ Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run
 /// copied, synced, read back and compared under a hidden name, which then becomes its own; only
 /// then it leaves the outbox. Interrupted anywhere it may be called again.
 /// @errors Fault::refused without a receipt; Fault::checksum when the other disk gives back other
-/// bytes; Fault::io.
-Result<std::string> archive_entry(const OutboxEntry& entry, const Progress& progress = {});
+/// bytes; Fault::io, also where that disk is not mounted.
+Result<std::string> archive_entry(const OutboxEntry& entry,
+                                  const Progress& progress = {},
+                                  const MountPlaces& mounts = {});
 /// Makes moves between the outbox and its archive durable.
 Result<void> sync_outbox(const std::string& outbox);
 

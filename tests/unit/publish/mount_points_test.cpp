@@ -223,5 +223,72 @@ TEST(Share, WritesNoReceiptWhenItGoesAwayWhileItIsWritten) {
     EXPECT_FALSE(post.has("mnt/quality/run-1-2"));
 }
 
+/// An entry that is on the share; its archive is what a test makes of `published`.
+struct Archived {
+    Pc pc;
+    std::string outbox = pc.at("state/outbox"), published = pc.at("state/published");
+    OutboxEntry entry;
+    Archived() {
+        EXPECT_TRUE(stage_entry(outbox, "run-1", {{"a", "x"}, {"receipt.json", "{}"}}));
+        entry = read_entry(outbox, "run-1").value();
+    }
+    [[nodiscard]] Result<std::string> archive() const { return archive_entry(entry, {}, pc.places); }
+    /// The entry stays until the disk is there.
+    void expect_waiting_for(const std::string& point) const {
+        const auto moved = archive();
+        ASSERT_FALSE(moved);
+        EXPECT_EQ(moved.error().detail,
+                  "it is on the share but cannot move to published: nothing is mounted at " + point +
+                      ", a mount point of " + pc.places.fstab + "; mount it: sudo mount " + point);
+        EXPECT_TRUE(std::filesystem::exists(outbox + "/run-1/a"));
+        EXPECT_FALSE(std::filesystem::exists(published + "/run-1"));
+    }
+    void expect_archived_once_mounted(const std::string& point) const {
+        pc.mount(point);
+        const auto moved = archive();
+        ASSERT_TRUE(moved) << describe(moved.error());
+        EXPECT_TRUE(std::filesystem::exists(published + "/run-1/a"));
+        EXPECT_FALSE(std::filesystem::exists(outbox + "/run-1"));
+    }
+};
+
+TEST(Outbox, KeepsAnEntryWhileTheDiskOfItsArchiveIsNotMounted) {
+    const Archived at_home;
+    std::filesystem::create_directory(at_home.published);
+    at_home.pc.fstab_names(at_home.published);
+    at_home.expect_waiting_for(at_home.published);
+    at_home.expect_archived_once_mounted(at_home.published);
+
+    const Archived linked;
+    const std::string point = linked.pc.at("mnt/quality");
+    linked.pc.fstab_names(point);
+    std::filesystem::create_directory_symlink(point, linked.published);
+    linked.expect_waiting_for(point);
+    linked.expect_archived_once_mounted(point);
+}
+
+TEST(Outbox, KeepsAnEntryWhileItsArchiveIsALinkToNothing) {
+    const Archived archived;
+    const std::string place = archived.pc.at("mnt/quality/published");
+    std::filesystem::create_directory_symlink(place, archived.published);
+    const auto moved = archived.archive();
+    ASSERT_FALSE(moved);
+    EXPECT_EQ(moved.error().detail,
+              "it is on the share but cannot move to published: " + archived.published +
+                  " is a link to " + place +
+                  ", which is not there: mount that disk or make the folder");
+    archived.pc.fstab_names(archived.pc.at("mnt/quality"));
+    archived.expect_waiting_for(archived.pc.at("mnt/quality"));
+    std::filesystem::create_directory(place);
+    archived.expect_archived_once_mounted(archived.pc.at("mnt/quality"));
+}
+
+TEST(Outbox, OfAStateDirectoryThatIsNotMountedIsArchivedBesideItself) {
+    const Archived archived;
+    archived.pc.fstab_names(archived.pc.at("state"));
+    const auto moved = archived.archive();
+    EXPECT_TRUE(moved) << describe(moved.error());
+}
+
 } // namespace
 } // namespace axiscal::mount_points_test
