@@ -29,6 +29,7 @@ SOURCE = Path(os.environ["AXISCAL_SOURCE"])
 LOOK_S = 0.05  # pause between two looks at a condition
 START_S = 30.0  # a program is ready within this, on a machine that builds beside it
 DIE_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl(2)
+ANOTHER_SEED = 1000  # added to the scenario's
 
 _tests = {}
 
@@ -43,6 +44,10 @@ def sentence(name):
     return register
 
 
+class MissedByChance(AssertionError):
+    """Values that a right station, too, shows once in a thousand runs each (truth.py)."""
+
+
 def main():
     """Runs the test named on the command line. Exit: 0 passed, 1 failed."""
     test = _tests[sys.argv[1]]
@@ -50,7 +55,16 @@ def main():
     # Before ctest kills us without a word: clean up and tell.
     signal.signal(signal.SIGALRM, lambda *_: sys.exit("ran longer than its limit"))
     signal.alarm(int(os.environ.get("AXISCAL_LIMIT_S", "120")))
+    try:
+        run(test)
+    except MissedByChance as missed:
+        print(f"{missed}; all must be right with another seed", flush=True)
+        run(test, ANOTHER_SEED)
+
+
+def run(test, seed_added=0):
     with Bench() as bench:
+        bench.seed_added = seed_added
         test(bench)
 
 
@@ -124,6 +138,7 @@ class Bench:
         self.logs = []
         self.share = self.folder / "share"
         self.share.mkdir()
+        self.seed_added = 0
         self.scenario = tomllib.loads(
             (SOURCE / "tools/axiscal-simulate/scenarios/demo.toml").read_text()
         )
@@ -236,7 +251,8 @@ class Bench:
 
     def start_simulator(self):
         path = self.folder / "scenario.json"
-        path.write_text(json.dumps(self.scenario))
+        seed = self.scenario.get("seed", 1) + self.seed_added
+        path.write_text(json.dumps(self.scenario | {"seed": seed}))
         log = self.spawn(
             "axiscal-simulate", "--scenario", path, "--control", self.folder / "sim.sock"
         )
@@ -412,7 +428,7 @@ class Bench:
             traceback.print_exception(kind, error, trace)
             self.print_logs()
         shutil.rmtree(self.folder, ignore_errors=True)
-        if error is not None:
+        if error is not None and not isinstance(error, MissedByChance):
             sys.exit(1)
 
     def print_logs(self):

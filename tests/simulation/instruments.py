@@ -2,7 +2,7 @@
 
 import bench
 from bench import expect, sentence
-from truth import compare
+from truth import compare, expect_found
 
 
 def laser_was_undisturbed(b):
@@ -80,7 +80,7 @@ def ids_run(b):
     certificate = b.finish()
     expect(b.run()["step"] == 20, f"{b.run()}")
     missed = compare(b.truth(), certificate)
-    expect(not missed, f"outside of the truth: {', '.join(missed)}")
+    expect_found(missed)
 
 
 @sentence("AirSensorThatFallsSilentIsStaleAndComesBack")

@@ -9,7 +9,7 @@ import math
 
 import bench
 from bench import expect, sentence
-from truth import BOUNDED, compare
+from truth import BOUNDED, compare, expect_found
 
 FACES = 8
 ASKED_EVERY_S = 0.02
@@ -83,7 +83,7 @@ def truth_is_found(b):
     expect(certificate["unit"] == "deg", certificate["unit"])
     truth = b.truth()
     missed = compare(truth, certificate)
-    expect(not missed, f"outside of the truth: {', '.join(missed)}")
+    expect_found(missed)
     # Seven seconds of arc of the polygon and 18 of the axis are far above what the bound allows.
     for name in ("E", "M", "B"):
         bound = truth["parameters"][name]["bound"]

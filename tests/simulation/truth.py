@@ -2,7 +2,9 @@
 
 E, M, B, B_mean (and one-way E) within a bound that is computed here from the scenario: the injected
 noise, and the resolution of its sensors. R and A within the middle 99.9 % of 10 000 seeded draws of
-the injected process, drift, sensors' steps and pace of the run among what is drawn.
+the injected process, drift, sensors' steps and pace of the run among what is drawn. Six such values
+in eight tests leave it by chance in a run or two of a hundred: one of R and A that misses is asked
+again of another seed, where all must be right (a millionth by chance; what is wrong misses there, too).
 """
 
 import math
@@ -112,6 +114,14 @@ def compare(truth, reported, bounds=None):
     return missed
 
 
+def expect_found(missed):
+    """@param missed  what compare() gave back"""
+    told = f"outside of the truth: {', '.join(missed)}"
+    if missed and set(missed) <= set(DRAWN):
+        raise bench.MissedByChance(told)
+    expect(not missed, told)
+
+
 def truth_is_found(b, scenario, seed):
     one_metre(b, scenario, seed)
     b.begin_run()
@@ -123,7 +133,7 @@ def truth_is_found(b, scenario, seed):
     wide = wider_than(truth, bounds)
     expect(not wide, f"the truth file allows more than its scenario explains: {', '.join(wide)}")
     missed = compare(truth, certificate, bounds)
-    expect(not missed, f"outside of the truth: {', '.join(missed)}")
+    expect_found(missed)
     expect(b.run()["step"] == 110, "110 points")
     done = certificate["compensation"]
     print(f"material {done['material_first_degC']:.2f} degC, largest corrections (mm):"
