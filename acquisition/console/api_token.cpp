@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace axiscal {
 namespace {
@@ -28,6 +29,11 @@ Result<std::string> stored_token(const std::string& path) {
     }
     if (!S_ISREG(info.st_mode))
         return fail(Fault::refused, "the token file " + path + " is no plain file: remove it");
+    if (info.st_uid != ::geteuid() && info.st_uid != 0)
+        return fail(Fault::refused, "the token file " + path + " belongs to user " +
+                                        std::to_string(info.st_uid) +
+                                        ", who knows the token and may change it; remove " + path +
+                                        ", and a new one is made at the next start");
     const mode_t mode = info.st_mode & 07777U;
     if ((mode & ~mode_of_token) != 0)
         return fail(Fault::refused, "the token file " + path + " has mode " + octal(mode) +

@@ -98,14 +98,10 @@ Result<Json> parse_object(const std::string& body) {
 
 Result<std::string> name_of_orderer(const nlohmann::ordered_json& value) {
     constexpr std::size_t longest = 80;
-    constexpr unsigned char first_printed = 0x20, deleted = 0x7f;
     const auto* name = value.get_ptr<const std::string*>();
     const bool plain = name != nullptr && name->size() <= longest &&
                        name->find_first_not_of(' ') != std::string::npos &&
-                       std::ranges::all_of(*name, [](char letter) {
-                           const auto byte = static_cast<unsigned char>(letter);
-                           return byte >= first_printed && byte != deleted;
-                       });
+                       *name == valid_text(*name);
     if (plain) return *name;
     return refuse(Fault::bad_request, "by", "must be a name: one line of 1 to 80 bytes");
 }

@@ -38,7 +38,16 @@ class Owner(unittest.TestCase):
             self.assertEqual(os.listdir(outbox), [])
             os.rmdir(outbox)
             os.chown(state, 0, 0)
-            test.until_it_answers(test.begin(config))
+            daemon = test.begin(config)
+            test.until_it_answers(daemon)
+            test.end(daemon)
+            token = os.path.join(state, "token")
+            os.chown(token, nobody.pw_uid, nobody.pw_gid)
+            daemon = test.begin(config)
+            self.assertEqual(daemon.wait(20), 1)
+            told = daemon.stderr.read()
+            self.assertIn(f"{token} belongs to user {nobody.pw_uid}", told)
+            self.assertIn(f"remove {token}", told)
         finally:
             test.doCleanups()
 

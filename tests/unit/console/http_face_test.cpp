@@ -240,7 +240,8 @@ TEST_F(HttpDoor, AnOrderOverTcpBearsTheTokenAndNoUser) {
 }
 
 TEST_F(HttpDoor, ANameThatIsNoNameIsRefused) {
-    for (const char* name : {"\"\"", "\"  \"", "7", "null", "[\"Jo\"]", "\"Jo\\nMiller\"", "\"\\u007f\""})
+    for (const char* name : {"\"\"", "\"  \"", "7", "null", "[\"Jo\"]", "\"Jo\\nMiller\"", "\"\\u007f\"",
+                             "\"Jo\\u0085\"", "\"Jo\\u2028Miller\"", "\"Jo\\u2029\""})
         for (const char* order : {"/v1/run", "/v1/run/retake", "/v1/run/abort", "/v1/drift"}) {
             const std::string reply = over_socket("POST", order, "{\"by\":" + std::string{name} + "}");
             EXPECT_TRUE(reply.starts_with("HTTP/1.1 400")) << order << " " << name << " " << reply;
