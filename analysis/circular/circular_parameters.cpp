@@ -195,8 +195,8 @@ const std::optional<SenseFigures>& CircularParameters::of(Sense sense) const {
 Result<double> correction_to_20C_mm(const BarExpansion& bar, double nominal_radius_mm) {
     AXISCAL_CHECK(check_degrees(bar.bar_degC, "temperature.bar_degC"));
     AXISCAL_CHECK(check_degrees(bar.machine_degC, "temperature.machine_degC"));
-    AXISCAL_CHECK(check_alpha(bar.bar_alpha_per_K, "temperature.bar_alpha_per_K"));
-    AXISCAL_CHECK(check_alpha(bar.machine_alpha_per_K, "temperature.machine_alpha_per_K"));
+    AXISCAL_CHECK(check_alpha(bar.bar_alpha_per_K, "temperature.bar_expansion_per_K"));
+    AXISCAL_CHECK(check_alpha(bar.machine_alpha_per_K, "temperature.machine_expansion_per_K"));
     if (!(bar.bar_length_mm > 0 && bar.bar_length_mm <= 1e12))
         return refuse(Fault::bad_case, "temperature.bar_length_mm",
                       "must lie above 0 and not beyond 1e12");

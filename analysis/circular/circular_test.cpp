@@ -58,7 +58,7 @@ const CircularTrace* CircularTest::find(Sense sense) const {
 
 Result<void> check_circular_test(const CircularTest& test) {
     AXISCAL_CHECK(check_positive(test.nominal_radius_mm, "nominal_radius_mm"));
-    AXISCAL_CHECK(check_positive(test.feed_mm_per_s, "feed_mm_per_s"));
+    AXISCAL_CHECK(check_positive(test.feed_mm_per_s, "feed_mm_per_min"));
     if (test.traces.empty()) return refuse(Fault::bad_case, "traces", "must hold at least one");
     for (std::size_t i = 0; i < test.traces.size(); ++i) {
         AXISCAL_CHECK(check_trace(test.traces[i], i, test.nominal_radius_mm));

@@ -29,8 +29,8 @@ Result<void> check_warmth(const CircularUncertaintyStatement& s, bool warm) {
     for (const auto& [value, most, key] :
          {Stated{s.machine_temperature_width_K, most_kelvins, "machine_temperature_width_K"},
           Stated{s.bar_temperature_width_K, most_kelvins, "bar_temperature_width_K"},
-          Stated{s.machine_alpha_width_per_K, most_alpha, "machine_alpha_width_per_K"},
-          Stated{s.bar_alpha_width_per_K, most_alpha, "bar_alpha_width_per_K"}}) {
+          Stated{s.machine_alpha_width_per_K, most_alpha, "machine_expansion_width_per_K"},
+          Stated{s.bar_alpha_width_per_K, most_alpha, "bar_expansion_width_per_K"}}) {
         if (value && !warm)
             return refuse(Fault::bad_case, std::string{"uncertainty."} + key,
                           "needs the case's temperature");

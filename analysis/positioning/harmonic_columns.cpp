@@ -98,10 +98,34 @@ Result<PitchRange> range_of(const CentredPoints& points, const PeriodicQuestion&
     return range;
 }
 
-/// 1 - (1 - one)^frequencies without loss where `one` is small.
-double false_alarm(double share, double points, double frequencies) {
-    const double one = std::pow(std::max(0.0, 1 - share), (points - 4) / 2);
-    return one < 1 ? -std::expm1(frequencies * std::log1p(-one)) : 1;
+/// Gamma(n/2) / Gamma((n-1)/2), n >= 2, from Gamma(1) / Gamma(1/2) on.
+double gamma_ratio(double n) {
+    double ratio = std::numbers::inv_sqrtpi;
+    for (double k = 2; k < n; ++k)
+        ratio = (k - 1) / 2 / ratio;
+    return ratio;
+}
+
+/// That white noise leaves a peak of this share anywhere in the range. Baluev, "Assessing the
+/// statistical significance of periodogram peaks", MNRAS 385 (2008) 1279, formulas 6 and 9 and its
+/// table 1 (variance unknown), with a line in place of the constant as what is always fitted.
+/// Independent frequencies counted as span times bandwidth give two to four times too little.
+double false_alarm(const CentredPoints& points, double share, PitchRange range) {
+    const double count = static_cast<double>(points.steps.size());
+    const double without_wave = count - 2, with_wave = count - 4; // degrees of freedom
+    double mean = 0, square = 0;
+    for (const double x : points.steps) {
+        mean += x / count;
+        square += x * x / count;
+    }
+    const double band =
+        (1 / range.low - 1 / range.high) * std::sqrt(4 * std::numbers::pi * (square - mean * mean));
+    const double gamma = std::sqrt(2 / without_wave) * gamma_ratio(without_wave);
+    const double left = std::max(0.0, 1 - share);
+    const double at_one_frequency = std::pow(left, with_wave / 2);
+    const double peaks =
+        gamma * band * std::pow(left, (with_wave - 1) / 2) * std::sqrt(without_wave * share / 2);
+    return at_one_frequency < 1 ? -std::expm1(std::log1p(-at_one_frequency) - peaks) : 1;
 }
 
 double squares_of(const std::vector<double>& residuals) {
@@ -151,14 +175,14 @@ Result<Peak> search_pitch(const CentredPoints& points, const PeriodicQuestion& q
 }
 
 PitchSearch weigh_peak(const CentredPoints& points, double frequency, PitchRange range) {
-    const auto columns = harmonic_columns(points, frequency, 1);
+    // The fit of all harmonics may settle a little outside; the chance is that of the range.
+    const double inside = std::clamp(frequency, 1 / range.high, 1 / range.low);
+    const auto columns = harmonic_columns(points, inside, 1);
     const double line =
         squares_of(fit_columns({columns[0], columns[1]}, *points.deviations).residuals);
     const double wave = squares_of(fit_columns(columns, *points.deviations).residuals);
     const double share = std::clamp(1 - wave / line, 0.0, 1.0);
-    const double frequencies = std::max(1.0, points.span() * (1 / range.low - 1 / range.high));
-    return {range, share,
-            false_alarm(share, static_cast<double>(points.steps.size()), frequencies)};
+    return {range, share, false_alarm(points, share, range)};
 }
 
 } // namespace axiscal

@@ -98,22 +98,48 @@ std::optional<Candidate> fit_lattice(const Levels& levels, double frequency) {
     return candidate;
 }
 
-/// Chance that unrelated readings come as near to some lattice of the scan.
-double chance_of(const Candidate& candidate, double count, double lattices) {
-    const double width = std::min(1.0, 2 * candidate.worst / candidate.tooth.period);
-    return lattices * count * std::pow(width, count - 2);
+/// The step of which every difference of two readings is a whole multiple: the resolution of the
+/// latch. 0: they share none that is coarse beside their variation. Euclid's algorithm.
+double grid_of(std::span<const double> reading, double variation) {
+    const double rounding = 1e-6 * variation, finest = 1e-4 * variation;
+    double grid = 0;
+    for (const double value : reading) {
+        double rest = std::fabs(value - reading[0]);
+        while (rest > rounding) {
+            if (grid > 0) rest = std::fabs(rest - grid * std::round(rest / grid));
+            if (grid == 0 || rest > rounding) std::swap(grid, rest);
+        }
+    }
+    return grid < finest ? 0 : grid;
 }
 
 struct Scan {
     std::span<const double> reading;
-    double variation, scatter;
+    double variation, scatter, grid;
 
     [[nodiscard]] bool accepts(const Candidate& candidate, double lattices) const {
         const Tooth& tooth = candidate.tooth;
         const double slack = 4 * tooth.residual_rms + 1e-9 * variation;
         return candidate.squares <= 0.1 * scatter && variation <= tooth.period + slack &&
-               tooth.period <= 2.05 * variation &&
-               chance_of(candidate, static_cast<double>(reading.size()), lattices) < 1e-3;
+               tooth.period <= 2.05 * variation && chance_of(candidate, lattices) < 1e-3;
+    }
+
+    /// Chance that readings which know nothing of the distance come as near to some lattice of the
+    /// scan. Such a reading meets a place by the share of the readings that lie there, and no less
+    /// than if they were spread evenly: of the few levels of a coarse latch each holds many,
+    /// however exactly a lattice goes through them.
+    [[nodiscard]] double chance_of(const Candidate& candidate, double lattices) const {
+        const auto count = static_cast<double>(reading.size());
+        const double near = std::max(candidate.worst, 0.5 * grid);
+        const double even = 2 * near / std::min(candidate.tooth.period, variation + grid);
+        double logarithm = 0;
+        for (const double value : reading) {
+            const auto there = std::ranges::count_if(
+                reading, [&](double other) { return std::fabs(other - value) <= near; });
+            const double share = grid > 0 ? static_cast<double>(there) / count : 0;
+            logarithm += std::log(std::min(1.0, std::max(share, even)));
+        }
+        return lattices * count * std::exp(logarithm * (count - 2) / count);
     }
 
     void search(const Levels& levels, std::vector<Candidate>& found) const {
@@ -146,12 +172,18 @@ bool is_one_tooth(const Levels& levels, double variation) {
     return levels.span < 0.1 * variation;
 }
 
-Result<Tooth> chosen_of(const std::vector<Candidate>& found, double scatter) {
+Result<Tooth> chosen_of(const std::vector<Candidate>& found, const Scan& scan) {
+    constexpr double few_levels = 4;
+    if (found.empty() && scan.variation < (few_levels - 0.5) * scan.grid)
+        return fail(Fault::bad_case,
+                    "the readings lie on " +
+                        std::to_string(std::lround(scan.variation / scan.grid) + 1) +
+                        " levels of their resolution: no saw-tooth stands out of so few");
     if (found.empty())
         return fail(Fault::bad_case, "no saw-tooth stands out of the scatter of the readings");
     const Candidate best = *std::ranges::min_element(found, {}, &Candidate::squares);
     for (const Candidate& other : found)
-        if (!same_period(best, other) && other.squares <= 4 * best.squares + 1e-9 * scatter)
+        if (!same_period(best, other) && other.squares <= 4 * best.squares + 1e-9 * scan.scatter)
             return fail(Fault::bad_case,
                         "more than one period fits these approach distances equally well");
     return best.tooth;
@@ -169,7 +201,7 @@ Result<Tooth> find_tooth(std::span<const double> approach, std::span<const doubl
     const double work = 40 * (travel / variation + 2) * static_cast<double>(reading.size());
     if (!(work < most_work))
         return fail(Fault::bad_case, "the approach distances span too many periods for a search");
-    const Scan scan{reading, variation, squares_about_mean(reading)};
+    const Scan scan{reading, variation, squares_about_mean(reading), grid_of(reading, variation)};
     std::vector<Candidate> found;
     for (const int slope : {1, -1}) {
         const Levels levels = levels_of(approach, reading, slope);
@@ -178,7 +210,7 @@ Result<Tooth> find_tooth(std::span<const double> approach, std::span<const doubl
                         "the readings follow one flank: the distances span less than a period");
         scan.search(levels, found);
     }
-    return chosen_of(found, scan.scatter);
+    return chosen_of(found, scan);
 }
 
 } // namespace axiscal

@@ -21,7 +21,9 @@ struct Tooth {
 /// Scans P from 0.7 to 2 times the variation of X (less cannot hold the readings, more is seen in
 /// less than half of a tooth and stays open), then fits c and P to the whole numbers so found.
 /// Accepted only if the tooth explains nine tenths of the scatter of X, the chance that unrelated
-/// readings fit as well is below 1e-3, and no second period fits as well.
+/// readings fit as well is below 1e-3, and no second period fits as well. Readings that were
+/// rounded to a common grid are weighed as such: unrelated ones on two or three levels fit many
+/// lattices exactly.
 /// Accuracy: `standard_uncertainty`; without noise a few 1e-16 of the approach distance a tooth.
 /// The method is a reconstruction: the text of the standard that would state one is lost.
 /// @errors Fault::bad_case without a field; the reason says what the readings lack.

@@ -25,14 +25,14 @@ Fields fields_of(const UncertaintyStatement& s) {
             {"length_m", s.length_m},
             {"misalignment_mm", s.misalignment_mm},
             {"misalignment_rad", s.misalignment_rad},
-            {"alpha_um_per_m_K", s.alpha_um_per_m_K},
+            {"expansion_per_K", s.alpha_um_per_m_K},
             {"temperature_width_K", s.temperature_width_K},
             {"temperature_offset_K", s.temperature_offset_K},
-            {"alpha_width_um_per_m_K", s.alpha_width_um_per_m_K},
-            {"device_alpha_um_per_m_K", s.device_alpha_um_per_m_K},
+            {"expansion_width_per_K", s.alpha_width_um_per_m_K},
+            {"device_expansion_per_K", s.device_alpha_um_per_m_K},
             {"device_temperature_width_K", s.device_temperature_width_K},
             {"device_temperature_offset_K", s.device_temperature_offset_K},
-            {"device_alpha_width_um_per_m_K", s.device_alpha_width_um_per_m_K}};
+            {"device_expansion_width_per_K", s.device_alpha_width_um_per_m_K}};
 }
 
 /// Every stated number is finite and of a size that instruments have; an offset may be below 20.
@@ -45,6 +45,10 @@ Result<void> check_sizes(const Fields& fields) {
             return refuse(Fault::bad_case, key,
                           may_be_negative ? "must be a number of magnitude up to 1e9"
                                           : "must be a number from 0 to 1e9");
+        constexpr double no_material = 1000; // um/(m K); plastics have 200
+        if (*value > no_material && key.find("expansion") != key.npos)
+            return refuse(Fault::bad_case, key,
+                          "is above 0.001 per kelvin, as no material is: 11.7 um/(m K) are 1.17e-5");
         if (*value < smallest && (key == "k" || key == "length_m"))
             return refuse(Fault::bad_case, key, "must be above 1e-6");
     }
@@ -69,13 +73,13 @@ Result<void> check_companions(const Fields& fields) {
         {"misalignment_mm", "length_m"},
         {"misalignment_rad", "length_m"},
         {"temperature_width_K", "length_m"},
-        {"temperature_width_K", "alpha_um_per_m_K"},
-        {"alpha_width_um_per_m_K", "length_m"},
-        {"alpha_width_um_per_m_K", "temperature_offset_K"},
+        {"temperature_width_K", "expansion_per_K"},
+        {"expansion_width_per_K", "length_m"},
+        {"expansion_width_per_K", "temperature_offset_K"},
         {"device_temperature_width_K", "length_m"},
-        {"device_temperature_width_K", "device_alpha_um_per_m_K"},
-        {"device_alpha_width_um_per_m_K", "length_m"},
-        {"device_alpha_width_um_per_m_K", "device_temperature_offset_K"}};
+        {"device_temperature_width_K", "device_expansion_per_K"},
+        {"device_expansion_width_per_K", "length_m"},
+        {"device_expansion_width_per_K", "device_temperature_offset_K"}};
     for (const auto& [key, companion] : companions)
         if (is_stated(fields, key) && !is_stated(fields, companion))
             return refuse(Fault::bad_case, std::string{companion},

@@ -385,7 +385,7 @@ class Export(Scratch):
 
     def test_a_circular_case_becomes_papers(self):
         case = self.file("circle.json", json.dumps({
-            "analysis": "circular", "nominal_radius_mm": 150, "feed_mm_per_s": 12.5,
+            "analysis": "circular", "nominal_radius_mm": 150, "feed_mm_per_min": 750,
             "traces": [{"sense": "ccw", "angle_rad": [0, 1, 2, 3, 4, 5, 6],
                         "radial_deviation_mm": [0, 0.001, 0, 0.001, 0, 0.001, 0]}]}))
         papers = json.loads(self.expect(0, "export", case, "--out", self.folder, "--json").stdout)

@@ -132,8 +132,8 @@ TEST(CircularParameters, RefuseAnExpansionInMicrometresPerMetre) {
     const auto field = [&](const BarExpansion& bar) {
         return refused_field(test, RadialCentre::automatic, bar);
     };
-    EXPECT_EQ(field({25, 23, 1.2e-6, 11.5, 150}), "temperature.machine_alpha_per_K");
-    EXPECT_EQ(field({25, 23, 1.2, 11.5e-6, 150}), "temperature.bar_alpha_per_K");
+    EXPECT_EQ(field({25, 23, 1.2e-6, 11.5, 150}), "temperature.machine_expansion_per_K");
+    EXPECT_EQ(field({25, 23, 1.2, 11.5e-6, 150}), "temperature.bar_expansion_per_K");
     EXPECT_EQ(field({295, 23, 1e-6, 1e-5, 150}), "temperature.bar_degC");
     EXPECT_EQ(field({25, std::nan(""), 1e-6, 1e-5, 150}), "temperature.machine_degC");
     EXPECT_EQ(field({25, 23, 1e-6, 1e-5, 0}), "temperature.bar_length_mm");
@@ -184,7 +184,7 @@ TEST(CircularParameters, RefuseByField) {
     };
     EXPECT_EQ(field([](auto& t) { t.nominal_radius_mm = 0; }), "nominal_radius_mm");
     EXPECT_EQ(field([](auto& t) { t.nominal_radius_mm = std::nan(""); }), "nominal_radius_mm");
-    EXPECT_EQ(field([](auto& t) { t.feed_mm_per_s = -1; }), "feed_mm_per_s");
+    EXPECT_EQ(field([](auto& t) { t.feed_mm_per_s = -1; }), "feed_mm_per_min");
     EXPECT_EQ(field([](auto& t) { t.traces.clear(); }), "traces");
     EXPECT_EQ(field([](auto& t) { t.traces[1].sense = Sense::ccw; }), "traces[1].sense");
     EXPECT_EQ(field([](auto& t) { t.traces[1].angle_rad.pop_back(); }),

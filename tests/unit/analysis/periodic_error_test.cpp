@@ -128,6 +128,38 @@ TEST(PeriodicError, NoiseAloneIsToldAsNoPeriod) {
     EXPECT_GE(told, 38); // a false alarm of 1 % a trial
 }
 
+/// Of series without a period, the share that is given less than 5 % and 1 %.
+std::pair<double, double> false_alarms(int points, double step, int harmonics, unsigned seed) {
+    std::mt19937_64 random{seed};
+    std::normal_distribution<double> noise{0, 1};
+    constexpr int trials = 2000;
+    int below_5 = 0, below_1 = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+        PeriodicQuestion question;
+        question.harmonics = harmonics;
+        for (int i = 0; i < points; ++i) {
+            question.positions.push_back(step * i);
+            question.deviations.push_back(noise(random));
+        }
+        const auto result = fit_periodic_error(question);
+        if (!result) continue;
+        below_5 += result->search->false_alarm_probability < 0.05 ? 1 : 0;
+        below_1 += result->search->false_alarm_probability < 0.01 ? 1 : 0;
+    }
+    return {below_5 / static_cast<double>(trials), below_1 / static_cast<double>(trials)};
+}
+
+// A count of 2000 at 5 % scatters by 0.5 %, at 1 % by 0.22 %: four of them, and a fifth of the
+// value. Independent frequencies counted as span times bandwidth gave 12 to 13 % and 3 %.
+TEST(PeriodicError, AFalseAlarmOfOneInAHundredIsOneInAHundred) {
+    for (const int points : {20, 60})
+        for (const int harmonics : {1, 2}) {
+            const auto [at_5, at_1] = false_alarms(points, 2.5, harmonics, 58);
+            EXPECT_NEAR(at_5, 0.05, 0.01 + 0.02) << points << " points, " << harmonics;
+            EXPECT_NEAR(at_1, 0.01, 0.002 + 0.009) << points << " points, " << harmonics;
+        }
+}
+
 TEST(PeriodicError, NoiseIsWhatTheResidualSays) {
     std::mt19937_64 random{57};
     std::normal_distribution<double> noise{0, 0.1};

@@ -155,6 +155,58 @@ TEST(ProbingDelayLaws, NoiseAloneIsNoTooth) {
     EXPECT_LE(found, 2); // the chance is bounded by 1e-3 a series
 }
 
+// The binary digits of pi, times the resolution of a latch: they know nothing of the distance.
+TEST(ProbingDelay, TwoLevelsOfALatchAreNoTooth) {
+    ProbingSeries series;
+    series.direction = {1, 0, 0};
+    series.approach_mm = steps(2, 0.0016, 11);
+    for (const int digit : {1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0})
+        series.trigger_mm.push_back(1e-4 * digit);
+    const auto result = evaluate(series);
+    EXPECT_FALSE(result.period_ms);
+    EXPECT_EQ(result.no_period,
+              "the readings lie on 2 levels of their resolution: no saw-tooth stands out of so few");
+    EXPECT_NEAR(result.variation_mm, 1e-4, 1e-18);
+}
+
+// Any latch rounds: noise of 0.4 of its step to a hundred, as #5061 of a Fanuc has 1 um and Klipper
+// prints steps of 12.5 um.
+TEST(ProbingDelayLaws, NoiseThatALatchRoundsIsNoTooth) {
+    int found = 0;
+    std::mt19937_64 random{4};
+    std::normal_distribution<double> noise{0, 1};
+    for (const double resolution_mm : {0.0001, 0.001, 0.0125})
+        for (const double share : {0.4, 0.6, 1.0, 4.0, 100.0})
+            for (int trial = 0; trial < 100; ++trial) {
+                ProbingSeries series;
+                series.direction = {1, 0, 0};
+                series.approach_mm = steps(2, 0.0016, 11 + trial % 20);
+                for (std::size_t i = 0; i < series.approach_mm.size(); ++i)
+                    series.trigger_mm.push_back(resolution_mm * std::round(share * noise(random)));
+                found += evaluate(series).period_ms ? 1 : 0;
+            }
+    EXPECT_LE(found, 5); // 1500 series of a chance below 1e-3
+}
+
+TEST(ProbingDelayLaws, ToothThatALatchRoundsIsFound) {
+    std::mt19937_64 random{5};
+    std::uniform_real_distribution<double> any{0, 1};
+    for (const double tick_ms : {1.0, 2.0, 4.0, 8.0})
+        for (const double resolution_mm : {0.0001, 0.001})
+            for (int trial = 0; trial < 50; ++trial) {
+                Probe probe;
+                probe.tick_ms = tick_ms;
+                probe.phase_ms = 20 * any(random);
+                const double tooth_mm = probe.feed_mm_per_ms * tick_ms;
+                auto series = touched(probe, steps(2, tooth_mm / 10, 21));
+                for (double& reading : series.trigger_mm)
+                    reading = resolution_mm * std::round(reading / resolution_mm);
+                const auto result = evaluate(series);
+                ASSERT_TRUE(result.period_ms) << tick_ms << " " << result.no_period;
+                EXPECT_NEAR(*result.period_ms, tick_ms, 0.02 * tick_ms);
+            }
+}
+
 TEST(ProbingDelayLaws, ShiftOfTheFaceOrTheStartChangesNothing) {
     Probe probe;
     const auto approach = steps(5, 0.0071, 20);

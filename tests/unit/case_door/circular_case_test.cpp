@@ -19,7 +19,7 @@ using test::without;
 
 /// Squareness beta and lag difference tau, R 150 mm, 12.5 mm/s: closed forms in every figure.
 json made_case(double beta, double tau, double from_deg = 0, double to_deg = 359, double step = 5) {
-    json request = {{"analysis", "circular"}, {"nominal_radius_mm", 150}, {"feed_mm_per_s", 12.5}};
+    json request = {{"analysis", "circular"}, {"nominal_radius_mm", 150}, {"feed_mm_per_min", 750}};
     for (const double sg : {1.0, -1.0}) {
         json trace = {{"sense", sg > 0 ? "ccw" : "cw"},
                       {"angle_rad", json::array()},
@@ -53,7 +53,7 @@ TEST(CircularCase, AnswersTheNoisyArcOfTheReferenceByTheContractsKeys) {
     const json set = reference_cases().back();
     json request = {{"analysis", "circular"},
                     {"nominal_radius_mm", set.at("request").at("R")},
-                    {"feed_mm_per_s", set.at("request").at("feed")}};
+                    {"feed_mm_per_min", 60 * set.at("request").at("feed").get<double>()}};
     for (const char* sense : {"ccw", "cw"})
         request["traces"].push_back(
             {{"sense", sense},
@@ -144,8 +144,8 @@ TEST(CircularCase, TemperatureMovesFAndDAndNothingElse) {
     const json warm = with(plain, "/temperature",
                            {{"bar_degC", 25},
                             {"machine_degC", 23},
-                            {"bar_alpha_per_K", 1.2e-6},
-                            {"machine_alpha_per_K", 11.5e-6},
+                            {"bar_expansion_per_K", 1.2e-6},
+                            {"machine_expansion_per_K", 11.5e-6},
                             {"bar_length_mm", 150.01}});
     const double shift = 150.01 * 1.2e-6 * 5 - 150 * 11.5e-6 * 3;
     const json before = answer_to(plain), after = answer_to(warm);
@@ -162,8 +162,8 @@ TEST(CircularCase, TemperatureMovesFAndDAndNothingElse) {
         lacking["temperature"].erase(key);
         EXPECT_EQ(refused_field(lacking), "temperature." + key);
     }
-    EXPECT_EQ(refused_field(with(warm, "/temperature/machine_alpha_per_K", 11.5)),
-              "temperature.machine_alpha_per_K");
+    EXPECT_EQ(refused_field(with(warm, "/temperature/machine_expansion_per_K", 11.5)),
+              "temperature.machine_expansion_per_K");
 }
 
 TEST(CircularCase, UncertaintyGivesEachFigureItsOwnTwice) {
@@ -197,10 +197,31 @@ TEST(CircularCase, LeastSquaresCentreIsRefusedBelow90Deg) {
               "least_squares");
 }
 
+TEST(CircularCase, AnglesInDegreesAreTheSameCircle) {
+    const json radians = made_case(5e-5, 0);
+    json degrees = radians;
+    for (json& trace : degrees.at("traces")) {
+        for (const json& angle : trace.at("angle_rad"))
+            trace["angle_deg"].push_back(angle.get<double>() * 180 / std::numbers::pi);
+        trace.erase("angle_rad");
+    }
+    for (const char* figure : {"G_ccw", "G_cw", "G_b"}) {
+        const auto value = [&](const json& request) {
+            return answer_to(request).at("parameters").at(figure).at("value").get<double>();
+        };
+        EXPECT_NEAR(value(degrees), value(radians), 1e-12) << figure;
+    }
+    EXPECT_EQ(refused_field(with(radians, "/traces/0/angle_deg", json::array({1, 2, 3}))),
+              "traces[0].angle_deg");
+    json per_second = radians;
+    per_second["feed_mm_per_s"] = 12.5;
+    EXPECT_EQ(refused_field(per_second), "feed_mm_per_s");
+}
+
 TEST(CircularCase, RefusesByField) {
     const json good = made_case(5e-5, 0);
     EXPECT_EQ(refused_field(without(good, "nominal_radius_mm")), "nominal_radius_mm");
-    EXPECT_EQ(refused_field(without(good, "feed_mm_per_s")), "feed_mm_per_s");
+    EXPECT_EQ(refused_field(without(good, "feed_mm_per_min")), "feed_mm_per_min");
     EXPECT_EQ(refused_field(without(good, "traces")), "traces");
     EXPECT_EQ(refused_field(with(good, "/traces", json::array())), "traces");
     EXPECT_EQ(refused_field(with(good, "/nominal_radius_mm", 0)), "nominal_radius_mm");
@@ -222,8 +243,8 @@ TEST(CircularCase, NumbersInNumbersOut) {
     json small = made_case(5e-5, 1e-4, 0, 359, 40);
     small["temperature"] = {{"bar_degC", 25},
                             {"machine_degC", 23},
-                            {"bar_alpha_per_K", 1.2e-6},
-                            {"machine_alpha_per_K", 11.5e-6},
+                            {"bar_expansion_per_K", 1.2e-6},
+                            {"machine_expansion_per_K", 11.5e-6},
                             {"bar_length_mm", 150.01}};
     small["uncertainty"] = {{"device_width_um", 0.5}, {"eve_um", 1}, {"n", 2}, {"trials", 3}};
     test::expect_numbers_in_numbers_out(small);

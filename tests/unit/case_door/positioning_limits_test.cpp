@@ -84,7 +84,7 @@ TEST(Limits, UncertaintyMakesTheVerdict) {
 
 TEST(Limits, TargetsInAnotherUnitMakeTheSameUncertainty) {
     json request = limited_case();
-    request["uncertainty"] = {{"alpha_um_per_m_K", 11.5},
+    request["uncertainty"] = {{"expansion_per_K", 11.5e-6},
                               {"temperature_width_K", 1},
                               {"eve_um", 1},
                               {"monte_carlo", {{"trials", 2000}, {"seed", 7}}}};

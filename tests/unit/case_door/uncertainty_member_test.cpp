@@ -19,8 +19,8 @@ json good_case() {
         "targets":[0,900,1750],
         "forward":[[-0.001,0,0.001,0.002,0.003],[0.002,0.003,0.003,0.003,0.004],[0.1,0.1,0.1,0.1,0.1]],
         "backward":[[-0.003,-0.002,-0.001,0,0.001],[0.002,0.004,0.004,0.004,0.006],[0.09,0.09,0.09,0.09,0.09]],
-        "uncertainty":{"device_U_um":1.2,"k":2,"length_m":1.75,"misalignment_mm":1,"alpha_um_per_m_K":12,
-          "temperature_width_K":0.7,"temperature_offset_K":1,"alpha_width_um_per_m_K":2,"eve_um":1.7}})");
+        "uncertainty":{"device_U_um":1.2,"k":2,"length_m":1.75,"misalignment_mm":1,"expansion_per_K":1.2e-05,
+          "temperature_width_K":0.7,"temperature_offset_K":1,"expansion_width_per_K":2e-06,"eve_um":1.7}})");
 }
 
 json rotary_case() {
@@ -54,16 +54,18 @@ json member_of(const json& request) {
         {"L_m", "length_m"},
         {"width_misalign_mm", "misalignment_mm"},
         {"delta_rad", "misalignment_rad"},
-        {"alpha_um_mK", "alpha_um_per_m_K"},
+        {"alpha_um_mK", "expansion_per_K"},
         {"width_theta_K", "temperature_width_K"},
         {"delta_T_K", "temperature_offset_K"},
-        {"width_alpha_um_mK", "alpha_width_um_per_m_K"},
+        {"width_alpha_um_mK", "expansion_width_per_K"},
         {"EVE", "eve_um"},
         {"n", "n"},
         {"eve_model", "eve_model"}};
     json member;
     for (const auto& [key, value] : request.items())
         if (key != "task") member[contract.at(key)] = value;
+    for (const char* per_K : {"expansion_per_K", "expansion_width_per_K"}) // um/(m K) there
+        if (member.contains(per_K)) member[per_K] = member[per_K].get<double>() * 1e-6;
     return member;
 }
 
@@ -120,6 +122,20 @@ TEST(UncertaintyMember, BudgetOfEachParameterAddsUpToItsU) {
     }
     EXPECT_EQ(answer.at("budget").at("terms").size(), 5u);
     EXPECT_EQ(answer.at("parameters").at("R").at("budget").at("terms").size(), 1u);
+}
+
+TEST(UncertaintyMember, OldNamesOfTheExpansionAreRefusedWithTheNewOne) {
+    json request = good_case();
+    request["uncertainty"].erase("expansion_per_K");
+    request["uncertainty"]["alpha_um_per_m_K"] = 1.17e-5;
+    const auto answer = analyze_cases(request.dump());
+    EXPECT_NE(answer.exit_code, 0);
+    EXPECT_EQ(answer.error_line,
+              "refused: uncertainty.alpha_um_per_m_K: is not a key of a case; it is called "
+              "'expansion_per_K': 11.7 um/(m K) are 1.17e-5");
+    request = good_case();
+    request["uncertainty"]["expansion_per_K"] = 11.7;
+    EXPECT_EQ(test::refused_field(request), "uncertainty.expansion_per_K");
 }
 
 TEST(UncertaintyMember, NCountsTheApproachesOfTheReadingsUnlessStated) {

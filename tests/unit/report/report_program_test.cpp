@@ -108,7 +108,7 @@ TEST_F(ReportProgram, RefusesWhatIsNoRunFileAndAWrongCommandLine) {
 }
 
 const char* const circular_case =
-    R"({"analysis":"circular","id":"hall 3/left","nominal_radius_mm":150,"feed_mm_per_s":12.5,
+    R"({"analysis":"circular","id":"hall 3/left","nominal_radius_mm":150,"feed_mm_per_min":750,
 "report":{"customer":"Example customer","date":"2026-01-01"},"traces":[{"sense":"ccw",
 "angle_rad":[0,0.785,1.571,2.356,3.142,3.927,4.712,5.498],
 "radial_deviation_mm":[0.002,-0.001,0.002,0.005,0.002,-0.001,0.002,0.005]}]})";

@@ -19,6 +19,21 @@ constexpr std::array<std::string_view, 14> remark_keys{
     "comment", "customer", "date",     "description", "id",  "instrument", "machine",
     "name",    "note",     "operator", "place",       "run", "source",     "title"};
 
+/// What a quantity was called before it had one name and one unit in every kind of case.
+struct Renamed {
+    std::string_view before, now;
+};
+constexpr std::array renamed_keys{
+    Renamed{"alpha_um_per_m_K", "'expansion_per_K': 11.7 um/(m K) are 1.17e-5"},
+    Renamed{"alpha_width_um_per_m_K", "'expansion_width_per_K': 2 um/(m K) are 2e-6"},
+    Renamed{"device_alpha_um_per_m_K", "'device_expansion_per_K': 11.7 um/(m K) are 1.17e-5"},
+    Renamed{"device_alpha_width_um_per_m_K", "'device_expansion_width_per_K': 2 um/(m K) are 2e-6"},
+    Renamed{"machine_alpha_per_K", "'machine_expansion_per_K'"},
+    Renamed{"bar_alpha_per_K", "'bar_expansion_per_K'"},
+    Renamed{"machine_alpha_width_per_K", "'machine_expansion_width_per_K'"},
+    Renamed{"bar_alpha_width_per_K", "'bar_expansion_width_per_K'"},
+    Renamed{"feed_mm_per_s", "'feed_mm_per_min': 10 mm/s are 600"}};
+
 /// Letters to insert, delete or replace to turn one word into the other, case aside.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -39,6 +54,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string hint_for(const std::string& key, const Words& known) {
     constexpr std::size_t longest_key = 32, near = 2;
+    const auto renamed = std::ranges::find(renamed_keys, key, &Renamed::before);
+    if (renamed != renamed_keys.end()) return "it is called " + std::string{renamed->now};
     if (key.size() <= longest_key)
         for (const std::string& word : known)
             if (edit_distance(key, word) <= near) return "did you mean '" + word + "'?";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numbers>
 #include <utility>
 
 namespace axiscal {
@@ -12,13 +13,26 @@ namespace {
 
 using nlohmann::json;
 
+/// In radians, by the one name of the two that stands there.
+Result<std::vector<double>> angles_of(const json& object, const std::string& field) {
+    const bool degrees = object.contains("angle_deg");
+    if (degrees && object.contains("angle_rad"))
+        return refuse(Fault::bad_case, field + ".angle_deg", "stands beside angle_rad");
+    if (!degrees) return numbers_at(object, "angle_rad", field + ".angle_rad");
+    AXISCAL_TRY(std::vector<double> angles,
+                numbers_at(object, "angle_deg", field + ".angle_deg"));
+    for (double& angle : angles)
+        angle *= std::numbers::pi / 180;
+    return angles;
+}
+
 Result<CircularTrace> trace_of(const json& object, const std::string& field) {
-    AXISCAL_CHECK(
-        check_object(object, field, {"sense", "angle_rad", "radial_deviation_mm", "source"}));
+    AXISCAL_CHECK(check_object(
+        object, field, {"sense", "angle_rad", "angle_deg", "radial_deviation_mm", "source"}));
     CircularTrace trace;
     AXISCAL_TRY(const std::string sense, one_of(object, "sense", field + ".sense", {"ccw", "cw"}));
     trace.sense = sense == "ccw" ? Sense::ccw : Sense::cw;
-    AXISCAL_TRY(trace.angle_rad, numbers_at(object, "angle_rad", field + ".angle_rad"));
+    AXISCAL_TRY(trace.angle_rad, angles_of(object, field));
     AXISCAL_TRY(trace.radial_deviation_mm,
                 numbers_at(object, "radial_deviation_mm", field + ".radial_deviation_mm"));
     return trace;
@@ -44,7 +58,8 @@ Result<CircularTest> test_of(const json& object) {
     CircularTest test;
     AXISCAL_TRY(test.nominal_radius_mm,
                 number_at(object, "nominal_radius_mm", "nominal_radius_mm"));
-    AXISCAL_TRY(test.feed_mm_per_s, number_at(object, "feed_mm_per_s", "feed_mm_per_s"));
+    AXISCAL_TRY(const double feed, number_at(object, "feed_mm_per_min", "feed_mm_per_min"));
+    test.feed_mm_per_s = feed / 60;
     AXISCAL_TRY(const json* traces, member(object, "traces", "traces"));
     if (!traces->is_array() || traces->empty())
         return refuse(Fault::bad_case, "traces", "must be an array of one trace a sense");
@@ -70,14 +85,14 @@ Result<std::optional<BarExpansion>> bar_of(const json& object) {
     const json& stated = object.at("temperature");
     AXISCAL_CHECK(check_object(
         stated, "temperature",
-        {"bar_degC", "machine_degC", "bar_alpha_per_K", "machine_alpha_per_K", "bar_length_mm"}));
+        {"bar_degC", "machine_degC", "bar_expansion_per_K", "machine_expansion_per_K", "bar_length_mm"}));
     BarExpansion bar;
     AXISCAL_TRY(bar.bar_degC, number_at(stated, "bar_degC", "temperature.bar_degC"));
     AXISCAL_TRY(bar.machine_degC, number_at(stated, "machine_degC", "temperature.machine_degC"));
     AXISCAL_TRY(bar.bar_alpha_per_K,
-                number_at(stated, "bar_alpha_per_K", "temperature.bar_alpha_per_K"));
+                number_at(stated, "bar_expansion_per_K", "temperature.bar_expansion_per_K"));
     AXISCAL_TRY(bar.machine_alpha_per_K,
-                number_at(stated, "machine_alpha_per_K", "temperature.machine_alpha_per_K"));
+                number_at(stated, "machine_expansion_per_K", "temperature.machine_expansion_per_K"));
     AXISCAL_TRY(bar.bar_length_mm, number_at(stated, "bar_length_mm", "temperature.bar_length_mm"));
     return std::optional{bar};
 }
@@ -123,8 +138,8 @@ Result<std::optional<StatedCircularUncertainty>> statement_of(const json& object
         {"centre_width_um", &s.centre_width_um},
         {"machine_temperature_width_K", &s.machine_temperature_width_K},
         {"bar_temperature_width_K", &s.bar_temperature_width_K},
-        {"machine_alpha_width_per_K", &s.machine_alpha_width_per_K},
-        {"bar_alpha_width_per_K", &s.bar_alpha_width_per_K}};
+        {"machine_expansion_width_per_K", &s.machine_alpha_width_per_K},
+        {"bar_expansion_width_per_K", &s.bar_alpha_width_per_K}};
     Words known{"n", "trials"};
     for (const auto& [key, place] : numbers)
         known.emplace_back(key);
@@ -150,7 +165,7 @@ Result<RadialCentre> centre_of(const json& object) {
 Result<CircularInput> read_circular_case(const json& object) {
     AXISCAL_CHECK(
         check_object(object, "",
-                     {"analysis", "nominal_radius_mm", "feed_mm_per_s", "traces", "f_centre",
+                     {"analysis", "nominal_radius_mm", "feed_mm_per_min", "traces", "f_centre",
                       "temperature", "axes", "uncertainty", "source", "report"}));
     CircularInput input;
     AXISCAL_TRY(input.test, test_of(object));

@@ -23,7 +23,7 @@ struct Number {
 
 /// The statement's members by the keys of the contract.
 std::vector<Number> numbers_of(UncertaintyStatement& s) {
-    constexpr double arcsec_per_deg = 3600;
+    constexpr double arcsec_per_deg = 3600, um_per_m_K = 1e6;
     if (s.axis_kind == AxisKind::rotary)
         return {{"device_U_arcsec", &s.device_U},
                 {"device_U_deg", &s.device_U, arcsec_per_deg},
@@ -38,14 +38,14 @@ std::vector<Number> numbers_of(UncertaintyStatement& s) {
             {"length_m", &s.length_m},
             {"misalignment_mm", &s.misalignment_mm},
             {"misalignment_rad", &s.misalignment_rad},
-            {"alpha_um_per_m_K", &s.alpha_um_per_m_K},
+            {"expansion_per_K", &s.alpha_um_per_m_K, um_per_m_K},
             {"temperature_width_K", &s.temperature_width_K},
             {"temperature_offset_K", &s.temperature_offset_K},
-            {"alpha_width_um_per_m_K", &s.alpha_width_um_per_m_K},
-            {"device_alpha_um_per_m_K", &s.device_alpha_um_per_m_K},
+            {"expansion_width_per_K", &s.alpha_width_um_per_m_K, um_per_m_K},
+            {"device_expansion_per_K", &s.device_alpha_um_per_m_K, um_per_m_K},
             {"device_temperature_width_K", &s.device_temperature_width_K},
             {"device_temperature_offset_K", &s.device_temperature_offset_K},
-            {"device_alpha_width_um_per_m_K", &s.device_alpha_width_um_per_m_K},
+            {"device_expansion_width_per_K", &s.device_alpha_width_um_per_m_K, um_per_m_K},
             {"eve_um", &s.eve}};
 }
 

@@ -16,7 +16,7 @@ from circular_two_ways import columns
 def main():
     document = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     case = document["case"]
-    R, F = case["nominal_radius_mm"], case["feed_mm_per_s"]
+    R, F = case["nominal_radius_mm"], case["feed_mm_per_min"] / 60
     linear = np.vstack([columns(trace, R, F) for trace in case["traces"]])
     read = np.concatenate([trace["radial_deviation_mm"] for trace in case["traces"]])
     c = np.cos(np.concatenate([trace["angle_rad"] for trace in case["traces"]]))

@@ -73,8 +73,8 @@ CASES = {
     "circular-servo-lag": ({"servo": 6e-4}, full(2.5), "both", {}),
     "circular-scale": ({"scale_x": 4e-5, "scale_y": -2e-5}, full(2.5), "both", {}),
     "circular-scale-warm": ({"scale_x": 4e-5, "scale_y": -2e-5}, full(2.5), "both",
-                            {"temperature": {"bar_degC": 25, "machine_degC": 23, "bar_alpha_per_K": 1.2e-6,
-                                             "machine_alpha_per_K": 11.5e-6, "bar_length_mm": 150.01}}),
+                            {"temperature": {"bar_degC": 25, "machine_degC": 23, "bar_expansion_per_K": 1.2e-6,
+                                             "machine_expansion_per_K": 11.5e-6, "bar_length_mm": 150.01}}),
     "circular-backlash": ({"backlash_x": 0.008, "backlash_y": -0.003}, [a + 1.25 for a in full(2.5)], "both", {}),
     "circular-lateral-play": ({"lateral_x": 0.006, "lateral_y": -0.002}, [a + 1.25 for a in full(2.5)], "both", {}),
     "circular-straightness": ({"straight_x": 0.01, "straight_y": -0.004}, full(2.5), "both", {}),
@@ -130,8 +130,8 @@ def figures(name, case):
         warm = case.get("temperature")
         shift = 0.0
         if warm:  # dr_20 = dr + L alpha_B (theta_B - 20) - R alpha_M (theta_M - 20)
-            shift = warm["bar_length_mm"] * warm["bar_alpha_per_K"] * (warm["bar_degC"] - 20) \
-                - R * warm["machine_alpha_per_K"] * (warm["machine_degC"] - 20)
+            shift = warm["bar_length_mm"] * warm["bar_expansion_per_K"] * (warm["bar_degC"] - 20) \
+                - R * warm["machine_expansion_per_K"] * (warm["machine_degC"] - 20)
         found = ellipse_figures(R * (ex - ey) / 2, R * (ex + ey) / 2, shift)
         found |= {"/correction_to_20C_mm": shift, "/diagnosis/scale_x_at_20C": ex + shift / R,
                   "/diagnosis/scale_y_at_20C": ey + shift / R, "/diagnosis/common_lag/radius_change_mm": R * (ex + ey) / 2}
@@ -188,7 +188,7 @@ def features(name):
 def main():
     document = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     name, case = document["id"], document["case"]
-    assert case["nominal_radius_mm"] == R and case["feed_mm_per_s"] == F
+    assert case["nominal_radius_mm"] == R and case["feed_mm_per_min"] == 60 * F
     made = list(traces(name))
     assert [trace["sense"] for trace in made] == [trace["sense"] for trace in case["traces"]]
     for mine, theirs in zip(made, case["traces"]):

@@ -111,7 +111,7 @@ def features(traces, residuals, backlash):
 def main():
     document = json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
     case = document["case"]
-    R, F = case["nominal_radius_mm"], case["feed_mm_per_s"]
+    R, F = case["nominal_radius_mm"], case["feed_mm_per_min"] / 60
     found, points = {}, {}
     for trace in case["traces"]:
         theta, dr = np.array(trace["angle_rad"]), np.array(trace["radial_deviation_mm"])

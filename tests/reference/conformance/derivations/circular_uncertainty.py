@@ -25,10 +25,10 @@ def main():
     device, repeat = width("device_width_um") * 1e-3, stated.get("repeatability_um", 0.0) * 1e-3 / math.sqrt(n)
     drift = width("eve_um") * 1e-3 / math.sqrt(n)
     terms = [stated.get("calibration_U_um", 0.0) * 1e-3 / stated.get("calibration_k", 1),
-             R * warm["machine_alpha_per_K"] * width("machine_temperature_width_K"),
-             L * warm["bar_alpha_per_K"] * width("bar_temperature_width_K"),
-             R * abs(warm["machine_degC"] - 20) * width("machine_alpha_width_per_K"),
-             L * abs(warm["bar_degC"] - 20) * width("bar_alpha_width_per_K")]
+             R * warm["machine_expansion_per_K"] * width("machine_temperature_width_K"),
+             L * warm["bar_expansion_per_K"] * width("bar_temperature_width_K"),
+             R * abs(warm["machine_degC"] - 20) * width("machine_expansion_width_per_K"),
+             L * abs(warm["bar_degC"] - 20) * width("bar_expansion_width_per_K")]
     u = {"G": math.sqrt(device ** 2 + repeat ** 2 + drift ** 2),
          "D": math.sqrt(sum(t * t for t in terms) + repeat ** 2 + drift ** 2)}
     u["F"] = math.hypot(u["D"], device)

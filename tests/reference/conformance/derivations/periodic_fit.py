@@ -64,9 +64,14 @@ def weight(x, y, pitch, harmonics):
     share = 1 - residual(x, y, pitch, 1)[0] / float(rest @ rest)
     span = float(x.max() - x.min())
     shortest, longest = 4 * harmonics * span / (len(np.unique(x)) - 1), span / 2
-    one = (1 - share) ** ((len(x) - 4) / 2)
+    n = len(x)
+    one = (1 - share) ** ((n - 4) / 2)
+    # Baluev, MNRAS 385 (2008) 1279, (6) and table 1: maxima of the whole band, the variance unknown
+    band = (1 / shortest - 1 / longest) * math.sqrt(4 * math.pi * float(np.var(x)))
+    gamma = math.sqrt(2 / (n - 2)) * math.exp(math.lgamma((n - 2) / 2) - math.lgamma((n - 3) / 2))
+    peaks = gamma * band * (1 - share) ** ((n - 5) / 2) * math.sqrt((n - 2) * share / 2)
     return {"/search/explained_share": share, "/search/pitch_range/0": shortest, "/search/pitch_range/1": longest,
-            "/search/false_alarm_probability": 1 - (1 - one) ** max(1, span * (1 / shortest - 1 / longest))}
+            "/search/false_alarm_probability": 1 - (1 - one) * math.exp(-peaks)}
 
 
 def main():

@@ -30,9 +30,9 @@ def common_errors(generator, m, trials):
     if "misalignment_mm" in m:
         total += draw(generator, m["misalignment_mm"] ** 2 / (2 * length), trials)
     if "temperature_width_K" in m:
-        total += m["alpha_um_per_m_K"] * length * draw(generator, m["temperature_width_K"], trials)
-    if "alpha_width_um_per_m_K" in m:
-        total += length * m["temperature_offset_K"] * draw(generator, m["alpha_width_um_per_m_K"], trials)
+        total += 1e6 * m["expansion_per_K"] * length * draw(generator, m["temperature_width_K"], trials)
+    if "expansion_width_per_K" in m:
+        total += length * m["temperature_offset_K"] * draw(generator, 1e6 * m["expansion_width_per_K"], trials)
     return total
 
 

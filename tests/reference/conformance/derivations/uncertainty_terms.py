@@ -35,7 +35,6 @@ def rectangular(width):
 
 def terms_of(m):
     length_um = m.get("length_m", D(0)) * 1000000
-    per_kelvin = D("1e-6")  # of um/m
     out = {}
     if "device_width" in m:
         out["device"] = rectangular(m["device_width"])
@@ -49,10 +48,10 @@ def terms_of(m):
     for body, temperature, expansion in (("", "machine_temperature", "machine_expansion"),
                                          ("device_", "device_temperature", "device_expansion")):
         if body + "temperature_width_K" in m:
-            per_length = m[body + "alpha_um_per_m_K"] * per_kelvin * m[body + "temperature_width_K"]
+            per_length = m[body + "expansion_per_K"] * m[body + "temperature_width_K"]
             out[temperature] = rectangular(length_um * per_length)
-        if body + "alpha_width_um_per_m_K" in m:
-            per_length = m[body + "alpha_width_um_per_m_K"] * per_kelvin * abs(m[body + "temperature_offset_K"])
+        if body + "expansion_width_per_K" in m:
+            per_length = m[body + "expansion_width_per_K"] * abs(m[body + "temperature_offset_K"])
             out[expansion] = rectangular(length_um * per_length)
     if "eve" in m:
         out["environment"] = rectangular(m["eve"])

@@ -214,7 +214,7 @@ TEST(UncertaintyBudgetRefuses, WhatIsIncompleteTwiceOrOfTheOtherAxis) {
     EXPECT_EQ(with([](auto& s) { s.length_m = 0; }), "length_m");
     EXPECT_EQ(with([](auto& s) { s.misalignment_rad = 1e-3; }), "misalignment_rad");
     EXPECT_EQ(with([](auto& s) { s.misalignment_mm = 176; }), "misalignment_mm");
-    EXPECT_EQ(with([](auto& s) { s.alpha_um_per_m_K.reset(); }), "alpha_um_per_m_K");
+    EXPECT_EQ(with([](auto& s) { s.alpha_um_per_m_K.reset(); }), "expansion_per_K");
     EXPECT_EQ(with([](auto& s) { s.temperature_offset_K.reset(); }), "temperature_offset_K");
     EXPECT_EQ(with([](auto& s) { s.eve = -1; }), "eve_um");
     EXPECT_EQ(with([](auto& s) { s.eve = std::nan(""); }), "eve_um");
