@@ -52,6 +52,13 @@ void expect_comes_back(std::span<const WindowSample> samples) {
     expect_same_bits(samples, *back);
 }
 
+TEST(WindowSamples, ShareTheirMemoryWithTheirCopies) { // a second at 50 kHz is a megabyte
+    const WindowSamples window{still_window(1000, 0.5, 1)};
+    const WindowSamples copy = window;
+    EXPECT_EQ(copy.begin(), window.begin());
+    EXPECT_EQ(copy.size(), 1000U);
+}
+
 TEST(WindowPacking, GivesBackEveryBitOfAnyWindow) {
     std::mt19937_64 random{5};
     for (std::size_t count = 0; count < 200; ++count)

@@ -1,5 +1,6 @@
 // What the loop does at 50 kHz on eight channels. CPU time is read, not the clock: what else the
-// computer does is none of it.
+// computer does is none of it. It is told in usual milliseconds (fifty callbacks of a sample on
+// each channel), so that a slower computer answers alike.
 #include "station_bench.hpp"
 
 #include <ctime>
@@ -8,8 +9,6 @@ namespace axiscal::station_rate_test {
 namespace {
 
 using namespace testing;
-
-constexpr double longest_ms = 2; ///< of one callback
 
 double cpu_ms() {
     timespec spent{};
@@ -27,6 +26,12 @@ template <class Work> double cost_ms(Work work) {
 double tenth_longest(std::vector<double> costs) {
     std::ranges::nth_element(costs, costs.begin() + 9, std::greater{});
     return costs[9];
+}
+
+double median(std::vector<double> costs) {
+    const auto middle = costs.begin() + std::ssize(costs) / 2;
+    std::ranges::nth_element(costs, middle);
+    return *middle;
 }
 
 struct FastShop : Shop {
@@ -55,22 +60,23 @@ TEST(StationAt50Kilohertz, IsNeverHeldWhileItWaitsForTheAxisToStand) {
         if (i % 100 == 0) views.push_back(cost_ms([&] { (void)life.status(); }));
     }
     EXPECT_EQ(life.port->done, 0);
-    EXPECT_LT(tenth_longest(costs), longest_ms);
-    EXPECT_LT(tenth_longest(views), longest_ms);
+    // 3.3 and 0.6 as measured; a search through the whole window of a second costs 30.
+    EXPECT_LT(tenth_longest(costs), 12 * median(costs));
+    EXPECT_LT(tenth_longest(views), 12 * median(costs));
     creeps = false;
     life.run(1500ms);
     EXPECT_EQ(life.port->done, 1) << "and the point is taken once the axis stands";
 }
 
-/// From the request to `done`, by milliseconds of fifty callbacks each.
+/// From the request to `done`: the longest millisecond against a usual one.
 double longest_while_taken(Life& life, const PlannedPoint& point, std::uint16_t number) {
     life.drive_to(point);
     life.ask(Life::request_for(point, number));
-    double longest = 0;
+    std::vector<double> costs;
     for (int i = 0; i < 30'000 && life.port->done != number; ++i)
-        longest = std::max(longest, cost_ms([&] { life.run(1ms); }));
+        costs.push_back(cost_ms([&] { life.run(1ms); }));
     EXPECT_EQ(life.port->done, number);
-    return longest;
+    return *std::ranges::max_element(costs) / median(costs);
 }
 
 // The window of a second is fifty thousand samples: copied, weighed and handed on when it is found.
@@ -80,10 +86,10 @@ TEST(StationAt50Kilohertz, IsNotHeldWhenItTakesAPoint) {
     ASSERT_TRUE(life.arm());
     std::vector<double> longest;
     for (std::uint16_t number = 1; number <= 6; ++number)
-        longest.push_back(
-            longest_while_taken(life, shop.plan().points[number - 1U], number));
-    // What taking costs is in each of them; what the kernel does on this thread's account is not.
-    EXPECT_LT(*std::ranges::min_element(longest), longest_ms);
+        longest.push_back(longest_while_taken(life, shop.plan().points[number - 1U], number));
+    // 45 as measured (1.6 ms), a thousandth of what the fifty thousand samples cost on their way in.
+    // What taking costs is in each of the six; what the kernel does on this thread's account is not.
+    EXPECT_LT(*std::ranges::min_element(longest), 100);
 }
 
 } // namespace
