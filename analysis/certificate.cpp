@@ -226,8 +226,7 @@ void fill_dates(Certificate& certificate) {
     certificate.started_utc = iso8601_utc(run.opened.utc_ns);
     certificate.finished_utc = iso8601_utc(run.closed.utc_ns);
     certificate.issued_on = certificate.finished_utc.substr(0, 10);
-    certificate.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
-                                                           : run.statements.next_due;
+    certificate.next_due = next_due_of(run.statements, run.closed.utc_ns);
 }
 
 /// Of a run that is still open: it ends, as far as anybody knows, with its last reading.

@@ -21,4 +21,9 @@ std::string one_year_after(std::int64_t utc_ns) {
     return iso8601_utc(ns).substr(0, 10);
 }
 
+std::string next_due_of(const Statements& stated, std::int64_t closed_utc_ns) {
+    if (stated.next_due == "none") return "";
+    return stated.next_due.empty() ? one_year_after(closed_utc_ns) : stated.next_due;
+}
+
 } // namespace axiscal

@@ -19,4 +19,8 @@ bool has_expired(const std::string& due_on, const std::string& date);
 /// ISO date of the same day next year; 28 February stands for 29 February.
 std::string one_year_after(std::int64_t utc_ns);
 
+/// The date until which the run's certificate is recommended to hold; empty where none is. ISO/IEC
+/// 17025:2017, 7.8.4.3 allows such a recommendation only where it was agreed with the customer.
+std::string next_due_of(const Statements& stated, std::int64_t closed_utc_ns);
+
 } // namespace axiscal

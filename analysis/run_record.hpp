@@ -184,7 +184,7 @@ struct Statements {
     std::string operator_name, approver, procedure, state; ///< state: as found | raw | as left
     std::string control_compensation, feed, dwell, warm_up, offsets, idle_axes, sensor_note,
         laboratory;
-    std::string next_due; ///< ISO date; empty: one year after the run
+    std::string next_due; ///< ISO date; empty: one year after the run; "none": not recommended
 };
 
 struct DatumRecord {
@@ -219,7 +219,9 @@ public:
 
     [[nodiscard]] std::size_t size() const { return samples_ ? samples_->size() : 0; }
     [[nodiscard]] bool empty() const { return size() == 0; }
-    [[nodiscard]] const WindowSample* begin() const { return samples_ ? samples_->data() : nullptr; }
+    [[nodiscard]] const WindowSample* begin() const {
+        return samples_ ? samples_->data() : nullptr;
+    }
     [[nodiscard]] const WindowSample* end() const { return begin() + size(); }
     [[nodiscard]] const WindowSample& front() const { return samples_->front(); }
     [[nodiscard]] const WindowSample& back() const { return samples_->back(); }

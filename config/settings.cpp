@@ -132,7 +132,9 @@ bool Settings::flag(std::string_view key, std::optional<bool> fallback) {
     return fallback.value_or(false);
 }
 
-std::string Settings::date(std::string_view key, const std::optional<std::string>& fallback) {
+std::string Settings::date(std::string_view key,
+                           const std::optional<std::string>& fallback,
+                           std::string_view or_word) {
     const std::string example = "\"2026-11-21\"";
     const TomlNode* value = impl_->ask(key);
     if (!value && !fallback) impl_->refuse_missing(key, example);
@@ -141,7 +143,9 @@ std::string Settings::date(std::string_view key, const std::optional<std::string
     const auto* text = std::get_if<std::string>(&value->value);
     if (!text) return impl_->refuse_kind(key, *value, "a date", example), "";
     if (is_calendar_date(*text) || (text->empty() && fallback)) return *text;
-    impl_->refuse(key, quoted(*text) + " is no date: write year-month-day, for example " + example);
+    if (!or_word.empty() && *text == or_word) return *text;
+    impl_->refuse(key, quoted(*text) + " is no date: write year-month-day, for example " + example +
+                           (or_word.empty() ? "" : ", or " + quoted(std::string{or_word})));
     return "";
 }
 

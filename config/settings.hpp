@@ -105,8 +105,10 @@ public:
     ChannelCorrection channel_reading(std::string_view key);
     /// "0.05 K", "0.1 hPa", "0.3 um", "0.7 um/m"; not negative.
     ChannelUncertainty channel_uncertainty(std::string_view key);
-    /// ISO date "2026-11-21"; a TOML local date is accepted too.
-    std::string date(std::string_view key, const std::optional<std::string>& fallback = {});
+    /// ISO date "2026-11-21"; a TOML local date is accepted too, and `or_word` where one is given.
+    std::string date(std::string_view key,
+                     const std::optional<std::string>& fallback = {},
+                     std::string_view or_word = {});
     std::vector<std::string> texts(std::string_view key,
                                    const std::optional<std::vector<std::string>>& fallback = {});
     std::vector<Length> lengths(std::string_view key,

@@ -14,7 +14,7 @@ void read_people(Settings& certificate, Statements& stated) {
     stated.operator_name = certificate.text("operator", "");
     stated.approver = certificate.text("approver", "");
     stated.procedure = certificate.text("procedure", "");
-    stated.next_due = certificate.date("next_due", "");
+    stated.next_due = certificate.date("next_due", "", "none");
 }
 
 void read_machine(Settings& certificate, Statements& stated) {

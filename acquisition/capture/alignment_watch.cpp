@@ -11,7 +11,6 @@ constexpr int fewest_of_block = 4;
 constexpr double places_of_travel = 25;
 constexpr std::size_t most_places = 500; ///< a reading that runs away must not take the memory
 constexpr double far_share = 0.9;
-constexpr Length least_distance = mm(50);
 /// 1 - cos of 10 mrad: a beam that leaves the optics sooner has no signal left.
 constexpr double largest_cosine_share = 5e-5;
 

@@ -16,9 +16,11 @@ namespace axiscal {
 /// where the readings of a block of 0.2 s lie within `spread_limit`. At rest the reading changes
 /// only as the beam is steered, and by no more than D (1 - cos 10 mrad): a larger step is motion,
 /// and a new rest begins. The rest that counts is the latest one farther away than nine tenths of
-/// all that was reached, and than 50 mm, below which a cosine error cannot be seen.
+/// all that was reached, and than `least_distance`.
 class AlignmentWatch {
 public:
+    static constexpr Length least_distance = mm(50); ///< below it no cosine error can be seen
+
     AlignmentWatch(Length travel, Length spread_limit);
 
     /// A sample of the laser, good or bad, and the strength told at that time, if any. A counter

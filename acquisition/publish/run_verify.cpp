@@ -270,18 +270,22 @@ std::string to_text(const VerifyReport& report) {
         line("signature bad: " + report.signature.sentence);
     if (report.anchor.verdict == AnchorVerdict::differs)
         line("anchor differs: " + report.anchor.sentence);
-    if (!report.intact()) {
+    if (!report.run_file_intact()) {
         line(report.run_file + " is NOT what was written.");
         return text;
     }
+    if (!report.certificate_findings.empty())
+        line(report.certificate + " does NOT say what the run file gives.");
     line(report.run_file + ": " + std::to_string(report.chain.links) +
          " rows, each as it was written; " + state_in_words(report.chain) + ".");
     line("  chain   " + report.chain.chain_head);
     line("  file    " + report.file_sha256);
     line(report.result_digest.empty() ? "  figures none: " + report.no_figures.value_or("")
                                       : "  figures " + report.result_digest + ", computed anew");
-    line(report.certificate.empty() ? "  no certificate.json beside it was held against it"
-                                    : "  " + report.certificate + " says the same");
+    if (report.certificate.empty())
+        line("  no certificate.json beside it was held against it");
+    else if (report.certificate_findings.empty())
+        line("  " + report.certificate + " says the same");
     line("  signature " + in_words(report.signature.verdict) + ": " + report.signature.sentence);
     line("  anchor " + std::string{name_of(report.anchor.verdict)} + ": " + report.anchor.sentence);
     return text;

@@ -29,11 +29,11 @@ struct VerifyReport {
     std::vector<CertificateFinding> certificate_findings;
     SignatureReport signature;
     AnchorReport anchor;
-    [[nodiscard]] bool intact() const {
-        return chain.intact() && !wrong_result && certificate_findings.empty() &&
-               signature.verdict != SignatureVerdict::bad &&
+    [[nodiscard]] bool run_file_intact() const {
+        return chain.intact() && !wrong_result && signature.verdict != SignatureVerdict::bad &&
                anchor.verdict != AnchorVerdict::differs;
     }
+    [[nodiscard]] bool intact() const { return run_file_intact() && certificate_findings.empty(); }
 };
 
 /// What the run file is held against: paths; an empty one is left out, but for a certificate.json

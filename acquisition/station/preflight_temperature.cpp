@@ -118,8 +118,10 @@ PreflightRecord check_soak(const PreflightFacts& facts) {
 PreflightRecord check_sensors(const PreflightFacts& facts) {
     const double limit_K = facts.config.preflight.sensor_difference.in(kelvin);
     const SensorFacts *lowest = nullptr, *highest = nullptr;
+    int compared = 0;
     for (const SensorFacts& sensor : facts.sensors) {
         if (sensor.medium != Medium::material || sensor.on_scale || !sensor.log->newest()) continue;
+        ++compared;
         if (lowest == nullptr || *sensor.log->newest() < *lowest->log->newest()) lowest = &sensor;
         if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
             highest = &sensor;
@@ -130,7 +132,7 @@ PreflightRecord check_sensors(const PreflightFacts& facts) {
         return passed("sensors", "No material sensor: F and D stand as measured.");
     if (lowest == nullptr) return failed("sensors", "No material sensor gives a reading.");
     const double apart_K = *highest->log->newest() - *lowest->log->newest();
-    if (lowest == highest)
+    if (compared == 1)
         return passed("sensors", "One material sensor alone: nothing to compare it with.");
     if (apart_K <= limit_K)
         return passed("sensors", "The material sensors agree within " + in_kelvin(apart_K) + ".");

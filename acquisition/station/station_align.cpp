@@ -1,4 +1,5 @@
 // The beam watched while it is aligned, and kept for the runs that follow.
+#include "acquisition/capture/wording.hpp"
 #include "acquisition/station/station.hpp"
 
 #include <algorithm>
@@ -91,6 +92,12 @@ Result<void> Station::keep_alignment(std::optional<double> spot_offset_mm) {
     AlignmentRecord record = alignment_so_far();
     if (record.readings == 0)
         return fail(Fault::beam_lost, "the laser gave no good reading since the alignment began");
+    const Length needed = std::min(AlignmentWatch::least_distance, record.travel / 2);
+    if (record.reached < needed)
+        return fail(Fault::refused,
+                    "the axis was seen over " + in_mm(record.reached) +
+                        " only: a beam is judged along its way; move the axis over " +
+                        in_mm(needed) + " or more and keep the alignment then");
     if (spot_offset_mm) record.spot_offset = mm(*spot_offset_mm);
     alignment_ = std::move(record);
     aligning_.reset();

@@ -96,8 +96,7 @@ Result<CircularMeasurement> measurement_of(CircularRun run) {
     tell_orders_by_one_clock(run.opened, run.events, run.orders);
     measured.started_utc = iso8601_utc(run.opened.utc_ns);
     measured.finished_utc = iso8601_utc(run.closed.utc_ns);
-    measured.next_due = run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
-                                                        : run.statements.next_due;
+    measured.next_due = next_due_of(run.statements, run.closed.utc_ns);
     measured.run = std::move(run);
     return measured;
 }

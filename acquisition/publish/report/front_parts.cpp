@@ -41,8 +41,7 @@ CertificateDates dates_of_test(const RunRecord& run) {
     const std::string started = iso8601_utc(run.opened.utc_ns);
     const std::string finished = iso8601_utc(run.closed.utc_ns);
     return {measured_span(started, finished), finished.substr(0, length_of_date),
-            run.statements.next_due.empty() ? one_year_after(run.closed.utc_ns)
-                                            : run.statements.next_due};
+            next_due_of(run.statements, run.closed.utc_ns)};
 }
 
 std::vector<StatedField> identity_fields(const Statements& said, const CertificateDates& dates) {

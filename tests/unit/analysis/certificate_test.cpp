@@ -47,6 +47,8 @@ TEST(Certificate, DatesComeFromTheRunAlone) {
     EXPECT_EQ(make_certificate(run, "")->next_due, "2021-02-28");
     run.statements.next_due = "2022-06-30";
     EXPECT_EQ(make_certificate(run, "")->next_due, "2022-06-30");
+    run.statements.next_due = "none"; // ISO/IEC 17025:2017, 7.8.4.3
+    EXPECT_EQ(make_certificate(run, "")->next_due, "");
 }
 
 TEST(Certificate, SummarisesTheEnvironmentOfEveryChannel) {

@@ -180,6 +180,12 @@ TEST_F(Preflight, MaterialSensorsThatDisagreeAreNamed) {
     expect_failure(facts(), "sensors", "material/right shows 3.5 K more than material/left");
 }
 
+TEST_F(Preflight, MaterialSensorsThatShowTheSameAreNotOneAlone) {
+    read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 20.5; });
+    EXPECT_EQ(named(judge_preflight(facts()), "sensors").verdict,
+              "The material sensors agree within 0 K.");
+}
+
 TEST_F(Preflight, TheScalesSensorNeedNotAgreeWithThoseOfTheMachine) {
     read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 24.5; });
     config.axis.scale.emplace();

@@ -126,5 +126,19 @@ TEST_F(StationAligns, NothingCanBeKeptThatWasNotSeen) {
     EXPECT_TRUE(life.station->alignment().running);
 }
 
+TEST_F(StationAligns, NothingIsKeptOfABeamThatWasSeenAtOnePlace) {
+    Life life{shop};
+    ASSERT_TRUE(life.station->align(order(AlignmentAction::begin)));
+    life.run(2s);
+    const auto refused = life.station->align(order(AlignmentAction::keep));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::refused);
+    EXPECT_NE(refused.error().detail.find("50 mm or more"), std::string::npos);
+    drive(life, 49);
+    EXPECT_FALSE(life.station->align(order(AlignmentAction::keep)));
+    drive(life, 51);
+    EXPECT_TRUE(life.station->align(order(AlignmentAction::keep)));
+}
+
 } // namespace
 } // namespace axiscal::testing::station_align_test
