@@ -25,8 +25,9 @@ namespace axiscal {
 namespace {
 
 constexpr std::string_view speaks_itself =
-    "libmodbus opens its line itself: play the tape on a wire, with axiscal replay --link PATH "
-    "(RTU) or --port N (TCP), and name that wire in `link`";
+    "a Modbus line is shared by its instruments: play the tape on a wire, with axiscal replay "
+    "--link "
+    "PATH (RTU) or --port N (TCP), and name that wire in `link`";
 
 constexpr std::array drivers{
     InstrumentDriver{"umd", "uMD0/uMD1/uMD2 laser or scale counter, serial ASCII", make_umd,

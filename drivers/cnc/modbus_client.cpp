@@ -1,7 +1,7 @@
 #include "drivers/cnc/modbus_client.hpp"
 
 #include "drivers/cnc/mbap_framer.hpp"
-#include "drivers/cnc/modbus_reply.hpp"
+#include "drivers/framing/modbus_reply.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/connect.hpp>
@@ -106,7 +106,7 @@ Task<Result<ModbusClient::Bytes>> ModbusClient::talk(Bytes pdu) {
     in_.resize(mbap_header);
     const auto [cut, header] = co_await asio::async_read(socket_, asio::buffer(in_), quietly);
     if (cut) co_return fail(Fault::link_closed, place() + " hung up.", cut);
-    const auto length = modbus_reply_length(in_, transaction_);
+    const auto length = modbus_reply_length(in_, transaction_, static_cast<std::uint8_t>(unit_id_));
     if (!length) co_return fail(Fault::bad_frame, place() + " does not answer in Modbus.");
     in_.resize(*length);
     const auto [torn, rest] = co_await asio::async_read(socket_, asio::buffer(in_), quietly);

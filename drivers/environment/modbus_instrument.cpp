@@ -1,11 +1,8 @@
 // Modbus sensors by profile: air and material temperature, humidity, pressure; RTU and TCP.
 //
 // Document: Modbus Application Protocol Specification V1.1b3 (2012-04-26), "[6.3]" read holding
-// registers, "[6.4]" read input registers; framing is libmodbus' (3.1.6 in Debian 12). What the
-// registers of one model hold stands, with its manual, in config/profiles/<model>.toml.
-//
-// The line belongs to a bus thread (drivers/link/modbus_bus.hpp); this class only awaits it, so a
-// dead peer never blocks the loop.
+// registers, "[6.4]" read input registers. What the registers of one model hold stands, with its
+// manual, in config/profiles/<model>.toml. The line is shared (drivers/link/modbus_bus.hpp).
 
 #include "drivers/environment/modbus_instrument.hpp"
 
@@ -30,6 +27,19 @@ std::vector<Channel> channels_of(const ModbusProfile& profile) {
     for (const ModbusChannel& channel : profile.channels)
         channels.push_back(channel.channel);
     return channels;
+}
+
+/// The address of a register that this offset moves off the wire's 0 to 65535.
+std::optional<int> register_outside(const ModbusProfile& profile, int offset) {
+    const auto outside = [&](const ModbusField& field) {
+        const int first = field.address + offset;
+        return first < 0 || first + field.count > 65536;
+    };
+    for (const ModbusChannel& channel : profile.channels)
+        if (outside(channel.field)) return channel.field.address;
+    if (profile.serial_number && outside(*profile.serial_number))
+        return profile.serial_number->address;
+    return std::nullopt;
 }
 
 class ModbusInstrument final : public Instrument {
@@ -207,9 +217,19 @@ std::unique_ptr<Instrument> make_modbus(const InstrumentConfig& config, Settings
     }
     ModbusStation station;
     station.link = read_link(options, profile->link);
-    station.unit_id = static_cast<int>(options.integer("unit_id", 0, 255, profile->unit_id));
+    // Modbus over serial line V1.02, 2.2: 0 is everybody, 248 to 255 are reserved.
+    const bool serial = station.link.kind == LinkSettings::Kind::serial;
+    const int lowest = serial ? 1 : 0, highest = serial ? 247 : 255;
+    station.unit_id =
+        static_cast<int>(options.integer("unit_id", lowest, highest, profile->unit_id));
+    if (station.unit_id < lowest || station.unit_id > highest)
+        options.refuse("unit_id",
+                       "of the profile is for TCP: a unit on a serial line has 1 to 247");
     station.address_offset =
         static_cast<int>(options.integer("address_offset", -1, 1, profile->address_offset));
+    if (const auto outside = register_outside(*profile, station.address_offset))
+        options.refuse("address_offset", "register " + std::to_string(*outside) +
+                                             " of the profile would lie outside 0 to 65535");
     station.poll_period = options.duration("poll_period", std::chrono::milliseconds{20},
                                            std::chrono::seconds{600}, profile->poll_period);
     station.stated_serial = config.serial;

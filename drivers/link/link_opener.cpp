@@ -11,7 +11,7 @@ namespace axiscal {
 
 RealLinkOpener::RealLinkOpener(Scheduler& scheduler)
     : scheduler_{scheduler}
-    , buses_{scheduler.executor()}
+    , buses_{scheduler, *this}
     , files_{scheduler.executor()} {}
 
 RealLinkOpener::~RealLinkOpener() {

@@ -1,245 +1,223 @@
 #include "drivers/link/modbus_bus.hpp"
 
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/framing/modbus_answers.hpp"
+#include "drivers/link/turns.hpp"
 
-#include <boost/asio/as_tuple.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
-#include <modbus/modbus.h>
-
-#include <cerrno>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <optional>
-#include <thread>
+#include <algorithm>
+#include <filesystem>
+#include <utility>
 
 namespace axiscal {
 namespace {
 
-using boost::asio::steady_timer;
-
-/// After so many requests without a reply a line is opened anew: ftdi_sio stops reading for good at
-/// a STALL, until its next opening.
+/// After so many requests without a byte a line is opened anew: ftdi_sio stops reading for good at
+/// a STALL, until its next opening. A TCP peer that lost its power never says so.
 constexpr int silent_requests = 3;
+constexpr Duration opening_patience = std::chrono::seconds{5};
 
-Fault fault_of(int modbus_error) {
-    switch (modbus_error) {
-    case ETIMEDOUT: return Fault::link_timeout;
-    case EMBBADCRC: return Fault::checksum;
-    case EMBXILFUN:
-    case EMBXILADD:
-    case EMBXILVAL:
-    case EMBXSFAIL:
-    case EMBXSBUSY: return Fault::refused;
-    case EMBBADDATA:
-    case EMBBADEXC:
-    case EMBUNKEXC:
-    case EMBMDATA:
-    case EMBBADSLAVE: return Fault::bad_frame;
-    default: return Fault::link_closed;
+ModbusQuestion question_of(const ModbusRead& request) {
+    return {static_cast<std::uint8_t>(request.unit_id), static_cast<std::uint8_t>(request.function),
+            static_cast<std::uint16_t>(request.address), request.count};
+}
+
+/// Modbus application protocol V1.1b3, 7. What a gateway says of a unit that it does not reach is
+/// that unit's silence, and so is "later".
+bool means_silence(int exception) {
+    return exception == 5 || exception == 6 || exception == 10 || exception == 11;
+}
+
+std::string in_words(int exception) {
+    const std::string number = "exception " + std::to_string(exception);
+    switch (exception) {
+    case 1: return number + " (it does not know this function)";
+    case 2: return number + " (it has no such register)";
+    case 3: return number + " (it does not read so many registers at once)";
+    case 4: return number + " (it failed)";
+    case 5: return number + " (it needs more time)";
+    case 6: return number + " (it is busy)";
+    case 8: return number + " (its memory is damaged)";
+    case 10: return number + " (the gateway has no way to it)";
+    case 11: return number + " (the gateway gets no answer from it)";
+    default: return number;
     }
 }
 
-modbus_t* make_context(const LinkSettings& settings) {
-    if (settings.kind == LinkSettings::Kind::tcp)
-        return ::modbus_new_tcp_pi(settings.host.c_str(), std::to_string(settings.port).c_str());
-    return ::modbus_new_rtu(settings.path.c_str(), settings.baud, settings.parity,
-                            settings.data_bits, settings.stop_bits);
+/// The line's own name, however it was asked for: /dev/serial/by-id has links.
+LinkSettings by_its_own_name(LinkSettings settings) {
+    if (settings.kind != LinkSettings::Kind::serial) return settings;
+    std::error_code unknown;
+    const auto path = std::filesystem::weakly_canonical(settings.path, unknown);
+    if (!unknown) settings.path = path.string();
+    return settings;
 }
 
 } // namespace
 
-/// One answer that is waited for. Lives and dies on the loop: the thread knows it weakly.
-struct ModbusBus::Pending {
-    explicit Pending(const boost::asio::any_io_executor& loop)
-        : done{loop, steady_timer::time_point::max()} {}
-    std::optional<Result<ModbusWords>> reply;
-    steady_timer done;
-};
-
-/// The libmodbus context; lives on the bus thread alone.
-class ModbusBus::Context {
-public:
-    explicit Context(const LinkSettings& settings)
-        : settings_{settings}
-        , context_{make_context(settings)} {}
-    ~Context() {
-        close();
-        if (context_) ::modbus_free(context_);
-    }
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
-
-    Result<ModbusWords> read(const ModbusRead& request) {
-        if (!context_) return failed("no Modbus context for", EINVAL);
-        set_timeouts(request.timeout);
-        ::modbus_set_slave(context_, request.unit_id);
-        if (!connected_ && ::modbus_connect(context_) != 0)
-            return failed("no connection to", errno);
-        connected_ = true;
-        ModbusWords reply;
-        reply.words.resize(static_cast<std::size_t>(request.count));
-        const auto function =
-            request.function == 4 ? ::modbus_read_input_registers : ::modbus_read_registers;
-        reply.asked_at = monotonic_now();
-        const int got = function(context_, request.address, request.count, reply.words.data());
-        const int error_number = errno;
-        reply.read_at = monotonic_now();
-        if (got == request.count) {
-            silent_ = 0;
-            return reply;
-        }
-        auto error = failed("unit " + std::to_string(request.unit_id) + " on", error_number);
-        recover(error.value().fault);
-        return error;
-    }
-
-private:
-    void set_timeouts(Duration timeout) {
-        const auto us = std::chrono::duration_cast<std::chrono::microseconds>(timeout).count();
-        const auto seconds = static_cast<std::uint32_t>(us / 1'000'000);
-        const auto rest = static_cast<std::uint32_t>(us % 1'000'000);
-        ::modbus_set_response_timeout(context_, seconds, rest);
-        // 0: the response timeout bounds the whole reply, also one that trickles in.
-        ::modbus_set_byte_timeout(context_, 0, 0);
-    }
-    [[nodiscard]] tl::unexpected<Error> failed(const std::string& what, int error_number) const {
-        const std::string text =
-            what + " " + settings_.describe() + ": " + ::modbus_strerror(error_number);
-        return fail(fault_of(error_number), text);
-    }
-    /// A late reply must not be taken for the next one: TCP connects anew, a line is emptied.
-    void recover(Fault fault) {
-        if (fault == Fault::refused) return;
-        const bool serial = settings_.kind == LinkSettings::Kind::serial;
-        silent_ = fault == Fault::link_timeout ? silent_ + 1 : 0;
-        if (serial && fault != Fault::link_closed && silent_ < silent_requests)
-            ::modbus_flush(context_);
-        else
-            close();
-    }
-    void close() {
-        if (connected_) ::modbus_close(context_);
-        connected_ = false;
-        silent_ = 0;
-    }
-
-    const LinkSettings& settings_;
-    modbus_t* context_;
-    bool connected_ = false;
-    int silent_ = 0; ///< time-outs since the last reply
-};
-
-/// What the loop and the thread of one line share.
 class ModbusBus::Line {
 public:
-    Line(LinkSettings settings, boost::asio::any_io_executor loop)
+    Line(LinkSettings settings, Scheduler& scheduler, LinkOpener& opener)
         : settings_{std::move(settings)}
-        , loop_{std::move(loop)} {}
-    [[nodiscard]] const LinkSettings& settings() const { return settings_; }
-    [[nodiscard]] const boost::asio::any_io_executor& loop() const { return loop_; }
+        , scheduler_{scheduler}
+        , opener_{opener}
+        , turns_{scheduler.executor()} {}
 
-    void ask(const ModbusRead& request, const std::shared_ptr<Pending>& asker) {
-        {
-            const std::lock_guard lock{mutex_};
-            orders_.push_back({request, asker});
+    /// The unit's turn, when no answer of it can come any more.
+    Task<Turns::Turn> turn_of(int unit_id) {
+        for (;;) {
+            co_await scheduler_.sleep_until(owed_until(unit_id));
+            Turns::Turn turn = co_await turns_.take();
+            if (owed_until(unit_id) <= scheduler_.now()) co_return turn;
         }
-        changed_.notify_all();
     }
-    /// The thread: until stopped.
-    void serve() {
-        {
-            Context context{settings_};
-            while (const auto order = next_order()) {
-                if (!keep_silent(order->request.gap)) break;
-                deliver(order->asker, context.read(order->request));
-            }
+    /// In its turn.
+    Task<Result<ModbusWords>> converse(ModbusRead request) {
+        const auto ready = co_await make_ready(request);
+        if (!ready) {
+            link_.reset();
+            co_return tl::unexpected<Error>(ready.error());
         }
-        const std::lock_guard lock{mutex_};
-        ended_ = true;
-        changed_.notify_all();
-    }
-    /// The loop: nothing is posted any more; waits for the thread at most this long.
-    void stop(Duration patience) {
-        std::unique_lock lock{mutex_};
-        stopping_ = true;
-        changed_.notify_all();
-        changed_.wait_for(lock, patience, [this] { return ended_; });
+        const MonotonicTime asked_at = scheduler_.now();
+        // Before it is asked: whoever asks may be cancelled while it waits.
+        if (is_serial())
+            owed_until_[request.unit_id] = asked_at + std::max(latest_answer, 2 * request.timeout);
+        auto answered = co_await ask(request, asked_at);
+        if (answered_) owed_until_.erase(request.unit_id);
+        silent_ = heard_ ? 0 : silent_ + 1;
+        const bool closed = !answered && answered.error().fault == Fault::link_closed;
+        if (closed || silent_ >= silent_requests) link_.reset();
+        co_return answered;
     }
 
 private:
-    struct Order {
-        ModbusRead request;
-        std::weak_ptr<Pending> asker;
-    };
-    std::optional<Order> next_order() {
-        std::unique_lock lock{mutex_};
-        changed_.wait(lock, [this] { return stopping_ || !orders_.empty(); });
-        if (stopping_) return std::nullopt;
-        Order order = std::move(orders_.front());
-        orders_.pop_front();
-        return order;
+    [[nodiscard]] bool is_serial() const { return settings_.kind == LinkSettings::Kind::serial; }
+    [[nodiscard]] MonotonicTime owed_until(int unit_id) const {
+        const auto owed = owed_until_.find(unit_id);
+        return owed == owed_until_.end() ? MonotonicTime{} : owed->second;
     }
-    /// False when the bus stops meanwhile.
-    bool keep_silent(Duration gap) {
-        std::unique_lock lock{mutex_};
-        return !changed_.wait_for(lock, gap, [this] { return stopping_; });
+    [[nodiscard]] tl::unexpected<Error>
+    failed(Fault fault, int unit_id, const std::string& what) const {
+        return fail(fault, "unit " + std::to_string(unit_id) + " on " + settings_.describe() +
+                               ": " + what);
     }
-    void deliver(const std::weak_ptr<Pending>& asker, Result<ModbusWords> reply) {
-        const std::lock_guard lock{mutex_};
-        if (stopping_) return; // the loop may be gone
-        auto arrive = [asker, reply = std::move(reply)]() mutable {
-            const auto pending = asker.lock();
-            if (!pending) return;
-            pending->reply = std::move(reply);
-            pending->done.cancel();
-        };
-        boost::asio::post(loop_, std::move(arrive));
-    }
+
+    Task<Result<void>> make_ready(const ModbusRead& request);
+    Task<Result<void>> fall_silent(Duration still, Duration patience);
+    Task<Result<ModbusWords>> ask(ModbusRead request, MonotonicTime asked_at);
+    Result<ModbusWords> judged(const ModbusRead& request, ModbusAnswer answer);
 
     const LinkSettings settings_;
-    const boost::asio::any_io_executor loop_;
-    std::mutex mutex_; ///< guards all below
-    std::condition_variable changed_;
-    std::deque<Order> orders_;
-    bool stopping_ = false, ended_ = false;
+    Scheduler& scheduler_;
+    LinkOpener& opener_;
+    Turns turns_;
+    std::unique_ptr<ByteLink> link_;
+    TcpAnswers connection_;
+    std::uint16_t transaction_ = 0;
+    bool heard_ = false;                      ///< a byte since the last request
+    bool answered_ = false;                   ///< by a whole frame, perhaps an exception
+    int silent_ = 0;                          ///< requests without a byte since the last one
+    std::map<int, MonotonicTime> owed_until_; ///< by unit
 };
 
-ModbusBus::ModbusBus(LinkSettings settings, boost::asio::any_io_executor loop)
-    : line_{std::make_shared<Line>(std::move(settings), std::move(loop))} {
-    std::thread{[line = line_] { line->serve(); }}.detach();
+/// An open line on which nobody speaks.
+Task<Result<void>> ModbusBus::Line::make_ready(const ModbusRead& request) {
+    Duration still = request.gap;
+    if (!link_) {
+        auto opened = co_await opener_.open(settings_, scheduler_.now() + opening_patience);
+        if (!opened) co_return tl::unexpected<Error>(opened.error());
+        link_ = *std::move(opened);
+        connection_ = {};
+        silent_ = 0;
+        // Whoever used the line before may have asked and gone.
+        if (is_serial()) still = std::max(still, request.timeout);
+    }
+    if (is_serial()) {
+        auto silent = co_await fall_silent(still, request.timeout);
+        co_return silent;
+    }
+    co_await scheduler_.sleep_for(still);
+    co_return Result<void>{};
 }
 
-ModbusBus::~ModbusBus() {
-    line_->stop(std::chrono::seconds{1});
+/// Reads until nothing has come for as long as `still`.
+Task<Result<void>> ModbusBus::Line::fall_silent(Duration still, Duration patience) {
+    MonotonicTime since = scheduler_.now();
+    const MonotonicTime end = since + still + patience;
+    for (;;) {
+        const auto late = co_await link_->read_some(std::min(since + still, end));
+        if (!late && late.error().fault != Fault::link_timeout)
+            co_return tl::unexpected<Error>(late.error());
+        if (!late && scheduler_.now() >= since + still) co_return Result<void>{};
+        if (late) since = late->read_at;
+        if (scheduler_.now() >= end)
+            co_return fail(Fault::bad_frame,
+                           settings_.describe() +
+                               " is never silent: does another master ask on it?");
+    }
 }
 
-const LinkSettings& ModbusBus::settings() const {
-    return line_->settings();
+Task<Result<ModbusWords>> ModbusBus::Line::ask(ModbusRead request, MonotonicTime asked_at) {
+    const ModbusQuestion question = question_of(request);
+    const MonotonicTime deadline = asked_at + request.timeout;
+    RtuAnswer frame{question};
+    heard_ = answered_ = false;
+    ++transaction_;
+    std::vector<std::byte> bytes =
+        is_serial() ? rtu_request(question) : tcp_request(question, transaction_);
+    const auto written = co_await link_->write_all(std::move(bytes), deadline);
+    if (!written) co_return tl::unexpected<Error>(written.error());
+    for (;;) {
+        const auto some = co_await link_->read_some(deadline);
+        if (!some && some.error().fault == Fault::link_timeout)
+            co_return failed(Fault::link_timeout, request.unit_id, "no answer");
+        if (!some) co_return tl::unexpected<Error>(some.error());
+        heard_ = true;
+        is_serial() ? frame.feed(some->bytes) : connection_.feed(some->bytes);
+        auto answer = is_serial() ? frame.take() : connection_.take(question, transaction_);
+        if (!answer) continue;
+        auto words = judged(request, *std::move(answer));
+        if (words) words->asked_at = asked_at;
+        if (words) words->read_at = some->read_at;
+        co_return words;
+    }
 }
+
+Result<ModbusWords> ModbusBus::Line::judged(const ModbusRead& request, ModbusAnswer answer) {
+    using Kind = ModbusAnswer::Kind;
+    answered_ = answer.kind == Kind::words || answer.kind == Kind::exception;
+    switch (answer.kind) {
+    case Kind::words: return ModbusWords{std::move(answer.words), {}, {}};
+    case Kind::exception:
+        return failed(means_silence(answer.exception) ? Fault::link_timeout : Fault::refused,
+                      request.unit_id, in_words(answer.exception));
+    case Kind::damaged:
+        return failed(Fault::checksum, request.unit_id, "the checksum of its answer is wrong");
+    case Kind::another:
+        return failed(Fault::bad_frame, request.unit_id, "what came is no answer to the request");
+    case Kind::out_of_step: break;
+    }
+    link_.reset();
+    return failed(Fault::bad_frame, request.unit_id, "what came is not Modbus");
+}
+
+ModbusBus::ModbusBus(LinkSettings settings, Scheduler& scheduler, LinkOpener& opener)
+    : line_{std::make_shared<Line>(std::move(settings), scheduler, opener)} {}
+
+ModbusBus::~ModbusBus() = default;
 
 Task<Result<ModbusWords>> ModbusBus::read(ModbusRead request) {
-    const auto pending = std::make_shared<Pending>(line_->loop());
-    line_->ask(request, pending);
-    co_await pending->done.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
-    if (!pending->reply)
-        co_return fail(Fault::link_closed, "given up: " + line_->settings().describe());
-    co_return *std::move(pending->reply);
+    const std::shared_ptr<Line> line = line_;
+    const Turns::Turn turn = co_await line->turn_of(request.unit_id);
+    auto answered = co_await line->converse(request);
+    co_return answered;
 }
 
 Result<ModbusBus*> ModbusBuses::bus(const LinkSettings& settings) {
-    const bool serial = settings.kind == LinkSettings::Kind::serial;
-    auto& line = buses_[serial ? settings.path : settings.describe()];
-    if (!line.bus) {
-        LinkSettings place = settings;
-        if (detour_) {
-            AXISCAL_TRY(place, detour_(settings));
-        }
-        line = {settings.describe(), std::make_unique<ModbusBus>(std::move(place), loop_)};
-    }
-    if (line.asked != settings.describe())
+    const LinkSettings own = by_its_own_name(settings);
+    const bool serial = own.kind == LinkSettings::Kind::serial;
+    auto& line = buses_[serial ? own.path : own.describe()];
+    if (!line.bus)
+        line = {own.describe(), std::make_unique<ModbusBus>(settings, scheduler_, opener_)};
+    if (line.asked != own.describe())
         return fail(Fault::bad_configuration,
                     settings.describe() + ": another instrument uses this line as " + line.asked);
     return line.bus.get();

@@ -1,13 +1,14 @@
 #pragma once
-// One Modbus line (RTU) or connection (TCP) with the thread that owns its libmodbus context.
-// libmodbus contexts are not thread-safe and block, so nothing else ever touches one.
+// One Modbus line (RTU) or connection (TCP) that instruments share: requests take turns, and a
+// value is that of this request or none. Loop-bound.
+//
+// A frame of RTU does not tell which request it answers. So the line is silent before each request,
+// and a unit that did not answer is not asked again while its answer may still come. Frames of TCP
+// bear the number of their transaction: late ones are passed over.
 
 #include "drivers/link/byte_link.hpp"
 
-#include <boost/asio/any_io_executor.hpp>
-
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -25,55 +26,52 @@ struct ModbusRead {
 
 struct ModbusWords {
     std::vector<std::uint16_t> words;
-    MonotonicTime asked_at; ///< taken on the bus thread, right before the request
-    MonotonicTime read_at;  ///< the same, right after the reply
+    MonotonicTime asked_at; ///< right before the request
+    MonotonicTime read_at;  ///< right after the last byte of the reply was read
 };
 
-/// Thread-safe in `read` (called on the loop, served on the bus thread); construction and
-/// destruction belong to the loop. Destruction waits a second for the request in flight; a line
-/// that hangs in the kernel (close(2) of a dead USB adapter: 30 s) is left to its thread.
 class ModbusBus {
 public:
-    ModbusBus(LinkSettings settings, boost::asio::any_io_executor loop);
+    /// A unit on a serial line is not asked again for so long, or twice its time-out, after a
+    /// request that it did not answer.
+    static constexpr Duration latest_answer = std::chrono::seconds{2};
+
+    /// `scheduler` and `opener` are borrowed and must outlive the coroutines that read.
+    ModbusBus(LinkSettings settings, Scheduler& scheduler, LinkOpener& opener);
     ~ModbusBus();
     ModbusBus(const ModbusBus&) = delete;
     ModbusBus& operator=(const ModbusBus&) = delete;
 
     /// Queued behind the requests of the other instruments on this line.
-    /// @errors Fault::link_closed (device or peer gone), link_timeout (no or half a reply),
-    /// checksum (bad CRC), bad_frame (a reply that is none), refused (the instrument answered with
-    /// a Modbus exception).
+    /// @errors Fault::link_closed (device or peer gone), link_timeout (no or half a reply, or a
+    /// gateway that got none from the unit), checksum (bad CRC), bad_frame (a reply that is none,
+    /// or another's), refused (the instrument answered with a Modbus exception).
     Task<Result<ModbusWords>> read(ModbusRead request);
-    [[nodiscard]] const LinkSettings& settings() const;
 
 private:
-    struct Pending;
-    class Context;
     class Line;
-    std::shared_ptr<Line> line_; ///< shared with the thread
+    std::shared_ptr<Line> line_; ///< shared with the coroutines that read
 };
 
-/// All lines of the station: instruments on one line share its bus. Loop-bound.
+/// All lines of the station. A line is one bus, by whichever name it is asked for. Loop-bound.
 class ModbusBuses {
 public:
-    /// Where a line that is asked for is opened in fact (a recorder stands between); itself when
-    /// empty.
-    using Detour = std::function<Result<LinkSettings>(const LinkSettings&)>;
-    explicit ModbusBuses(boost::asio::any_io_executor loop, Detour detour = {})
-        : loop_{std::move(loop)}
-        , detour_{std::move(detour)} {}
+    /// Borrowed, as those of ModbusBus.
+    ModbusBuses(Scheduler& scheduler, LinkOpener& opener)
+        : scheduler_{scheduler}
+        , opener_{opener} {}
     /// @errors Fault::bad_configuration when the line is in use with other settings.
     Result<ModbusBus*> bus(const LinkSettings& settings);
     [[nodiscard]] std::size_t size() const { return buses_.size(); }
 
 private:
-    struct Line {
+    struct Shared {
         std::string asked; ///< its settings in words
         std::unique_ptr<ModbusBus> bus;
     };
-    boost::asio::any_io_executor loop_;
-    Detour detour_;
-    std::map<std::string, Line> buses_;
+    Scheduler& scheduler_;
+    LinkOpener& opener_;
+    std::map<std::string, Shared> buses_;
 };
 
 } // namespace axiscal

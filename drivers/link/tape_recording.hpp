@@ -3,24 +3,20 @@
 // frames, Modbus lines, records of a counter, files of the kernel. Loop-bound.
 
 #include "drivers/link/modbus_bus.hpp"
-#include "drivers/link/near_wire.hpp"
 #include "drivers/link/tape_link.hpp"
 
 #include <iosfwd>
 #include <memory>
 #include <string_view>
-#include <vector>
 
 namespace axiscal {
 
 /// Opens by another opener and writes all that passes to a stream, as the lines of a tape; offset 0
-/// is the first opening. A Modbus library opens its line by itself: it is led over a wire made
-/// here, and what passes on that is recorded. `scheduler`, `inner` and `tape` are borrowed and
-/// must outlive the opener, and it the instrument's coroutines.
+/// is the first opening. `scheduler`, `inner` and `tape` are borrowed and must outlive the opener,
+/// and it the instrument's coroutines.
 class RecordingOpener final : public LinkOpener {
 public:
     RecordingOpener(Scheduler& scheduler, LinkOpener& inner, std::ostream& tape);
-    ~RecordingOpener() override;
     RecordingOpener(const RecordingOpener&) = delete;
     RecordingOpener& operator=(const RecordingOpener&) = delete;
 
@@ -39,16 +35,13 @@ public:
     void end();
 
 private:
-    class Relay;
     MonotonicTime begin();
-    Result<LinkSettings> lead_over_here(const LinkSettings& settings);
 
     Scheduler& scheduler_;
     LinkOpener& inner_;
     std::ostream& tape_;
     std::optional<MonotonicTime> begin_;
     std::string_view wire_;
-    std::vector<std::unique_ptr<Relay>> relays_;
     ModbusBuses buses_;
 };
 

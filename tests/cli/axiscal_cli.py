@@ -762,7 +762,7 @@ class Tapes(Scratch):
         self.assertIn(f'tape = "{tape}"', block)
         self.assertIn("is the tape", self.expect(3, "record", "--config", station, "--instrument", "stick", "--out",
                                                  os.path.join(self.folder, "copy.tape")).stderr)
-        self.assertIn("libmodbus", self.expect(3, "replay", self.paths("modbus-m-7015")[0], "--block", "screw").stderr)
+        self.assertIn("--link", self.expect(3, "replay", self.paths("modbus-m-7015")[0], "--block", "screw").stderr)
 
     def test_a_tape_that_cannot_stand_in_is_refused_with_its_line(self):
         tape, _ = self.paths("temper-x")
@@ -778,7 +778,7 @@ class Tapes(Scratch):
             self.assertIn(word, told.stdout + told.stderr)
         modbus = example_text().replace('driver = "modbus"\n', f'driver = "modbus"\ntape = "{tape}"\n')
         told = self.expect(3, "check-config", self.file("bench.toml", modbus))
-        self.assertIn("libmodbus", told.stdout + told.stderr)
+        self.assertIn("a Modbus line is shared", told.stdout + told.stderr)
 
     def transfers(self, name):
         """(direction, bytes) of a tape."""

@@ -60,7 +60,7 @@ Task<void> run_to_the_end(Instrument& instrument,
     }
 }
 
-/// libmodbus speaks its line itself, on a thread and in real time: no tape can be put under it.
+/// Its line is shared with other instruments: no tape is put under it.
 bool is_modbus(const Tape& tape) {
     const auto driver = tape.header.find("driver");
     return driver != tape.header.end() && driver->second == "modbus";

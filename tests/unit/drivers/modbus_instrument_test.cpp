@@ -1,5 +1,6 @@
 // The Modbus driver against libmodbus as a server (TCP) and against literal bytes (RTU on a pty).
 #include "drivers/asio_scheduler.hpp"
+#include "drivers/link/serial_link.hpp"
 #include "drivers/link/tape_link.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <sys/socket.h>
@@ -402,6 +404,63 @@ TEST(ModbusSensorRtu, TwoInstrumentsShareOneLine) {
     }
     stop = true;
     line.join();
+}
+
+/// /dev/serial/by-id holds links: two masters on one adapter would take each other's answers.
+TEST(ModbusSensorRtu, TwoNamesOfOneAdapterAreOneLine) {
+    testing::ScratchFolder scratch;
+    testing::PtyPair pty;
+    const std::string by_id = scratch.path() + "/usb-FTDI-port0";
+    std::filesystem::create_symlink(pty.path, by_id);
+    Station station;
+    LinkSettings settings;
+    settings.path = pty.path;
+    ModbusBuses& buses = *station.opener.modbus_buses();
+    const auto bus = buses.bus(settings);
+    settings.path = by_id;
+    EXPECT_EQ(buses.bus(settings).value(), bus.value());
+    settings.path = scratch.path() + "/./usb-FTDI-port0";
+    EXPECT_EQ(buses.bus(settings).value(), bus.value());
+    settings.baud = 19200;
+    EXPECT_EQ(buses.bus(settings).error().fault, Fault::bad_configuration);
+}
+
+TEST(ModbusSensorRtu, ItsLineIsHeldAlone) {
+    testing::PtyPair pty;
+    Station station;
+    const auto& sensor =
+        station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path + "\"\n");
+    ASSERT_TRUE(station.until([&] { return sensor.instrument->counters().timeouts >= 1; }));
+    LinkSettings settings;
+    settings.path = pty.path;
+    EXPECT_EQ(open_tty(settings).error().fault, Fault::link_closed);
+}
+
+std::string refusals(const std::string& keys) {
+    std::string told;
+    for (const Refusal& refusal : testing::make_instrument("modbus", keys).refusals)
+        told += refusal.describe() + "\n";
+    return told;
+}
+
+// Modbus over serial line V1.02, 2.2.
+TEST(ModbusStation, AUnitOnASerialLineHas1To247) {
+    const std::string serial = profile_keys("xy-md02") + "link = \"serial:/dev/ttyUSB0\"\n";
+    const std::string tcp = profile_keys("xy-md02") + "link = \"tcp:gateway:502\"\n";
+    for (const int unit : {0, 248, 250, 255}) {
+        const std::string key = "unit_id = " + std::to_string(unit) + "\n";
+        EXPECT_NE(refusals(serial + key).find("unit_id"), std::string::npos) << unit;
+        EXPECT_EQ(refusals(tcp + key), "") << unit;
+    }
+    for (const int unit : {1, 247})
+        EXPECT_EQ(refusals(serial + "unit_id = " + std::to_string(unit) + "\n"), "") << unit;
+}
+
+TEST(ModbusStation, AnOffsetDoesNotMoveARegisterOffTheWire) {
+    const std::string keys =
+        profile_keys("m-7015") + "link = \"serial:/dev/ttyUSB0\"\naddress_offset = "; // from 0
+    EXPECT_NE(refusals(keys + "-1\n").find("address_offset"), std::string::npos);
+    EXPECT_EQ(refusals(keys + "1\n"), "");
 }
 
 TEST(ModbusSensorRtu, ADamagedReplyIsCountedAndGivesNoNumber) {

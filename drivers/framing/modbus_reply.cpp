@@ -1,23 +1,13 @@
-#include "drivers/cnc/modbus_reply.hpp"
+#include "drivers/framing/modbus_reply.hpp"
 
 namespace axiscal {
-namespace {
-
-/// Unit, function and one byte; the longest PDU has 253.
-constexpr std::size_t shortest_length = 3, longest_length = 254;
-constexpr unsigned exception_bit = 0x80;
-
-std::size_t big16(std::span<const std::uint8_t> bytes, std::size_t at) {
-    return static_cast<std::size_t>(bytes[at]) << 8U | bytes[at + 1];
-}
-
-} // namespace
-
 std::optional<std::size_t> modbus_reply_length(std::span<const std::uint8_t> header,
-                                               std::uint16_t transaction) {
-    const bool ours = big16(header, 0) == transaction && big16(header, 2) == 0;
-    const std::size_t length = big16(header, 4);
-    if (!ours || length < shortest_length || length > longest_length) return std::nullopt;
+                                               std::uint16_t transaction,
+                                               std::uint8_t unit) {
+    const bool ours =
+        word_at(header, 0) == transaction && word_at(header, 2) == 0 && header[6] == unit;
+    const std::size_t length = word_at(header, 4);
+    if (!ours || length < shortest_reply || length > longest_reply) return std::nullopt;
     return length - 1;
 }
 
@@ -35,7 +25,7 @@ std::optional<std::vector<std::uint16_t>> registers_of_reply(std::span<const std
     std::vector<std::uint16_t> words;
     words.reserve(static_cast<std::size_t>(count));
     for (std::size_t at = 2; at < pdu.size(); at += 2)
-        words.push_back(static_cast<std::uint16_t>(big16(pdu, at)));
+        words.push_back(static_cast<std::uint16_t>(word_at(pdu, at)));
     return words;
 }
 

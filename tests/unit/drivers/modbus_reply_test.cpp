@@ -1,24 +1,25 @@
 // Literal answers: the examples of the Modbus application protocol V1.1b3, 6.3, and its exceptions.
-#include "drivers/cnc/modbus_reply.hpp"
+#include "drivers/framing/modbus_reply.hpp"
 
 #include <gtest/gtest.h>
 
-namespace axiscal::cnc_modbus_reply_test {
+namespace axiscal::modbus_reply_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
 TEST(ModbusReply, TellsHowMuchFollowsItsHeader) {
     const Bytes header{0x15, 0x01, 0, 0, 0, 0x09, 0xFF};
-    EXPECT_EQ(modbus_reply_length(header, 0x1501), 8U);
-    EXPECT_FALSE(modbus_reply_length(header, 0x1502)); // to a question given up before
-    EXPECT_FALSE(modbus_reply_length(Bytes{0x15, 0x01, 0, 1, 0, 0x09, 0xFF}, 0x1501));
+    EXPECT_EQ(modbus_reply_length(header, 0x1501, 0xFF), 8U);
+    EXPECT_FALSE(modbus_reply_length(header, 0x1502, 0xFF)); // to a question given up before
+    EXPECT_FALSE(modbus_reply_length(header, 0x1501, 1));    // 3.1.3: the unit is given back
+    EXPECT_FALSE(modbus_reply_length(Bytes{0x15, 0x01, 0, 1, 0, 0x09, 0xFF}, 0x1501, 0xFF));
     for (const auto& [high, low] : {std::pair{0, 0}, std::pair{0, 2}, std::pair{0, 255},
                                     std::pair{1, 0}, std::pair{255, 255}}) {
         const Bytes wrong{
             0x15, 0x01, 0, 0, static_cast<std::uint8_t>(high), static_cast<std::uint8_t>(low),
             0xFF};
-        EXPECT_FALSE(modbus_reply_length(wrong, 0x1501)) << high << " " << low;
+        EXPECT_FALSE(modbus_reply_length(wrong, 0x1501, 0xFF)) << high << " " << low;
     }
 }
 
@@ -40,4 +41,4 @@ TEST(ModbusReply, TellsAnExceptionFromWhatIsNoAnswer) {
 }
 
 } // namespace
-} // namespace axiscal::cnc_modbus_reply_test
+} // namespace axiscal::modbus_reply_test
