@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 namespace axiscal {
 namespace {
 
-/// After so many requests without a byte a line is opened anew: ftdi_sio stops reading for good at
-/// a STALL, until its next opening. A TCP peer that lost its power never says so.
-constexpr int silent_requests = 3;
 constexpr Duration opening_patience = std::chrono::seconds{5};
 
 ModbusQuestion question_of(const ModbusRead& request) {
@@ -82,9 +80,8 @@ public:
             owed_until_[request.unit_id] = asked_at + std::max(latest_answer, 2 * request.timeout);
         auto answered = co_await ask(request, asked_at);
         if (answered_) owed_until_.erase(request.unit_id);
-        silent_ = heard_ ? 0 : silent_ + 1;
         const bool closed = !answered && answered.error().fault == Fault::link_closed;
-        if (closed || silent_ >= silent_requests) link_.reset();
+        if (closed || all_are_silent(request.unit_id)) link_.reset();
         co_return answered;
     }
 
@@ -100,6 +97,18 @@ private:
                                ": " + what);
     }
 
+    /// ftdi_sio stops reading for good at a STALL, until its next opening, and a TCP peer that lost
+    /// its power never says so: a line is opened anew where each of its units was asked in vain
+    /// since a byte came.
+    bool all_are_silent(int unit_id) {
+        units_.insert(unit_id);
+        if (heard_)
+            silent_.clear();
+        else
+            silent_.insert(unit_id);
+        return silent_.size() == units_.size();
+    }
+
     Task<Result<void>> make_ready(const ModbusRead& request);
     Task<Result<void>> fall_silent(Duration still, Duration patience);
     Task<Result<ModbusWords>> ask(ModbusRead request, MonotonicTime asked_at);
@@ -112,9 +121,10 @@ private:
     std::unique_ptr<ByteLink> link_;
     TcpAnswers connection_;
     std::uint16_t transaction_ = 0;
-    bool heard_ = false;                      ///< a byte since the last request
-    bool answered_ = false;                   ///< by a whole frame, perhaps an exception
-    int silent_ = 0;                          ///< requests without a byte since the last one
+    bool heard_ = false;    ///< a byte since the last request
+    bool answered_ = false; ///< by a whole frame, perhaps an exception
+    bool was_open_ = false;
+    std::set<int> units_, silent_; ///< all that were asked; those asked in vain since a byte came
     std::map<int, MonotonicTime> owed_until_; ///< by unit
 };
 
@@ -126,9 +136,10 @@ Task<Result<void>> ModbusBus::Line::make_ready(const ModbusRead& request) {
         if (!opened) co_return tl::unexpected<Error>(opened.error());
         link_ = *std::move(opened);
         connection_ = {};
-        silent_ = 0;
-        // Whoever used the line before may have asked and gone.
-        if (is_serial()) still = std::max(still, request.timeout);
+        silent_.clear();
+        // Whoever used the line before this station may have asked and gone.
+        if (is_serial() && !std::exchange(was_open_, true))
+            still = std::max(still, request.timeout);
     }
     if (is_serial()) {
         auto silent = co_await fall_silent(still, request.timeout);

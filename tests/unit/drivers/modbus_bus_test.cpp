@@ -152,11 +152,18 @@ TEST(ModbusBus, AGatewaysExceptionIsTheSilenceOfItsUnitAlone) {
     EXPECT_EQ(bench.wire.openings, 1);
 }
 
-TEST(ModbusBus, ALineThatFellSilentIsOpenedAnew) {
-    Bench bench{connection()};
+TEST(ModbusBus, ALineOnWhichAllAreSilentIsOpenedAnew) {
+    Bench bench{serial_line()};
+    bench.wire.slave = [&](const Bytes& request, MonotonicTime at) {
+        if (request[0] == 1) bench.wire.send(at + 20ms, answer_of(1, 231));
+    };
+    for (int round = 0; round < 5; ++round)
+        for (const int unit : {1, 2})
+            (void)bench.read(one_register(unit, 0));
+    EXPECT_EQ(bench.wire.openings, 1); // one is dead, the other one alive
     bench.wire.slave = [](const Bytes&, MonotonicTime) {};
-    for (int i = 0; i < 6; ++i)
-        EXPECT_FALSE(bench.read(one_register(1, 0)));
+    for (const int unit : {1, 2, 1})
+        EXPECT_FALSE(bench.read(one_register(unit, 0)));
     EXPECT_EQ(bench.wire.openings, 2);
 }
 
