@@ -38,6 +38,10 @@ Result<void> check_wavelength(AirModel model, double nanometres) {
     for (const double pole : poles_of(model))
         if (std::fabs(inverse_square_um / pole - 1) < 0.02)
             return impossible("vacuum_wavelength_nm", "lies in a resonance of the formula");
+    if (inverse_square_um > poles_of(model).back())
+        return impossible(
+            "vacuum_wavelength_nm",
+            "is shorter than a resonance of the formula (a helium-neon laser has 632.99)");
     return {};
 }
 

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace axiscal {
 namespace {
@@ -96,20 +97,36 @@ public:
         : x_{x}
         , y_{y}
         , extent_{extent}
+        , start_radius_{start.radius}
         , center_{start.x, start.y, 0} {}
 
     Result<PlainCircle> fit() {
         const WidestGap gap = widest_gap(x_, y_, center_.x, center_.y);
-        if (gap.angle_rad >= std::numbers::pi) return not_surrounded();
+        const bool open = gap.angle_rad >= std::numbers::pi;
+        if (open && is_arc()) return not_surrounded();
         set_ = nearest_of_sectors(x_, y_, center_.x, center_.y);
         set_.insert(set_.end(), {gap.before, gap.after});
         center_.radius = nearest_to(center_);
-        if (!climb()) return not_surrounded();
-        climb_elsewhere();
+        const bool surrounded = !open && climb();
+        if (!climb_elsewhere(surrounded ? center_.radius : 0) && !surrounded)
+            return not_surrounded();
         return center_;
     }
 
 private:
+    static constexpr std::size_t few = 40;
+
+    /// Points that lie near the circle of least squares, and not scattered about. Of few points
+    /// every circle is tried: there is nothing to be guessed.
+    [[nodiscard]] bool is_arc() const {
+        constexpr double near = 0.05;
+        if (x_.size() <= few) return false;
+        double squares = 0;
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            squares += std::pow(distance(center_, i) / start_radius_ - 1, 2);
+        return squares < near * near * static_cast<double>(x_.size());
+    }
+
     /// To the largest circle next to this centre. False: the points surround it no longer.
     bool climb() {
         constexpr int most_rounds = 500; // about six are needed
@@ -129,20 +146,31 @@ private:
         return true;
     }
 
-    /// There may be larger circles than the one next to the start: of all circles on three of the
-    /// points nearest to the centre, one in each direction, the largest empty one is tried.
-    void climb_elsewhere() {
+    /// There may be larger circles than `radius`, next to the start or, where the points lie
+    /// scattered, anywhere: of all circles on three of the points nearest to the centre, one in
+    /// each direction, or of all points where they are few, the largest empty one is tried.
+    bool climb_elsewhere(double radius) {
         std::vector<double> x, y;
-        for (const std::size_t i : nearest_of_sectors(x_, y_, center_.x, center_.y)) {
-            x.push_back(x_[i] - center_.x);
-            y.push_back(y_[i] - center_.y);
+        std::vector<std::size_t> tried(x_.size());
+        std::iota(tried.begin(), tried.end(), std::size_t{0});
+        if (x_.size() <= few)
+            set_ = tried;
+        else
+            tried = nearest_of_sectors(x_, y_, center_.x, center_.y);
+        // The centre of least squares may lie far away from points that are nearly in line.
+        const double origin_x = x_[tried.front()], origin_y = y_[tried.front()];
+        for (const std::size_t i : tried) {
+            x.push_back(x_[i] - origin_x);
+            y.push_back(y_[i] - origin_y);
         }
         const PlainCircle found = center_;
-        const auto other = largest_empty_circle(x, y, found.radius);
-        if (!other) return;
-        center_ = {found.x + other->x, found.y + other->y, 0};
+        const auto other = largest_empty_circle(x, y, radius);
+        if (!other) return false;
+        center_ = {origin_x + other->x, origin_y + other->y, 0};
         center_.radius = nearest_to(center_);
-        if (!climb() || center_.radius < found.radius) center_ = found;
+        const bool larger = climb() && center_.radius >= radius;
+        if (!larger) center_ = found;
+        return larger;
     }
 
     static tl::unexpected<Error> not_surrounded() {
@@ -177,7 +205,7 @@ private:
     }
 
     Values x_, y_;
-    double extent_;
+    double extent_, start_radius_;
     PlainCircle center_;
     std::vector<std::size_t> set_;
 };

@@ -258,6 +258,55 @@ TEST(CircleLaws, CircumscribedIsTheSmallestOfAllThatHoldThePoints) {
     }
 }
 
+/// Circles through three points that surround their centre and with none inside; n^3 / 6 of them.
+double largest_empty(const Points& points) {
+    const auto& [x, y] = points;
+    double best = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            for (std::size_t k = 0; k < j; ++k) {
+                const double bx = x[j] - x[i], by = y[j] - y[i], cx = x[k] - x[i], cy = y[k] - y[i];
+                const double d = 2 * (bx * cy - by * cx), b = bx * bx + by * by,
+                             c = cx * cx + cy * cy, a = std::pow(bx - cx, 2) + std::pow(by - cy, 2);
+                if (d == 0 || std::max({a, b, c}) >= a + b + c - std::max({a, b, c})) continue;
+                const double ux = (cy * b - by * c) / d, uy = (bx * c - cx * b) / d;
+                const double radius = std::hypot(ux, uy);
+                const Range range = distances(points, x[i] + ux, y[i] + uy);
+                if (range.low >= radius * (1 - 1e-12)) best = std::max(best, radius);
+            }
+    return best;
+}
+
+// Public report: (0.974, -6.816) touches three points that surround it, and holds none.
+TEST(CircleFit, InscribedOfScatteredPointsIsFoundWhereItLies) {
+    const auto inside = fit_maximum_inscribed_circle(std::vector<double>{0, 8, 5, -6},
+                                                     std::vector<double>{9, -6, -1, -8});
+    ASSERT_TRUE(inside);
+    EXPECT_NEAR(inside->radius, 7.0735158, 5e-8);
+    EXPECT_NEAR(inside->x, 0.974, 5e-4);
+    EXPECT_NEAR(inside->y, -6.816, 5e-4);
+}
+
+TEST(CircleLaws, InscribedIsTheLargestOfAllThatHoldNoPoint) {
+    std::mt19937_64 random{46};
+    int found = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        Points points;
+        for (int i = 0; i < 4 + trial % 9; ++i) { // a cloud
+            points.x.push_back(uniform(random, -20, 20));
+            points.y.push_back(uniform(random, -20, 20));
+        }
+        const auto inside = fit_maximum_inscribed_circle(points.x, points.y);
+        const double largest = largest_empty(points);
+        if (!fit_least_squares_circle(points.x, points.y)) continue; // a line fits them best
+        EXPECT_EQ(inside.has_value(), largest > 0) << trial;
+        if (!inside) continue;
+        ++found;
+        EXPECT_NEAR(inside->radius, largest, 1e-9 * largest) << trial;
+    }
+    EXPECT_GT(found, 1700);
+}
+
 TEST(CircleLaws, APointJustAsideOfADiameterStillLiesInTheCircumscribedCircle) {
     for (const double aside :
          {1e-6, 1e-9, 1e-12}) { // the radius grows by its square: not in a double

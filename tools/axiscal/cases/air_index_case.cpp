@@ -53,6 +53,19 @@ Result<AirConditions> conditions_of(const json& object) {
     return air;
 }
 
+/// Pa and degrees Celsius are asked for; weather stations tell hPa or mmHg, formulas kelvins.
+Result<void> check_units(const AirConditions& air) {
+    constexpr double highest_mistaken_Pa = 1200, lowest_kelvin = 250, highest_kelvin = 350;
+    if (air.pressure_Pa > 0.5 && air.pressure_Pa <= highest_mistaken_Pa)
+        return refuse(Fault::bad_case, "pressure_Pa",
+                      "is no pressure of air in Pa: 1013.25 hPa (mbar), 101.325 kPa and 760 mmHg "
+                      "are 101325 Pa");
+    if (air.temperature_degC >= lowest_kelvin && air.temperature_degC <= highest_kelvin)
+        return refuse(Fault::bad_case, "temperature_degC",
+                      "looks like kelvins: 293.15 K are 20 degC");
+    return {};
+}
+
 ordered_json validity_json(AirModel model) {
     ordered_json object;
     for (const AirRange& range : validity_of(model))
@@ -69,6 +82,7 @@ Result<ordered_json> air_index_case(const json& object) {
                                 "co2_ppm", "saturation"}));
     AXISCAL_TRY(const NamedModel named, air_model_of(object));
     AXISCAL_TRY(const AirConditions air, conditions_of(object));
+    AXISCAL_CHECK(check_units(air));
     AXISCAL_TRY(const AirIndex index, air_index_of(named.model, air));
     ordered_json answer;
     answer["format"] = "axiscal.result/1";

@@ -1,6 +1,7 @@
 #include "acquisition/publish/circular_json.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/circular_input.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 
 namespace axiscal {
 
@@ -15,7 +16,9 @@ Result<nlohmann::ordered_json> circular_case(const nlohmann::json& object) {
         AXISCAL_TRY(budget, circular_budget(test, input.f_centre, input.bar,
                                             input.uncertainty->stated, input.uncertainty->trials));
     }
-    return circular_to_json({test, input.axes, parameters, diagnosis, budget});
+    auto document = circular_to_json({test, input.axes, parameters, diagnosis, budget});
+    add_remarks(circular_remarks(test), document);
+    return document;
 }
 
 } // namespace axiscal

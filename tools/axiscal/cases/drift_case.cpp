@@ -3,6 +3,7 @@
 #include "analysis/drift/settling.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -225,6 +226,19 @@ add_tilts(const json& object, const DriftCase& stated, double unit_mm, ordered_j
     return {};
 }
 
+/// A range "within any window" of a record that has no whole one is that of the record.
+std::vector<std::string> short_records(const DriftCase& stated) {
+    std::vector<std::string> remarks;
+    for (const Channel& channel : stated.channels) {
+        const double length_min = channel.series.times.back() - channel.series.times.front();
+        if (length_min < stated.window_min)
+            remarks.push_back("the record of " + channel.name + " lasts " + six_digits(length_min) +
+                              " min, less than the window of " + six_digits(stated.window_min) +
+                              " min: its range is that of the record");
+    }
+    return remarks;
+}
+
 } // namespace
 
 Result<ordered_json> drift_case(const json& object) {
@@ -251,6 +265,7 @@ Result<ordered_json> drift_case(const json& object) {
     }
     const double unit_mm = unit == "mm" ? 1 : unit == "um" ? 1e-3 : 1e-6;
     AXISCAL_CHECK(add_tilts(object, stated, unit_mm, answer));
+    add_remarks(short_records(stated), answer);
     for (std::size_t i = 0; i < stated.temperatures.size(); ++i) {
         AXISCAL_TRY(auto figures,
                     temperature_json(object.at("temperatures")[i], indexed("temperatures", i),

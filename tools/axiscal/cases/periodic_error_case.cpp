@@ -1,6 +1,7 @@
 #include "analysis/positioning/periodic_error.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 
 #include <cmath>
 
@@ -104,7 +105,11 @@ ordered_json answer(const PeriodicCase& stated, const PeriodicError& result) {
 Result<ordered_json> periodic_error_case(const json& object) {
     AXISCAL_TRY(const PeriodicCase stated, read_case(object));
     AXISCAL_TRY(const PeriodicError result, fit_periodic_error(stated.question));
-    return answer(stated, result);
+    ordered_json document = answer(stated, result);
+    if (!object.contains("position_unit"))
+        add_remarks(unit_remarks(stated.question.positions, stated.unit, "position_unit"),
+                    document);
+    return document;
 }
 
 } // namespace axiscal

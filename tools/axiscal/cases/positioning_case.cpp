@@ -3,6 +3,7 @@
 #include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 #include "tools/axiscal/cases/positioning_input.hpp"
 #include "tools/axiscal/cases/positioning_words.hpp"
 #include "tools/axiscal/cases/reference_angles_member.hpp"
@@ -95,6 +96,7 @@ Result<ordered_json> positioning_case(const json& object) {
     add_artefact(object, document);
     AXISCAL_TRY(const TargetFinding finding, add_target_rule(object, input, document));
     AXISCAL_CHECK(add_limits(object, input, finding.travel, document));
+    add_remarks(positioning_remarks(object, input), document);
     return document;
 }
 

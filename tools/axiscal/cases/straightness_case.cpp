@@ -2,6 +2,7 @@
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/line_reader.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 
 #include <utility>
 
@@ -95,6 +96,8 @@ Result<ordered_json> straightness_case(const json& object) {
     answer["line"] = line.line.deviations;
     if (line.repetition && line.repetition->parameters.B)
         answer["B"] = *line.repetition->parameters.B;
+    if (!object.contains("target_unit"))
+        add_remarks(unit_remarks(line.line.positions, units.deviation, "target_unit"), answer);
     return answer;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
+#include "tools/axiscal/cases/plausibility.hpp"
 #include "tools/axiscal/cases/target_rule_member.hpp"
 
 #include <cmath>
@@ -88,6 +89,7 @@ Result<ordered_json> target_rule_case(const json& object) {
     document["analysis"] = "target_rule";
     document["clause"] = "ISO 230-2:2014, 4.3";
     document["target_rule"] = target_rule_json(question, finding);
+    add_remarks(unit_remarks(targets, axis.unit, "unit"), document);
     return document;
 }
 

@@ -66,13 +66,16 @@ Result<void> check_units(const json& member, AxisKind kind) {
     return {};
 }
 
-Result<int> budget_approaches_of(const json& member) {
+/// It may be stated; the rows decide, and positioning_remarks() tells where they say something
+/// else.
+Result<void> check_approaches(const json& member) {
     constexpr double most = 1e6;
+    if (!member.contains("n")) return {};
     const std::string field = field_prefix + "n";
     AXISCAL_TRY(const double n, number_at(member, "n", field));
     if (n < 1 || n > most || n != std::floor(n))
         return refuse(Fault::bad_case, field, "must be a whole number from 1 to 1e6");
-    return static_cast<int>(n);
+    return {};
 }
 
 Result<std::map<std::string, double>> targets_of(const json& member) {
@@ -114,9 +117,7 @@ Result<UncertaintyMember> uncertainty_member(const json& member, AxisKind kind) 
             AXISCAL_TRY(const double value, number_at(member, key, field_prefix + key));
             *place = value * factor;
         }
-    if (member.contains("n")) {
-        AXISCAL_TRY(out.approaches, budget_approaches_of(member));
-    }
+    AXISCAL_CHECK(check_approaches(member));
     if (member.contains("eve_model")) {
         AXISCAL_TRY(const std::string model, one_of(member, "eve_model", field_prefix + "eve_model",
                                                     {"mean", "difference"}));
@@ -136,7 +137,7 @@ Result<void> add_uncertainty(ordered_json& document,
                              const RunAt20C& run,
                              const PositioningResult& result) {
     default_length(member.statement, run);
-    auto budget = make_budget(member.statement, member.approaches.value_or(result.approaches),
+    auto budget = make_budget(member.statement, result.approaches,
                               static_cast<int>(run.targets().size()), result.cover_factor);
     if (!budget)
         return refuse(Fault::bad_case, field_prefix + budget.error().field, budget.error().detail);

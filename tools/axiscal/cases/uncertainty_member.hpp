@@ -15,7 +15,6 @@ namespace axiscal {
 
 struct UncertaintyMember {
     UncertaintyStatement statement;
-    std::optional<int> approaches;                    ///< "n"; absent: that of the readings
     std::map<std::string, double> target_uncertainty; ///< U_T by parameter, in the case's unit
     MonteCarloMember monte_carlo;
 };

@@ -63,7 +63,7 @@ def variance_of_sum(weights, u):
 
 
 def variances(case, m, terms):
-    n = int(m.get("n", len(case["forward"][0])))
+    n = len(case["forward"][0])
     targets = len(case["targets"])
     k = 3 if case["standard"].endswith("1988") else 2
     u = terms.get("environment", D(0))
