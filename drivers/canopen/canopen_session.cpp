@@ -1,5 +1,5 @@
-// Source: CiA 301 V4.2: 7.3.2 (states), 7.5.2.1 (0x1000), .19 (0x1017), .20 (0x1018), .37 and .38
-// (0x1800, 0x1A00).
+// Source: CiA 301 V4.2: 7.3.2 (states), 7.5.2.1 (0x1000), .2 (0x1001), .19 (0x1017), .20 (0x1018),
+// .37 and .38 (0x1800, 0x1A00).
 #include "drivers/canopen/canopen_session.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ constexpr std::uint32_t most_entries = 64; ///< of a mapping: single bits
 constexpr std::uint32_t longest_id = 0x7FF;
 
 constexpr ObjectKey device_type_key{0x1000, 0}, device_name_key{0x1008, 0}, software_key{0x100A, 0},
-    heartbeat_key{0x1017, 0};
+    heartbeat_key{0x1017, 0}, error_register_key{0x1001, 0};
 constexpr std::uint16_t identity_index = 0x1018, pdo_index = 0x1800, mapping_index = 0x1A00;
 
 ObjectKey key_of(std::uint16_t base, int number, int sub) {
@@ -178,6 +178,17 @@ Task<Result<void>> CanOpenSession::guard() {
     co_return sent;
 }
 
+/// What the node told before nobody heard.
+Task<Result<void>> CanOpenSession::read_error_register() {
+    AXISCAL_CO_TRY(const std::uint32_t errors, co_await number_or(error_register_key, 0));
+    in_error_ = tells_a_fault(errors & 0xFFU);
+    if (in_error_)
+        context_.sink->note(Fault::signal_error, node_->name() +
+                                                     " tells of a fault in its error register, " +
+                                                     hexadecimal(errors & 0xFFU));
+    co_return Result<void>{};
+}
+
 Task<Result<void>> CanOpenSession::start(std::vector<std::size_t> used) {
     used_ = std::move(used);
     const auto n = static_cast<std::uint32_t>(setup_.node);
@@ -189,6 +200,8 @@ Task<Result<void>> CanOpenSession::start(std::vector<std::size_t> used) {
     }
     const auto asked = co_await ask_for_heartbeat();
     if (!asked) co_return asked;
+    const auto errors = co_await read_error_register();
+    if (!errors) co_return errors;
     if (const auto heard = link_->hear(ids); !heard) co_return heard;
     last_beat_ = last_pdo_ = context_.scheduler->now();
     auto started = co_await node_->command(NmtCommand::start);
@@ -210,14 +223,18 @@ void CanOpenSession::take_emergency(const Emergency& emergency) {
     in_error_ = !emergency.is_over();
     if (in_error_)
         context_.sink->note(Fault::signal_error,
-                            node_->name() + " tells of a fault: " + emergency.describe());
+                            node_->name() +
+                                (emergency.code >> 8U == 0
+                                     ? " tells that a fault is over and another lasts: "
+                                     : " tells of a fault: ") +
+                                emergency.describe());
 }
 
 void CanOpenSession::take_short_frame() {
     ++counters_.bad_frames;
-    context_.sink->note(Fault::bad_frame,
-                        node_->name() + " sends PDOs that are shorter than its mapping says: "
-                                        "switch it off and on, and look at its mapping");
+    context_.sink->note(Fault::bad_frame, node_->name() +
+                                              " sends PDOs that are shorter than its mapping says: "
+                                              "switch it off and on, and look at its mapping");
 }
 
 Result<void> CanOpenSession::take(const TimedCanFrame& timed, std::vector<PdoArrival>& arrived) {

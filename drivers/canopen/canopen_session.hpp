@@ -59,6 +59,7 @@ private:
     Task<Result<void>> read_layout(int number);
     Task<Result<void>> set_up(const PdoLayout& layout);
     Task<Result<void>> ask_for_heartbeat();
+    Task<Result<void>> read_error_register();
     Task<Result<void>> guard();
     [[nodiscard]] MonotonicTime silent_from() const;
     Task<Result<std::vector<TimedCanFrame>>> read_on();

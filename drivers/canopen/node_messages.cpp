@@ -70,9 +70,11 @@ std::string_view name_of(NodeState state) {
 }
 
 std::optional<Emergency> decode_emergency(const CanFrame& frame, int node) {
-    const bool is_one = frame.is_plain() && frame.length == 8 &&
-                        frame.id == emergency_base + static_cast<std::uint32_t>(node);
+    const bool is_one =
+        frame.is_plain() && frame.id == emergency_base + static_cast<std::uint32_t>(node);
     if (!is_one) return std::nullopt;
+    constexpr std::uint16_t generic = 0x1000;
+    if (frame.length < 8) return Emergency{generic, 1, {}};
     Emergency emergency;
     emergency.code = static_cast<std::uint16_t>(little16(frame.bytes(), 0));
     emergency.error_register = static_cast<std::uint8_t>(byte_at(frame.bytes(), 2));

@@ -118,8 +118,8 @@ void CanOpen404::take(const PdoArrival& arrival, SampleSink& sink) {
             session_.take_short_frame();
             continue; // it says nothing about the sensor: the last value only grows old
         }
-        // Without a status of its own only the device's emergency tells of a fault.
-        if (!input.has_status && arrival.in_error) reading.celsius.reset();
+        // Also where the input has a status: that knows of its sensor, not of the device.
+        if (arrival.in_error) reading.celsius.reset();
         ++counters_.samples;
         const int channel = static_cast<int>(at);
         Sample sample = reading.celsius ? Sample{channel, arrival.at, *reading.celsius}

@@ -8,7 +8,9 @@
 //
 // [requests] reports of 8 bytes without number, on the last HID interface of the stick (the first
 //            is a keyboard). 01 86 ff 01 ...: firmware, 2 or 3 reports of ASCII. 01 80 33 01 ...:
-//            values, one report, a second one with a probe; bytes 0-1 are a head that varies.
+//            values, one report, a second one with a probe, in either order. They begin with
+//            80; the second byte is 01 of a probe's report, 40 or 80 of the stick's, and varies
+//            where there is one report alone.
 //            An answer has ended after 100 ms of silence, or when the second report did not come.
 
 #include "drivers/environment/environment_temper.hpp"
@@ -138,6 +140,7 @@ Task<Result<TemperFamily>> Temper::identify(ByteLink& link, InstrumentContext co
 /// Only what the firmware knows is handed up; what it knows and does not send is absent.
 void Temper::hand_up(const TimedBytes& reply, const TemperFamily& family, SampleSink& sink) {
     const TemperReading reading = decode_temper_reading(reply.bytes, family);
+    counters_.bad_frames += static_cast<std::uint64_t>(reading.bad_reports);
     const PlacedTime placed = placed_between(asked_at_, reply.read_at);
     const auto take = [&](int channel, int offset, const std::optional<double>& value) {
         if (offset < 0) return;

@@ -3,6 +3,7 @@
 #include "drivers/framing/byte_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdio>
 
@@ -68,6 +69,47 @@ humidity(std::span<const std::byte> reply, int offset, const TemperFamily& famil
     return within(value, 0, 100);
 }
 
+constexpr std::size_t report_length = 8;
+
+/// Which report of its answer this is; empty for a head that no value has, as of text.
+std::optional<std::size_t> place_of(std::span<const std::byte> report, bool sends_two) {
+    if (byte_at(report, 0) != 0x80) return std::nullopt;
+    if (!sends_two) return 0;
+    switch (byte_at(report, 1)) {
+    case 0x40:
+    case 0x80: return 0; // of the stick
+    case 0x01: return 1; // of the probe
+    default: return std::nullopt;
+    }
+}
+
+/// The reports by their heads; one that did not come says that its sensors are absent.
+struct Ordered {
+    std::array<std::byte, 2 * report_length> bytes{};
+    int bad_reports = 0;
+};
+
+Ordered in_order(std::span<const std::byte> reply, bool sends_two) {
+    Ordered out;
+    for (std::size_t at = 0; at < out.bytes.size(); at += 2) {
+        out.bytes[at] = static_cast<std::byte>(sensor_absent >> 8U);
+        out.bytes[at + 1] = static_cast<std::byte>(sensor_absent & 0xFFU);
+    }
+    std::array<bool, 2> came{};
+    for (; reply.size() >= report_length; reply = reply.subspan(report_length)) {
+        const auto report = reply.first(report_length);
+        const auto place = place_of(report, sends_two);
+        if (!place || came[*place]) {
+            ++out.bad_reports;
+            continue;
+        }
+        came[*place] = true;
+        std::ranges::copy(report,
+                          out.bytes.begin() + static_cast<std::ptrdiff_t>(*place * report_length));
+    }
+    return out;
+}
+
 } // namespace
 
 std::string temper_firmware(std::span<const std::byte> reply) {
@@ -98,10 +140,14 @@ Result<TemperFamily> temper_family(std::string_view firmware) {
 }
 
 TemperReading decode_temper_reading(std::span<const std::byte> reply, const TemperFamily& family) {
-    return {temperature(reply, family.stick_temperature, family),
-            temperature(reply, family.probe_temperature, family),
-            humidity(reply, family.stick_humidity, family),
-            humidity(reply, family.probe_humidity, family)};
+    const bool sends_two = std::max(family.probe_temperature, family.probe_humidity) >=
+                           static_cast<int>(report_length);
+    const Ordered ordered = in_order(reply, sends_two);
+    const std::span<const std::byte> bytes{ordered.bytes};
+    return {temperature(bytes, family.stick_temperature, family),
+            temperature(bytes, family.probe_temperature, family),
+            humidity(bytes, family.stick_humidity, family),
+            humidity(bytes, family.probe_humidity, family), ordered.bad_reports};
 }
 
 } // namespace axiscal

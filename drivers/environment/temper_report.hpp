@@ -33,7 +33,10 @@ Result<TemperFamily> temper_family(std::string_view firmware);
 /// impossible.
 struct TemperReading {
     std::optional<double> stick_temperature, probe_temperature, stick_humidity, probe_humidity;
+    int bad_reports = 0; ///< with another head, or twice: left out
 };
+/// `reply` holds reports of 8 bytes in the order in which they came; where a firmware sends two,
+/// the head tells the stick's from the probe's.
 TemperReading decode_temper_reading(std::span<const std::byte> reply, const TemperFamily& family);
 
 } // namespace axiscal

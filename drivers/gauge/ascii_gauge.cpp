@@ -8,8 +8,7 @@
 //   mitutoyo  Mitutoyo, QM-Height user's manual, 6.2.2 (output format). The request "1" and the
 //             error codes 91n are common knowledge and not in it.
 //   sylvac    Sylvac and Bowers, manuals of the opto RS duplex interface (commands ?, SET?, MM,
-//   IN).
-//             The frame 7E2 is common knowledge and not in them.
+//   IN), and the settings 4800 baud, 7 bits, even, 2 stop bits (page 12).
 //   elcomat-* Two open programs that agree on line, request and answer of the ELCOMAT 3000:
 //             dls-controls/elcomat3000 (elcomat3000.cpp and stexample.src at 2ef0b5187a0c, and the
 //             bytes of etc/simulations/elcomat3000.py at 7079e644fad5), lnls-ima/ima-utils
@@ -41,12 +40,16 @@ constexpr std::size_t longest_line = 64;
 constexpr Duration link_patience = std::chrono::seconds{2};
 /// So many requests in a row without an answer, and the line is opened anew.
 constexpr int silent_requests = 10;
+/// A unit key or a mode key may be pressed at any time: so often the gauge is asked for its
+/// settings.
+constexpr Duration settings_period = std::chrono::seconds{1};
 
 struct GaugeSetup {
     const GaugeModel* model = nullptr;
     LinkSettings link;
     std::optional<GaugeUnit> unit; ///< as stated; empty: the gauge tells
     int sign = 1, input = 1;
+    std::optional<int> decimals; ///< as stated
     Duration poll_period{};
 };
 
@@ -81,6 +84,8 @@ private:
     void take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink);
     void take_answer(const GaugeAnswer& answer, MonotonicTime at, SampleSink& sink);
     void take_error(const Error& error, MonotonicTime at, SampleSink& sink);
+    void take_settings(std::string_view line, GaugeUnit unit);
+    [[nodiscard]] std::string why_no_length(const GaugeAnswer& answer, GaugeUnit unit) const;
     void tell_identity(SampleSink& sink);
     [[nodiscard]] Duration uncertainty_at(MonotonicTime at);
     void learn_unit(GaugeUnit unit);
@@ -93,6 +98,8 @@ private:
     InstrumentCounters counters_;
     OpenRequests requests_;
     std::optional<GaugeUnit> told_unit_; ///< by the gauge, on this connection
+    std::string held_;                   ///< the extreme that it holds, as it says; empty: none
+    MonotonicTime settings_told_at_{};
     std::optional<Error> contradiction_;
     bool answered_ = false, identified_ = false;
     bool counted_before_ = false; ///< a value was handed up on an earlier connection
@@ -115,6 +122,27 @@ void AsciiGauge::learn_unit(GaugeUnit unit) {
                                "key or correct `unit`"};
 }
 
+void AsciiGauge::take_settings(std::string_view line, GaugeUnit unit) {
+    ++counters_.frames;
+    held_ = held_in_settings(line);
+    learn_unit(unit);
+}
+
+/// Why a number that came is not what the gauge measures, in this unit; empty: it is.
+std::string AsciiGauge::why_no_length(const GaugeAnswer& answer, GaugeUnit unit) const {
+    if (!held_.empty())
+        return "the gauge holds an extreme (" + held_ + ") and not its value: press its mode key";
+    const bool fits =
+        setup_.decimals ? answer.decimals == *setup_.decimals
+                        : !setup_.model->decimals_tell_unit || decimals_fit(answer.decimals, unit);
+    if (fits) return "";
+    const std::string read_in = unit == GaugeUnit::inches ? "inches" : "mm";
+    return "the gauge sends " + std::to_string(answer.decimals) + " decimals and is read in " +
+           read_in +
+           ": was its unit key pressed? One that always shows so many needs `decimals = " +
+           std::to_string(answer.decimals) + "`";
+}
+
 /// u(t) of a value at `at`: what its line on the wire leaves open, or more where it is the answer
 /// of a gauge that took its time. The first value after a request answers it, or is one that a
 /// person sent meanwhile; the next ones are a person's.
@@ -131,8 +159,12 @@ void AsciiGauge::take_answer(const GaugeAnswer& answer, MonotonicTime at, Sample
     if (answer.unit) learn_unit(*answer.unit);
     const auto unit = told_unit_ ? told_unit_ : setup_.unit;
     if (contradiction_ || !unit) return;
-    ++counters_.samples;
     tell_identity(sink);
+    if (const std::string why = why_no_length(answer, *unit); !why.empty()) {
+        sink.note(Fault::signal_error, why);
+        return sink.take(Sample::bad(0, at - latency_, Quality::signal_error, 0, epoch_));
+    }
+    ++counters_.samples;
     const double stored =
         setup_.model->angular() ? answer.number : length_of(answer.number, *unit).si();
     Sample sample{0, at - latency_, setup_.sign * stored, 0, epoch_};
@@ -162,10 +194,8 @@ void AsciiGauge::take_error(const Error& error, MonotonicTime at, SampleSink& si
 void AsciiGauge::take_line(std::string_view line, MonotonicTime read_at, SampleSink& sink) {
     if (line.starts_with('\n')) line.remove_prefix(1); // CR LF of a gauge whose lines end with CR
     if (line.empty() || is_echo(line)) return;
-    if (const auto unit = unit_in_settings(line); unit && !setup_.model->unit_request.empty()) {
-        ++counters_.frames;
-        return learn_unit(*unit);
-    }
+    if (const auto unit = unit_in_settings(line); unit && !setup_.model->unit_request.empty())
+        return take_settings(line, *unit);
     const auto answer = decode_gauge_answer(line, *setup_.model);
     if (answer) {
         ++counters_.frames;
@@ -207,12 +237,14 @@ AsciiGauge::ask_unit(ByteLink& link, InstrumentContext context, LineFramer& fram
     const MonotonicTime end = context.scheduler->now() + link_patience;
     auto written = co_await link.write_all(std::move(request), end);
     if (!written) co_return written;
+    told_unit_.reset();
     while (!told_unit_ && context.scheduler->now() < end) {
         const MonotonicTime soon =
             std::min(end, context.scheduler->now() + std::chrono::milliseconds{100});
         const auto heard = co_await hear_until(link, context, framer, soon);
         if (!heard) co_return heard;
     }
+    settings_told_at_ = context.scheduler->now();
     if (!told_unit_ && !setup_.unit) co_return why_no_unit(before);
     co_return Result<void>{};
 }
@@ -236,6 +268,11 @@ Task<Result<void>> AsciiGauge::ask(ByteLink& link, InstrumentContext context, Li
     const auto hear = [&](MonotonicTime end) { return hear_until(link, context, framer, end); };
     const auto late = co_await hear_late(requests_, *context.scheduler, setup_.poll_period, hear);
     if (!late) co_return late;
+    // One that never told is not asked again: what the station file states holds.
+    if (told_unit_ && context.scheduler->now() >= settings_told_at_ + settings_period) {
+        const auto known = co_await ask_unit(link, context, framer);
+        if (!known) co_return known;
+    }
     answered_ = false;
     const MonotonicTime now = context.scheduler->now();
     const MonotonicTime next = now + setup_.poll_period;
@@ -258,6 +295,7 @@ Task<Result<void>> AsciiGauge::run(InstrumentContext context) {
     if (!link->remark().empty()) context.sink->note(Fault::none, link->remark());
     requests_.forget();
     told_unit_.reset();
+    held_.clear();
     contradiction_.reset();
     identified_ = false;
     // The read-out may have been switched off meanwhile, and its zero with it.
@@ -317,6 +355,8 @@ std::unique_ptr<Instrument> make_ascii_gauge(const InstrumentConfig& /*config*/,
     setup.input = static_cast<int>(options.integer("input", 1, 9, 1));
     if (setup.input != 1 && known && !setup.model->has_inputs())
         options.refuse("input", "this gauge has one input only: remove the key");
+    if (known && !setup.model->angular() && options.has("decimals"))
+        setup.decimals = static_cast<int>(options.integer("decimals", 0, 6));
     setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{20},
                                          std::chrono::seconds{60}, setup.model->poll_period);
     return std::make_unique<AsciiGauge>(std::move(setup));

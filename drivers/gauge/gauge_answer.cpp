@@ -9,14 +9,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::string_view tolerance_marks = "<=>? ", series_marks = "SAGD ";
+constexpr std::string_view tolerance_marks = "<=>? ", shown_marks = "A1 SGD2";
+/// Degrees, minutes, radians and the scaled units of the read-out.
+constexpr std::string_view units_of_no_length = "GMRmiU";
 
+/// ND 281B, "Data format": the sign, then ten places.
 constexpr std::array<std::string_view, 1> heidenhain_shapes{"+########## ums"};
-/// One reading of the manual counts the sign among the ten places.
-constexpr std::array<std::string_view, 1> heidenhain_nine_shapes{"+######### ums"};
 constexpr std::array<std::string_view, 1> mitutoyo_shapes{"0cA+########"};
-constexpr std::array<std::string_view, 4> sylvac_shapes{"M+999.999M", "M+999.99M", "M+99.9999M",
-                                                        "M+9.99999M"};
+// RES2 and RES3 in mm, RES4 and RES5 in inches. A positive value may have a blank for its sign.
+constexpr std::array<std::string_view, 8> sylvac_shapes{"M+999.999M", "M+999.99M", "M+99.9999M",
+                                                        "M+9.99999M", "_999.999M", "_999.99M",
+                                                        "_99.9999M",  "_9.99999M"};
 
 // 003: both axes are valid, 001 and 002: the first or the second alone.
 constexpr std::array<std::string_view, 2> elcomat_x_shapes{"4 003 N V", "4 001 N V"};
@@ -51,18 +54,38 @@ LinkSettings opto_powered(LinkSettings line) {
 
 constexpr std::string_view moeller_wedel = "MÖLLER-WEDEL", elcomat = "ELCOMAT 3000";
 /// "4 003 -1000.00 -1000.00" and its CR.
-constexpr int elcomat_characters = 24;
+constexpr int usual_characters = 18, elcomat_characters = 24;
 
-const std::array<GaugeModel, 6>& models() {
-    static const std::array<GaugeModel, 6> rows{
+const std::array<GaugeModel, 5>& models() {
+    static const std::array<GaugeModel, 5> rows{
         GaugeModel{"nd-28x", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
                    heidenhain_shapes, no_errors, "", 200ms},
-        GaugeModel{"nd-28x-nine", "HEIDENHAIN", "ND 28x", serial(9600, 'E', 7, 2), "\x02", '\n',
-                   heidenhain_nine_shapes, no_errors, "", 200ms},
-        GaugeModel{"mitutoyo", "Mitutoyo", "ASCII output", serial(9600, 'N', 8, 1), "1", '\r',
-                   mitutoyo_shapes, mitutoyo_errors, "", 200ms},
-        GaugeModel{"sylvac", "Sylvac", "opto RS duplex", opto_powered(serial(4800, 'E', 7, 2)),
-                   "?\r", '\r', sylvac_shapes, sylvac_errors, "SET?\r", 200ms},
+        GaugeModel{"mitutoyo",
+                   "Mitutoyo",
+                   "ASCII output",
+                   serial(9600, 'N', 8, 1),
+                   "1",
+                   '\r',
+                   mitutoyo_shapes,
+                   mitutoyo_errors,
+                   "",
+                   200ms,
+                   {},
+                   usual_characters,
+                   true},
+        GaugeModel{"sylvac",
+                   "Sylvac",
+                   "opto RS duplex",
+                   opto_powered(serial(4800, 'E', 7, 2)),
+                   "?\r",
+                   '\r',
+                   sylvac_shapes,
+                   sylvac_errors,
+                   "SET?\r",
+                   200ms,
+                   {},
+                   usual_characters,
+                   true},
         GaugeModel{"elcomat-x", moeller_wedel, elcomat, serial(19200, 'N', 8, 1), "a\r\n", '\r',
                    elcomat_x_shapes, elcomat_x_errors, "", 100ms, GaugeUnit::arcseconds,
                    elcomat_characters},
@@ -93,19 +116,23 @@ bool in_number(char letter) {
 /// What one shape finds in one line.
 struct Match {
     std::string number;
-    char sign = '+', unit = '\0', input = '1';
+    char sign = '+', unit = '\0', input = '1', shown = 'A';
 };
 
 /// Takes one letter of the line at a letter of the shape; false: it does not fit.
 bool take(char shape, char letter, Match& match) {
     switch (shape) {
     case '+': match.sign = letter; return letter == '+' || letter == '-';
+    case '_': return letter == ' ';
     case '#': match.number += letter; return in_number(letter);
     case '9': match.number += letter; return letter >= '0' && letter <= '9';
     case '.': match.number += letter; return letter == '.';
-    case 'u': match.unit = letter; return letter == ' ' || letter == '"' || letter == '?';
+    case 'u':
+        match.unit = letter;
+        return letter == ' ' || letter == '"' || letter == '?' ||
+               units_of_no_length.find(letter) != std::string_view::npos;
     case 'm': return tolerance_marks.find(letter) != std::string_view::npos;
-    case 's': return series_marks.find(letter) != std::string_view::npos;
+    case 's': match.shown = letter; return shown_marks.find(letter) != std::string_view::npos;
     case 'c': match.input = letter; return letter >= '1' && letter <= '9';
     default: return shape == letter;
     }
@@ -160,6 +187,26 @@ std::optional<Match> match_shape(std::string_view line, std::string_view shape) 
     return at == line.size() ? std::optional{match} : std::nullopt;
 }
 
+/// Why a record of the right form is no value of the gauge; empty where it is one.
+std::string complaint_of(const Match& match) {
+    if (match.unit == '?') return "the read-out marks its value as faulty";
+    if (units_of_no_length.find(match.unit) != std::string_view::npos)
+        return std::string{"the read-out shows no length (unit '"} + match.unit +
+               "'): set it to mm or inches";
+    switch (match.shown) {
+    case 'S': return "the read-out shows MIN of a series, or X1-X2 of two axes: set it to ACTL, X1";
+    case 'G': return "the read-out shows MAX of a series: set it to ACTL";
+    case 'D': return "the read-out shows DIFF of a series: set it to ACTL";
+    case '2': return "the read-out shows its second axis: set it to X1";
+    default: return "";
+    }
+}
+
+int decimals_of(std::string_view number) {
+    const auto point = number.find('.');
+    return point == number.npos ? 0 : static_cast<int>(number.size() - point - 1);
+}
+
 bool mentions(std::span<const std::string_view> shapes, char letter) {
     return std::ranges::any_of(
         shapes, [&](std::string_view shape) { return shape.find(letter) != shape.npos; });
@@ -188,12 +235,13 @@ Result<GaugeAnswer> decode_gauge_answer(std::string_view line, const GaugeModel&
     for (const std::string_view shape : model.shapes) {
         const auto match = match_shape(line, shape);
         if (!match) continue;
-        if (match->unit == '?')
-            return fail(Fault::signal_error, "the read-out marks its value as faulty");
+        if (auto complaint = complaint_of(*match); !complaint.empty())
+            return fail(Fault::signal_error, std::move(complaint));
         const auto number = plain_number(match->number);
         if (!number) continue;
         GaugeAnswer answer;
         answer.number = match->sign == '-' ? -*number : *number;
+        answer.decimals = decimals_of(match->number);
         if (match->unit != '\0')
             answer.unit = match->unit == '"' ? GaugeUnit::inches : GaugeUnit::millimetres;
         answer.input = match->input - '0';
@@ -210,6 +258,17 @@ std::optional<GaugeUnit> unit_in_settings(std::string_view line) {
     if (padded.find(" MM ") != std::string::npos) return GaugeUnit::millimetres;
     if (padded.find(" IN ") != std::string::npos) return GaugeUnit::inches;
     return std::nullopt;
+}
+
+std::string_view held_in_settings(std::string_view line) {
+    const std::string padded = " " + std::string{line} + " ";
+    for (const std::string_view word : {"MAX", "MIN", "DEL"})
+        if (padded.find(" " + std::string{word} + " ") != std::string::npos) return word;
+    return {};
+}
+
+bool decimals_fit(int decimals, GaugeUnit unit) {
+    return unit == GaugeUnit::inches ? decimals >= 4 : decimals <= 3;
 }
 
 Length length_of(double number, GaugeUnit unit) {

@@ -70,7 +70,11 @@ Task<Result<TimedBytes>> DescriptorLink::read_some(MonotonicTime deadline) {
         const int error_number = errno;
         const MonotonicTime read_at = scheduler_.now();
         if (count > 0) {
-            TimedBytes arrived{{buffer_.begin(), buffer_.begin() + count}, read_at};
+            const std::span read{buffer_.data(), static_cast<std::size_t>(count)};
+            TimedBytes arrived{kind_.parity_is_marked ? marks_.undo(read)
+                                                      : std::vector(read.begin(), read.end()),
+                               read_at};
+            if (arrived.bytes.empty()) continue; // a mark has begun
             co_return arrived;
         }
         // End of file, and EIO of a tty whose other end is gone, are one thing: unplugged.

@@ -3,6 +3,7 @@
 
 #include "drivers/link/byte_link.hpp"
 #include "drivers/link/deadline_watch.hpp"
+#include "drivers/link/parity_marks.hpp"
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 
@@ -13,6 +14,7 @@ namespace axiscal {
 struct DescriptorKind {
     std::string name; ///< for messages: "serial /dev/ttyACM0 115200 8N1"
     bool is_socket = false;
+    bool parity_is_marked = false; ///< a tty with PARMRK
     Duration latency_uncertainty{};
     std::string remark;
     std::function<void(int)> close; ///< who closes it, where close(2) can block; empty: the link
@@ -46,6 +48,7 @@ private:
     std::vector<std::byte> buffer_;
     boost::asio::posix::stream_descriptor descriptor_;
     DeadlineWatch reading_;
+    ParityMarks marks_;
 };
 
 } // namespace axiscal

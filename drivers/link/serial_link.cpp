@@ -59,7 +59,8 @@ tcflag_t character_size(int data_bits) {
 }
 
 /// Raw: no echo, no translation, no flow control, no signals from bytes. VMIN 1 keeps "nothing
-/// there" apart from end of file on a non-blocking descriptor.
+/// there" apart from end of file on a non-blocking descriptor. Where there is a parity it is
+/// checked: for a text without a checksum it is the only check.
 bool make_raw(int descriptor, const LinkSettings& settings, speed_t speed) {
     termios line{};
     if (::tcgetattr(descriptor, &line) != 0) return false;
@@ -67,9 +68,10 @@ bool make_raw(int descriptor, const LinkSettings& settings, speed_t speed) {
     line.c_cflag &= ~static_cast<tcflag_t>(CSIZE | PARENB | PARODD | CSTOPB | CRTSCTS);
     line.c_cflag |= character_size(settings.data_bits) | CLOCAL | CREAD;
     if (settings.parity != 'N') line.c_cflag |= PARENB;
+    if (settings.parity != 'N') line.c_iflag |= INPCK | PARMRK;
     if (settings.parity == 'O') line.c_cflag |= PARODD;
     if (settings.stop_bits == 2) line.c_cflag |= CSTOPB;
-    line.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY);
+    line.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY | IGNPAR);
     line.c_cc[VMIN] = 1;
     line.c_cc[VTIME] = 0;
     if (::cfsetispeed(&line, speed) != 0 || ::cfsetospeed(&line, speed) != 0) return false;
@@ -86,6 +88,7 @@ bool set_modem_line(int descriptor, int line, std::optional<bool> high) {
 DescriptorKind kind_of(const LinkSettings& settings) {
     DescriptorKind kind;
     kind.name = settings.describe();
+    kind.parity_is_marked = settings.parity != 'N';
     const auto timer_ms = usb_latency_timer_ms(settings.path);
     if (!timer_ms || *timer_ms <= 1) return kind;
     kind.latency_uncertainty = std::chrono::milliseconds{*timer_ms - 1};

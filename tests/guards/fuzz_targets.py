@@ -26,6 +26,7 @@ NO_CODEC = {
     "drivers/cnc/single_register_map.hpp": "made by register_map",
     "drivers/framing/byte_order.hpp": "its callers have checked the length",
     "drivers/link/can_frame.hpp": "a frame as the kernel gives it",
+    "drivers/link/parity_marks.hpp": "two states over any bytes, cut everywhere by its tests",
     "drivers/link/link_settings.hpp": "text of the station file, parsed by station_file's readers",
     "drivers/plugged/candidates.hpp": "what sysfs told, compared with a table",
     "drivers/registry.hpp": "a table of drivers",

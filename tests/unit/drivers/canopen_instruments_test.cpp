@@ -213,6 +213,45 @@ TEST_F(CanOpen, BrokenProbeHasNoNumberAndSaysSo) {
     EXPECT_TRUE(material.ends.empty());
 }
 
+// CiA 301, 7.2.7.1: 0000h says that one fault is over; the register tells whether another lasts.
+TEST_F(CanOpen, ProbeHasNoNumberUntilNoFaultIsLeft) {
+    material.start();
+    scheduler.run_for(3s);
+    using Emergency = std::pair<std::uint16_t, std::uint8_t>;
+    for (const auto& [code, error_register] :
+         {Emergency{0x5030, 0x81}, Emergency{0x4210, 0x89}, Emergency{0x0000, 0x81}}) {
+        probe->tell_emergency(code, error_register, {});
+        scheduler.run_for(2s);
+        EXPECT_EQ(material.sink.samples.back().quality(), Quality::absent) << code;
+    }
+    probe->tell_emergency(0, 0, {});
+    scheduler.run_for(2s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+}
+
+TEST_F(CanOpen, AFaultThatWasToldBeforeAnybodyListenedIsFoundInTheRegister) {
+    probe->put_number(0x1001, 0, 0x81, 1);
+    bar->put_number(0x1001, 0, 0x81, 1);
+    material.start();
+    ballbar.start();
+    scheduler.run_for(3s);
+    EXPECT_EQ(material.sink.samples.back().quality(), Quality::absent);
+    EXPECT_EQ(material.sink.notes, std::vector{Fault::signal_error});
+    EXPECT_EQ(ballbar.sink.samples.back().quality(), Quality::signal_error);
+    for (auto* node : {probe.get(), bar.get()})
+        node->tell_emergency(0, 0, {});
+    scheduler.run_for(2s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+    EXPECT_TRUE(ballbar.sink.samples.back().value());
+}
+
+TEST_F(CanOpen, ARegisterThatTellsOfTheBusAloneSpoilsNoNumber) {
+    probe->put_number(0x1001, 0, 0x11, 1);
+    material.start();
+    scheduler.run_for(3s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+}
+
 TEST_F(CanOpen, BallbarStreamsAtOneKilohertzWithoutAHole) {
     ballbar.start();
     scheduler.run_for(10s);

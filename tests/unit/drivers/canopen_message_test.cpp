@@ -246,7 +246,13 @@ TEST(NodeMessages, TellAnEmergencyAndItsEnd) {
     const auto passive =
         decode_emergency(plain_frame(0x0FD, {0x20, 0x81, 0x11, 0, 0, 0, 0, 0}), 125);
     EXPECT_TRUE(passive->is_of_communication());
-    EXPECT_EQ(decode_emergency(plain_frame(0x0FD, {0x30, 0x50, 0x01}), 125), std::nullopt);
+    // One that is cut is an emergency all the same.
+    for (const auto& cut : {plain_frame(0x0FD, {0x30, 0x50, 0x01}), plain_frame(0x0FD, {})}) {
+        const auto emergency = decode_emergency(cut, 125);
+        ASSERT_TRUE(emergency);
+        EXPECT_FALSE(emergency->is_over());
+        EXPECT_FALSE(emergency->is_of_communication());
+    }
 }
 
 } // namespace

@@ -20,10 +20,30 @@ TEST(GaugeAnswer, ReadsTheHeidenhainRecordOfTheManual) {
     EXPECT_EQ(answer->unit, GaugeUnit::millimetres);
 }
 
-TEST(GaugeAnswer, ReadsAHeidenhainRecordWhoseSignIsOneOfTheTenPlaces) {
-    const auto answer = decode_gauge_answer("+  12.3456    ", model("nd-28x-nine"));
-    ASSERT_TRUE(answer);
-    EXPECT_EQ(answer->number, 12.3456);
+// ND 281B, page 47: MIN, MAX and DIFF of a series are no measured values. ND 287: with two axes S
+// is X1-X2.
+TEST(GaugeAnswer, HasNoValueWhereHeidenhainShowsAnotherFigure) {
+    for (const std::string_view line : {"-      5.23  =S", "-      5.23  =G", "-      5.23  =D",
+                                        "-      5.23   G", "-      5.23  =2"}) {
+        const auto answer = decode_gauge_answer(line, model("nd-28x"));
+        ASSERT_FALSE(answer) << line;
+        EXPECT_EQ(answer.error().fault, Fault::signal_error) << line;
+        EXPECT_NE(answer.error().detail.find("set it to"), std::string::npos) << line;
+    }
+    for (const std::string_view line : {"-      5.23  =A", "-      5.23  = ", "-      5.23   1"})
+        EXPECT_EQ(decode_gauge_answer(line, model("nd-28x"))->number, -5.23) << line;
+}
+
+TEST(GaugeAnswer, HasNoLengthWhereHeidenhainShowsAnAngle) {
+    for (const char unit : std::string{"GMRmiU"}) {
+        const std::string line = std::string{"-      5.23 "} + unit + "=A";
+        const auto answer = decode_gauge_answer(line, model("nd-28x"));
+        ASSERT_FALSE(answer) << line;
+        EXPECT_EQ(answer.error().fault, Fault::signal_error) << line;
+        EXPECT_NE(answer.error().detail.find("shows no length"), std::string::npos) << line;
+    }
+    EXPECT_EQ(decode_gauge_answer("-      5.23 x=A", model("nd-28x")).error().fault,
+              Fault::bad_frame);
 }
 
 TEST(GaugeAnswer, TakesInchesFromTheHeidenhainMark) {
@@ -68,6 +88,33 @@ TEST(GaugeAnswer, ReadsASylvacValueWithAndWithoutAToleranceMark) {
     EXPECT_EQ(unit_in_settings("+012.345"), std::nullopt);
 }
 
+TEST(GaugeAnswer, ReadsASylvacValueWithABlankForItsSign) {
+    EXPECT_EQ(decode_gauge_answer(" 000.500", model("sylvac"))->number, 0.5);
+    EXPECT_EQ(decode_gauge_answer(" 000.500=", model("sylvac"))->number, 0.5);
+    EXPECT_EQ(decode_gauge_answer(" 0.01969", model("sylvac"))->number, 0.01969);
+}
+
+TEST(GaugeAnswer, KnowsTheModesInWhichASylvacHoldsAnExtreme) {
+    EXPECT_EQ(held_in_settings("MM RES2 REF1 NOR CHA+ B1"), "");
+    for (const std::string_view mode : {"MAX", "MIN", "DEL"})
+        EXPECT_EQ(held_in_settings("MM RES2 REF1 " + std::string{mode} + " CHA+ B1"), mode);
+}
+
+// Sylvac: RES2 and RES3 in mm, RES4 and RES5 in inches; QM-Height: 3 in mm, 4 and 5 in inches.
+TEST(GaugeAnswer, TellsMillimetresFromInchesByTheDecimals) {
+    EXPECT_EQ(decode_gauge_answer("+000.500", model("sylvac"))->decimals, 3);
+    EXPECT_EQ(decode_gauge_answer("+0.01969", model("sylvac"))->decimals, 5);
+    EXPECT_EQ(decode_gauge_answer("01A+00.12345", model("mitutoyo"))->decimals, 5);
+    for (const int decimals : {2, 3}) {
+        EXPECT_TRUE(decimals_fit(decimals, GaugeUnit::millimetres));
+        EXPECT_FALSE(decimals_fit(decimals, GaugeUnit::inches));
+    }
+    for (const int decimals : {4, 5}) {
+        EXPECT_FALSE(decimals_fit(decimals, GaugeUnit::millimetres));
+        EXPECT_TRUE(decimals_fit(decimals, GaugeUnit::inches));
+    }
+}
+
 TEST(GaugeAnswer, RefusesEveryShortenedOrLengthenedRecord) {
     const std::pair<std::string_view, std::string_view> fixed[] = {
         {"nd-28x", "-      5.23  =A"}, {"mitutoyo", "01A+0000.123"}, {"sylvac", "+012.345"}};
@@ -87,7 +134,8 @@ TEST(GaugeAnswer, RefusesWhatIsNoNumber) {
                                         "+   1.2.3   = ", " ", "", "+", "-  1e5", "+          x"})
         EXPECT_EQ(decode_gauge_answer(line, model("nd-28x")).error().fault, Fault::bad_frame)
             << line;
-    for (const std::string_view line : {"+", "+.", "+1.2.3", "012.345", "+12.345", "+0123.456"})
+    for (const std::string_view line :
+         {"+", "+.", "+1.2.3", "012.345", "+12.345", "+0123.456", "  00.500", " -00.500"})
         EXPECT_EQ(decode_gauge_answer(line, model("sylvac")).error().fault, Fault::bad_frame)
             << line;
 }
@@ -115,12 +163,26 @@ TEST(GaugeAnswer, HasNoAngleOfAnAxisThatTheAutocollimatorDoesNotCallValid) {
 }
 
 TEST(GaugeAnswer, TakesNoOtherRecordOfTheAutocollimatorForAnAbsoluteReading) {
-    for (const std::string_view line :
-         {"2 103 4.500000 2.300000", "1 103 4.500000 2.300000", "3 003 4.500000 2.300000",
-          "8 423 12 1 2001 300", "4 103 4.5 2.3", "4 003", "4 003 4.5", "4 003 45 2.3",
-          "4 003 4.5 23", "4 003 4.5 2.3 1", "4 003 4.5. 2.3", "4 003 - 2.3", "4 003 .5 2.3",
-          "4 003 5. 2.3", "4 003 1e5 2.3", "4 003  4.5 2.3", "4 003 4,5 2,3",
-          "4 003 1234567.0 2.3", "4 003 1.2345678 2.3", "4003 4.5 2.3"})
+    for (const std::string_view line : {"2 103 4.500000 2.300000",
+                                        "1 103 4.500000 2.300000",
+                                        "3 003 4.500000 2.300000",
+                                        "8 423 12 1 2001 300",
+                                        "4 103 4.5 2.3",
+                                        "4 003",
+                                        "4 003 4.5",
+                                        "4 003 45 2.3",
+                                        "4 003 4.5 23",
+                                        "4 003 4.5 2.3 1",
+                                        "4 003 4.5. 2.3",
+                                        "4 003 - 2.3",
+                                        "4 003 .5 2.3",
+                                        "4 003 5. 2.3",
+                                        "4 003 1e5 2.3",
+                                        "4 003  4.5 2.3",
+                                        "4 003 4,5 2,3",
+                                        "4 003 1234567.0 2.3",
+                                        "4 003 1.2345678 2.3",
+                                        "4003 4.5 2.3"})
         for (const std::string_view name : {"elcomat-x", "elcomat-y"})
             EXPECT_EQ(decode_gauge_answer(line, model(name)).error().fault, Fault::bad_frame)
                 << name << ": " << line;

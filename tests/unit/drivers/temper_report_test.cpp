@@ -55,6 +55,43 @@ TEST(TemperReading, HasTheProbeInTheSecondReport) {
     EXPECT_FALSE(reading.probe_humidity);
 }
 
+// A TEMPerX_V3.3 whose probe answers first: byte 1 tells whose report it is, not the order.
+TEST(TemperReading, GoesByTheHeadOfEachReport) {
+    const auto x = family("TEMPerX_V3.3");
+    const auto reading = decode_temper_reading(bytes_of({0x80, 0x01, 0x07, 0xD0, 0x4E, 0x20, 0, 0,
+                                                         0x80, 0x40, 0x09, 0x85, 0x13, 0x88, 0, 0}),
+                                               x);
+    EXPECT_DOUBLE_EQ(reading.stick_temperature.value(), 24.37);
+    EXPECT_DOUBLE_EQ(reading.stick_humidity.value(), 50);
+    EXPECT_DOUBLE_EQ(reading.probe_temperature.value(), 20);
+    EXPECT_EQ(reading.bad_reports, 0);
+    const auto alone =
+        decode_temper_reading(bytes_of({0x80, 0x01, 0x07, 0xD0, 0x4E, 0x20, 0, 0}), x);
+    EXPECT_FALSE(alone.stick_temperature);
+    EXPECT_DOUBLE_EQ(alone.probe_temperature.value(), 20);
+}
+
+TEST(TemperReading, TakesNoReportWithAnotherHeadForAValue) {
+    const auto x = family("TEMPerX_V3.3");
+    const auto text = decode_temper_reading(bytes_of({'T', 'E', 'M', 'P', 'e', 'r', 'X', '_', //
+                                                      0x80, 0x40, 0x09, 0x85, 0x13, 0x88, 0, 0}),
+                                            x);
+    EXPECT_DOUBLE_EQ(text.stick_temperature.value(), 24.37);
+    EXPECT_FALSE(text.probe_temperature);
+    EXPECT_EQ(text.bad_reports, 1);
+    const auto other = decode_temper_reading(bytes_of({0x80, 0x33, 0x09, 0x85, 0, 0, 0, 0}), x);
+    EXPECT_FALSE(other.stick_temperature);
+    EXPECT_EQ(other.bad_reports, 1);
+    const auto twice = decode_temper_reading(bytes_of({0x80, 0x01, 0x07, 0xD0, 0x4E, 0x20, 0, 0,
+                                                       0x80, 0x01, 0x09, 0x85, 0x4E, 0x20, 0, 0}),
+                                             x);
+    EXPECT_FALSE(twice.stick_temperature);
+    EXPECT_EQ(twice.bad_reports, 1);
+    const auto old =
+        decode_temper_reading(bytes_of({0x55, 0x02, 0x18, 0x80, 0, 0, 0, 0}), family("TEMPerF1.4"));
+    EXPECT_FALSE(old.stick_temperature);
+}
+
 TEST(TemperReading, HasTheProbeWhereOthersHaveTheStickOnATemper1F) {
     const auto reading = decode_temper_reading(bytes_of({0x80, 0x40, 0x09, 0x85, 0, 0, 0, 0}),
                                                family("TEMPer1F_V3.9"));

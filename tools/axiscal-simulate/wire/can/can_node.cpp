@@ -24,6 +24,8 @@ CanNode::Bytes low_byte_first(std::int64_t value, int bytes) {
 
 void CanNode::put_number(int index, int sub, std::uint32_t value, int bytes, bool writable) {
     objects_[{index, sub}] = {low_byte_first(value, bytes), {}, writable};
+    // Once it was switched on: what it is then lasts over a reset.
+    if (!delivered_.empty()) delivered_[{index, sub}] = objects_[{index, sub}];
 }
 
 void CanNode::put_text(int index, int sub, const std::string& text) {
