@@ -18,6 +18,8 @@ std::string joined(const std::vector<std::string>& words) {
         list += (list.empty() ? "" : ", ") + quoted(word);
     return list;
 }
+} // namespace
+
 bool is_calendar_date(std::string_view text) {
     if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
     const auto part = [&](std::size_t at, std::size_t length) {
@@ -32,8 +34,6 @@ bool is_calendar_date(std::string_view text) {
         std::chrono::day{static_cast<unsigned>(std::max(0, part(8, 2)))}};
     return part(0, 4) >= 0 && date.ok();
 }
-
-} // namespace
 
 const TomlNode* Settings::Impl::ask(std::string_view key) {
     state->asked[path].emplace(key);

@@ -26,6 +26,9 @@ struct Refusal {
     [[nodiscard]] std::string describe() const; ///< "file:line: key: reason"
 };
 
+/// "2026-11-21", a day of the calendar.
+bool is_calendar_date(std::string_view text);
+
 class SettingsDocument;
 
 /// "-0.05 K" as stored: amount in `stored_unit` (degC, Pa, %, ppm); unit empty when not stated.

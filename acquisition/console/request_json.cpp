@@ -1,5 +1,6 @@
 #include "acquisition/console/api_json.hpp"
 #include "config/measure.hpp"
+#include "config/settings.hpp"
 
 #include "analysis/quantity/valid_text.hpp"
 
@@ -45,7 +46,11 @@ Result<void> read_statements(const Json& given, ArmRequest& request) {
             return refuse_statement(key);
         if (!value.is_string())
             return refuse(Fault::bad_request, "statements." + key, "must be a text");
-        request.statements[key] = valid_text(value.get<std::string>());
+        const std::string text = valid_text(value.get<std::string>());
+        if (key == "next_due" && !text.empty() && text != "none" && !is_calendar_date(text))
+            return refuse(Fault::bad_request, "statements.next_due",
+                          "is no date: write year-month-day, for example 2027-11-21, or none");
+        request.statements[key] = text;
     }
     return {};
 }

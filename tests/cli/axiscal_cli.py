@@ -32,7 +32,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
-            "abort": ["--reason"], "analyze": ["FILE"], "result": ["RUN", "--config", "--tolerances", "--travel"], "program": ["--dialect", "--out", "--retake"],
+            "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
@@ -168,6 +168,19 @@ class Analyze(Scratch):
             self.assertEqual(len(got.stderr.strip().splitlines()), 1, text)
         self.expect(1, "analyze", os.path.join(self.folder, "nothing"))
         self.expect(1, "analyze", self.folder)
+
+    def test_a_new_table_is_taken_as_it_is_and_overwrites_nothing(self):
+        for kind in ("positioning", "circular", "workpiece"):
+            path = os.path.join(self.folder, f"{kind} readings.csv")
+            self.assertIn("axiscal analyze", self.expect(0, "case", "new", kind, "--csv", path).stdout)
+            self.assertEqual(json.loads(self.expect(0, "analyze", path).stdout)["format"], "axiscal.result/1")
+            with open(path, encoding="utf-8") as table:
+                text = table.read()
+            self.assertIn("there already", self.expect(3, "case", "new", kind, "--csv", path).stderr)
+            with open(path, encoding="utf-8") as table:
+                self.assertEqual(table.read(), text)
+        self.expect(2, "case", "new", "spherical", "--csv", os.path.join(self.folder, "x.csv"))
+        self.expect(1, "case", "new", "circular", "--csv", os.path.join(self.folder, "nowhere", "x.csv"))
 
     def test_a_run_file_is_known_by_content(self):
         renamed = os.path.join(self.folder, "looks-like-a-case.json")

@@ -3,6 +3,7 @@
 #include "config/json_text.hpp"
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
+#include "tools/axiscal/cases/case_table.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/separation_csv.hpp"
 #include "tools/axiscal/cases/separation_features.hpp"
@@ -57,6 +58,17 @@ CaseAnswer refuse_all(const Error& error) {
     return {{}, exit_refused, line_of("", error)};
 }
 
+/// Neither JSON nor a table: says what is.
+Error no_case(const std::string& utf8) {
+    const std::string begin = utf8.substr(0, std::min(utf8.find_first_of("\r\n"), std::size_t{40}));
+    return {Fault::bad_case,
+            "neither that nor a table that is known here ('" + printable(begin) +
+                "'). A table begins with a column 'target [mm]', 'angle [deg]' or 'feature'; "
+                "'axiscal case new positioning --csv FILE' writes one to be filled in",
+            {},
+            "json"};
+}
+
 CaseAnswer answer_array(const CaseText& text) {
     ordered_json results = ordered_json::array();
     std::size_t refused = 0;
@@ -84,14 +96,30 @@ CaseAnswer answer_array(const CaseText& text) {
     return answer;
 }
 
+Result<ordered_json> evaluate_table(const std::string& utf8, TableKind kind) {
+    if (kind == TableKind::workpiece) return separation_table_case(utf8);
+    AXISCAL_TRY(const CaseTable table, read_table_text(utf8));
+    AXISCAL_TRY(const json object, case_of_table(table, kind));
+    return analyze_one(object, nullptr);
+}
+
+CaseAnswer answer_table(const std::string& utf8) {
+    const auto kind = kind_of_table(utf8);
+    if (!kind) return refuse_all(no_case(utf8));
+    const auto result = evaluate_table(utf8, *kind);
+    return result ? CaseAnswer{json_text(*result, 2) + "\n", 0, {}} : refuse_all(result.error());
+}
+
 } // namespace
 
-CaseAnswer analyze_cases(std::string_view json_text) {
-    if (is_measurements_csv(json_text)) {
-        const auto table = separation_table_case(json_text);
-        return table ? CaseAnswer{table->dump(2) + "\n", 0, {}} : refuse_all(table.error());
-    }
-    const auto text = read_case_text(json_text);
+CaseAnswer analyze_cases(std::string_view bytes) {
+    const auto utf8 = utf8_of(bytes);
+    if (!utf8) return refuse_all(utf8.error());
+    const auto begin = utf8->find_first_not_of(" \t\r\n");
+    const bool means_json =
+        begin == std::string::npos || (*utf8)[begin] == '{' || (*utf8)[begin] == '[';
+    if (!means_json && !json::accept(*utf8)) return answer_table(*utf8);
+    const auto text = read_case_text(*utf8);
     if (!text) return refuse_all(text.error());
     if (text->document.is_array()) return answer_array(*text);
     const auto repeated = text->repeated_keys.begin();

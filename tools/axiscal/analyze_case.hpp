@@ -32,7 +32,8 @@ struct CaseAnswer {
 /// refused, because a misspelt "backward" must not turn a test into a unidirectional one.
 /// Refused are wrong types (also numbers as text), NaN, infinities, magnitudes above 1e12 and
 /// repeated keys.
-/// A text that begins with `feature,` is a table of both measurements (cases/separation_csv.hpp).
-CaseAnswer analyze_cases(std::string_view json_text);
+/// A text that begins with neither { nor [ is a table (cases/case_table.hpp). UTF-8, or UTF-16 with
+/// a byte order mark.
+CaseAnswer analyze_cases(std::string_view bytes);
 
 } // namespace axiscal

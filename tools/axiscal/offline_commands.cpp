@@ -18,6 +18,7 @@
 #include "config/certificate_dates.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/analyze_case.hpp"
+#include "tools/axiscal/cases/case_table.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 
@@ -205,6 +206,16 @@ int command_analyze(const std::string& path) {
     std::cout << answer.output << std::flush;
     if (!answer.error_line.empty()) std::cerr << answer.error_line << "\n";
     return answer.exit_code;
+}
+
+int command_case_new(const NewCaseOrder& order) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(order.path)))
+        return std::cerr << order.path << " is there already: name another file\n", exit_refused;
+    if (const auto written = replace_synced(order.path, table_template(order.kind)); !written)
+        return complain(written.error());
+    std::cout << order.path << " is written: fill it in, then: axiscal analyze " << order.path
+              << "\n";
+    return exit_ok;
 }
 
 int command_program(const ProgramRequest& request, bool json) {

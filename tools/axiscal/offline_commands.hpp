@@ -14,6 +14,12 @@ namespace axiscal {
 /// Run: prints the certificate document. Case: the result document, exit 3 when refused.
 int command_analyze(const std::string& path);
 
+struct NewCaseOrder {
+    std::string action, kind, path;
+};
+/// Writes a table to be filled in; overwrites nothing.
+int command_case_new(const NewCaseOrder& order);
+
 struct ResultRequest {
     std::string run;              ///< path or id; empty: the newest run of the station
     std::string station_file;     ///< whose state directory holds the runs

@@ -248,7 +248,7 @@ TEST(SeparationTableRefuses, WithTheNumberOfTheLine) {
     line("a,1,2,3\n\na,1,2,x\n", "4", "cmm_x");
     line("a,1,2,nan\n", "2", "cmm_x");
     line("a,1,2,1e999\n", "2", "cmm_x");
-    line("a,\"1\",2,3\n", "2", "nominal_x");
+    line("a,\"1x\",2,3\n", "2", "nominal_x");
     line("a,1,2,\n", "2", "cmm_x is missing");
     line("a,,2,3\n", "2", "nominal_x is missing");
     line("a,1,,\n", "2", "no measured coordinate");

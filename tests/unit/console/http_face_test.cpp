@@ -240,10 +240,12 @@ TEST_F(HttpDoor, AnOrderOverTcpBearsTheTokenAndNoUser) {
 }
 
 TEST_F(HttpDoor, ANameThatIsNoNameIsRefused) {
-    for (const char* name : {"\"\"", "\"  \"", "7", "null", "[\"Jo\"]", "\"Jo\\nMiller\"", "\"\\u007f\"",
-                             "\"Jo\\u0085\"", "\"Jo\\u2028Miller\"", "\"Jo\\u2029\""})
+    for (const char* name :
+         {"\"\"", "\"  \"", "7", "null", "[\"Jo\"]", "\"Jo\\nMiller\"", "\"\\u007f\"",
+          "\"Jo\\u0085\"", "\"Jo\\u2028Miller\"", "\"Jo\\u2029\""})
         for (const char* order : {"/v1/run", "/v1/run/retake", "/v1/run/abort", "/v1/drift"}) {
-            const std::string reply = over_socket("POST", order, "{\"by\":" + std::string{name} + "}");
+            const std::string reply =
+                over_socket("POST", order, "{\"by\":" + std::string{name} + "}");
             EXPECT_TRUE(reply.starts_with("HTTP/1.1 400")) << order << " " << name << " " << reply;
         }
 }
@@ -457,7 +459,9 @@ TEST_F(HttpDoor, BeginsADriftTestByItsOrder) {
     EXPECT_EQ(station.drifted->of_bar, false);
     for (const char* body :
          {R"({"of":"spindle"})", R"({"of":true})", R"({"duration_s":"1 h"})", R"({"interval_s":0})",
-          R"({"place":1})", R"({"statements":{"colour":"red"}})", "[]"})
+          R"({"place":1})", R"({"statements":{"colour":"red"}})",
+          R"({"statements":{"next_due":"soon"}})", R"({"statements":{"next_due":"2027-02-30"}})",
+          "[]"})
         EXPECT_TRUE(over_socket("POST", "/v1/drift", body).starts_with("HTTP/1.1 400")) << body;
 }
 
@@ -574,16 +578,16 @@ TEST_F(HttpDoor, APathIsKnownWithAQueryOrASlashBehindIt) {
 // A client that gave up after a minute left the order behind: the axis was armed all the same.
 TEST_F(HttpDoor, TheStationHearsThatWhoArmsHasHungUp) {
     const std::string order = R"({"pass":"slow"})";
-    const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
-                             std::to_string(order.size()) + "\r\nAuthorization: Bearer " +
-                             std::string(64, 't') + "\r\n\r\n";
+    const std::string head =
+        " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(order.size()) +
+        "\r\nAuthorization: Bearer " + std::string(64, 't') + "\r\n\r\n";
     for (const bool over_network : {false, true}) {
         station.noticed = false;
         asio::io_context own;
         if (over_network) {
             asio::ip::tcp::socket socket{own};
-            socket.connect({asio::ip::make_address("127.0.0.1"),
-                            static_cast<std::uint16_t>(face->port())});
+            socket.connect(
+                {asio::ip::make_address("127.0.0.1"), static_cast<std::uint16_t>(face->port())});
             asio::write(socket, asio::buffer("POST /v1/run" + head + order));
         } else {
             asio::local::stream_protocol::socket socket{own};

@@ -35,6 +35,7 @@ struct Options {
     RevisionOrder revision;
     bool exclude_instead = false;
     ProgramRequest program;
+    NewCaseOrder new_case;
     ResultRequest result;
     ConformanceOrder conformance;
     DevicesRequest devices;

@@ -6,8 +6,14 @@ namespace {
 
 constexpr const char* analyze_footer = R"(Examples:
   axiscal analyze /var/lib/axiscal/runs/RUN.axiscal
+  axiscal analyze readings.csv           a table; axiscal case new positioning --csv readings.csv writes one
   axiscal analyze - <case.json
 Prints JSON. An array of cases gives an array of results; one that is refused names field and reason.)";
+
+constexpr const char* case_footer = R"(Example:
+  axiscal case new positioning --csv readings.csv
+  axiscal analyze readings.csv
+The file holds an example with remarks; comma, semicolon or tab, decimal point or comma, UTF-8 or UTF-16.)";
 
 constexpr const char* result_footer = R"(Examples:
   axiscal result                                  of the newest run of this station
@@ -89,13 +95,25 @@ void add_program(CLI::App& app, Options& options, Command& chosen) {
 void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     auto* analyze = app.add_subcommand(
         "analyze",
-        "Figures of a run file, or of a JSON case (docs/analysis.md); told apart by content");
+        "Figures of a run file, a JSON case or a table (docs/analysis.md); told apart by content");
     analyze
         ->add_option("FILE", options.file,
-                     "RUN.axiscal or CASE.json; - reads a case from standard input")
+                     "RUN.axiscal, CASE.json or TABLE.csv; - reads a case from standard input")
         ->required();
     teach(*analyze, analyze_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     analyze->callback([&] { chosen = [&] { return command_analyze(options.file); }; });
+
+    auto* new_case = app.add_subcommand("case", "A table to be filled in for axiscal analyze");
+    new_case->add_option("ACTION", options.new_case.action, "new")
+        ->required()
+        ->check(CLI::IsMember({"new"}));
+    new_case->add_option("KIND", options.new_case.kind, "positioning, circular or workpiece")
+        ->required()
+        ->check(CLI::IsMember({"positioning", "circular", "workpiece"}));
+    new_case->add_option("--csv", options.new_case.path, "file to be written; must not be there")
+        ->required();
+    teach(*new_case, case_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
+    new_case->callback([&] { chosen = [&] { return command_case_new(options.new_case); }; });
 
     add_result(app, options, chosen);
     add_program(app, options, chosen);

@@ -1,51 +1,18 @@
 #include "tools/axiscal/cases/separation_csv.hpp"
 
 #include "tools/axiscal/case_text.hpp"
+#include "tools/axiscal/cases/table_text.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 namespace axiscal {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
 tl::unexpected<Error> refuse_line(std::size_t line, std::string reason) {
     return refuse(Fault::bad_case, "measurements_csv line " + std::to_string(line),
                   std::move(reason));
-}
-
-std::string_view trimmed(std::string_view cell) {
-    const auto begin = cell.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return {};
-    return cell.substr(begin, cell.find_last_not_of(" \t\r") - begin + 1);
-}
-
-/// Cells of a line; only the first may stand in double quotes (two of them mean one).
-std::vector<std::string> cells_of(std::string_view line) {
-    std::vector<std::string> cells;
-    line = trimmed(line);
-    if (line.starts_with('"')) {
-        std::string name;
-        std::size_t i = 1;
-        for (; i < line.size() && (line[i] != '"' || line.substr(i, 2) == "\"\""); ++i) {
-            name += line[i];
-            if (line[i] == '"') ++i;
-        }
-        cells.push_back(std::move(name));
-        const auto comma = line.find(',', std::min(i, line.size()));
-        if (comma == std::string_view::npos) return cells;
-        line.remove_prefix(comma + 1);
-    }
-    while (true) {
-        const auto comma = line.find(',');
-        cells.emplace_back(trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return cells;
-        line.remove_prefix(comma + 1);
-    }
 }
 
 /// What a result can carry as text.
@@ -94,17 +61,6 @@ Result<std::vector<Column>> columns_of(const std::vector<std::string>& header, s
     return columns;
 }
 
-Result<double> number_in(const std::string& cell, const Column& column, std::size_t line) {
-    double value = 0;
-    const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-    const char* end = cell.data() + cell.size();
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value))
-        return refuse_line(line, column.name + ": '" + printable(cell) +
-                                     "' is not a number with a decimal point");
-    return value;
-}
-
 /// Both measurements of an axis, or none; a measured one needs its nominal.
 Result<void> check_point(const MeasuredPoint& point) {
     bool measured = false;
@@ -122,33 +78,23 @@ Result<void> check_point(const MeasuredPoint& point) {
     return {};
 }
 
-Result<MeasuredPoint> point_of(const std::vector<std::string>& cells,
-                               const std::vector<Column>& columns,
-                               std::size_t line) {
-    if (cells.size() != columns.size() + 1)
-        return refuse_line(line, "has " + std::to_string(cells.size()) + " cells, the header has " +
-                                     std::to_string(columns.size() + 1));
-    if (cells[0].empty()) return refuse_line(line, "names no feature");
+Result<MeasuredPoint>
+point_of(const CaseTable& table, const TableRow& row, const std::vector<Column>& columns) {
+    const auto& cells = row.cells;
+    if (cells[0].empty()) return refuse_line(row.line, "names no feature");
     if (!is_utf8(cells[0]))
         return refuse_line(
-            line, "has a feature name that is not UTF-8: save the file as UTF-8 in your editor");
-    MeasuredPoint point{cells[0], line, {}, {}, {}};
+            row.line,
+            "has a feature name that is not UTF-8: save the file as UTF-8 in your editor");
+    MeasuredPoint point{cells[0], row.line, {}, {}, {}};
     for (std::size_t i = 0; i < columns.size(); ++i) {
         if (cells[i + 1].empty()) continue;
-        AXISCAL_TRY((point.*columns[i].group)[columns[i].axis],
-                    number_in(cells[i + 1], columns[i], line));
+        auto number = number_in_cell(cells[i + 1], table.separator, "");
+        if (!number) return refuse_line(row.line, columns[i].name + ": " + number.error().detail);
+        (point.*columns[i].group)[columns[i].axis] = *number;
     }
     AXISCAL_CHECK(check_point(point));
     return point;
-}
-
-/// The next line, without its end; counts it.
-std::string_view next_line(std::string_view& text, std::size_t& line) {
-    ++line;
-    const auto end = text.find('\n');
-    const auto found = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    return found;
 }
 
 using Group = std::vector<const MeasuredPoint*>;
@@ -188,27 +134,26 @@ std::optional<std::size_t> moving_axis(const PerAxis<std::vector<double>>& posit
 
 } // namespace
 
-bool is_measurements_csv(std::string_view text) {
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    return text.starts_with("feature,");
-}
-
 Result<std::vector<MeasuredPoint>> read_measurements_csv(std::string_view text) {
-    if (text.size() > largest_case_bytes) return refuse_line(1, "opens a table larger than 64 MiB");
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    std::size_t line = 0;
-    const auto header = cells_of(next_line(text, line));
-    if (header.empty() || header[0] != "feature" || header.size() < 2)
-        return refuse_line(1, "must be the header feature,nominal_*,on_machine_*,cmm_*");
-    AXISCAL_TRY(const std::vector<Column> columns, columns_of(header, line));
+    AXISCAL_TRY(const std::string utf8, utf8_of(text));
+    auto table = read_table_text(utf8);
+    if (!table) { // "table line 7"
+        Error error = std::move(table).error();
+        error.field.replace(0, std::string_view{"table"}.size(), "measurements_csv");
+        return tl::unexpected<Error>(std::move(error));
+    }
+    const auto& header = table->header.cells;
+    if (header.size() < 2 || header[0] != "feature")
+        return refuse_line(std::max<std::size_t>(table->header.line, 1),
+                           "must be the header feature,nominal_*,on_machine_*,cmm_*");
+    AXISCAL_TRY(const std::vector<Column> columns, columns_of(header, table->header.line));
     std::vector<MeasuredPoint> points;
-    while (!text.empty()) {
-        const std::string_view content = trimmed(next_line(text, line));
-        if (content.empty() || content.starts_with('#')) continue;
-        AXISCAL_TRY(MeasuredPoint point, point_of(cells_of(content), columns, line));
+    for (const TableRow& row : table->rows) {
+        AXISCAL_TRY(MeasuredPoint point, point_of(*table, row, columns));
         points.push_back(std::move(point));
     }
-    if (points.empty()) return refuse_line(line, "is the end, and no point was stated");
+    if (points.empty())
+        return refuse_line(table->header.line, "is the end, and no point was stated");
     return points;
 }
 

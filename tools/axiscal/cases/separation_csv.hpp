@@ -17,13 +17,10 @@ struct MeasuredPoint {
     PerAxis<std::optional<double>> nominal_mm, on_machine_mm, cmm_mm;
 };
 
-/// True for a text whose first line begins with `feature,` (after a byte order mark).
-bool is_measurements_csv(std::string_view text);
-
 /// A header line, then a line a point. Columns after `feature` in any order: nominal_x, _y, _z,
-/// on_machine_x, ..., cmm_x, ..., each perhaps with _mm at its end; mm; decimal points; empty cells
-/// where a coordinate was not measured. A feature's name may stand in double quotes. Empty lines
-/// and lines that begin with # are passed over; line ends of any system.
+/// on_machine_x, ..., cmm_x, ..., each perhaps with _mm at its end; mm; empty cells
+/// where a coordinate was not measured. Separators, numbers and quotes are those of any table
+/// (table_text.hpp): lines that begin with # are remarks above the header, features below it.
 /// @errors Fault::bad_case, field "measurements_csv line N".
 Result<std::vector<MeasuredPoint>> read_measurements_csv(std::string_view text);
 
