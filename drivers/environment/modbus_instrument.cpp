@@ -66,6 +66,7 @@ private:
     std::vector<Channel> channels_;
     std::vector<RegisterBlock> blocks_;
     InstrumentCounters counters_;
+    Error last_failure_;
     bool refusal_told_ = false;
 };
 
@@ -147,6 +148,7 @@ Task<Result<int>> ModbusInstrument::round(ModbusBus& bus, InstrumentContext cont
         }
         const Fault fault = reply.error().fault;
         count(fault);
+        last_failure_ = reply.error();
         // A late or damaged answer says nothing about the sensor: its last value only grows old.
         if (fault != Fault::link_closed && fault != Fault::refused) continue;
         hand_up_absent(block, context.scheduler->now(), *context.sink);
@@ -175,6 +177,8 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
             co_return tl::unexpected<Error>(answered.error());
         }
         silent = *answered > 0 ? 0 : silent + 1;
+        if (silent == silent_rounds && last_failure_.fault != Fault::link_timeout)
+            co_return tl::unexpected<Error>(last_failure_); // damaged, or another's
         if (silent == silent_rounds)
             co_return fail(Fault::link_timeout, profile_.model + " unit " +
                                                     std::to_string(station_.unit_id) + " on " +

@@ -476,6 +476,7 @@ TEST(ModbusSensorRtu, ADamagedReplyIsCountedAndGivesNoNumber) {
         const auto& sensor = station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path +
                                            "\"\npoll_period = \"20 ms\"\n");
         EXPECT_TRUE(station.until([&] { return sensor.ended.has_value(); }));
+        EXPECT_EQ(sensor.ended, Fault::checksum) << "and not that it is silent";
         EXPECT_EQ(sensor.instrument->counters().checksum_errors, 3u);
         EXPECT_TRUE(sensor.sink.samples.empty());
     }
