@@ -134,15 +134,6 @@ std::ptrdiff_t excluded_readings(const std::vector<SetAside>& set_aside) {
     return std::ranges::count(set_aside, false, &SetAside::superseded);
 }
 
-/// Of a target and direction; 0 without any.
-int fewest_readings(const RunAt20C& deviations) {
-    std::size_t fewest = deviations.forward().empty() ? 0 : deviations.forward().front().size();
-    for (const auto* side : {&deviations.forward(), &deviations.backward()})
-        for (const auto& row : *side)
-            fewest = std::min(fewest, row.size());
-    return static_cast<int>(fewest);
-}
-
 bool rows_are_equal(const RunAt20C& deviations) {
     const auto n = static_cast<std::size_t>(fewest_readings(deviations));
     const auto has_n = [n](const std::vector<double>& row) { return row.size() == n; };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace axiscal {
@@ -53,26 +54,33 @@ Result<void> check_row(const std::vector<double>& row, std::size_t n, const std:
 
 Result<void> check_rows(const std::vector<std::vector<double>>& rows,
                         std::size_t m,
-                        std::size_t n,
+                        std::optional<std::size_t> n,
                         const std::string& field) {
     if (rows.size() != m)
         return refuse(Fault::bad_case, field,
                       "has " + std::to_string(rows.size()) + " rows for " + std::to_string(m) +
                           " targets");
     for (std::size_t i = 0; i < m; ++i)
-        if (auto good = check_row(rows[i], n, indexed(field, i)); !good) return good;
+        if (auto good = check_row(rows[i], n.value_or(rows[i].size()), indexed(field, i)); !good)
+            return good;
+    for (std::size_t i = 0; i < m; ++i)
+        if (rows[i].empty())
+            return refuse(Fault::bad_case, indexed(field, i),
+                          "is empty; at least one reading is needed");
     return {};
 }
 
 } // namespace
 
-Result<RunAt20C> declare_at_20C(DeviationTable table, const std::string& reason) {
+Result<RunAt20C>
+declare_at_20C(DeviationTable table, const std::string& reason, RowLengths readings) {
     if (reason.empty())
         return refuse(Fault::bad_case, "compensation", "says not why the data stand for 20 degC");
     if (auto good = check_targets(table.targets); !good) return tl::unexpected(good.error());
     const std::size_t m = table.targets.size();
-    const std::size_t n = table.forward.empty() ? 0 : table.forward.front().size();
-    if (!table.forward.empty() && n == 0)
+    std::optional<std::size_t> n;
+    if (readings == RowLengths::equal && !table.forward.empty()) n = table.forward.front().size();
+    if (n == 0)
         return refuse(Fault::bad_case, "forward[0]", "is empty; at least one reading is needed");
     if (auto good = check_rows(table.forward, m, n, "forward"); !good)
         return tl::unexpected(good.error());

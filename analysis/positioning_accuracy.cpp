@@ -138,6 +138,10 @@ std::pair<std::size_t, std::size_t> numbers_of_readings(const RunAt20C& run) {
 
 } // namespace
 
+int fewest_readings(const RunAt20C& run) {
+    return run.forward().empty() ? 0 : static_cast<int>(numbers_of_readings(run).first);
+}
+
 PositioningResult
 evaluate_positioning(const RunAt20C& run, std::string standard, double cover_factor) {
     const bool bidirectional = !run.backward().empty();

@@ -40,9 +40,15 @@ struct DeviationTable {
     std::string unit = "mm";
 };
 
+enum class RowLengths : std::uint8_t { equal, any };
 /// Data that came corrected (or were measured at 20 degC): the reason is kept and printed.
 /// @errors Fault::bad_case with the field ("forward[2][1]") for shape errors, NaN or infinities.
-Result<RunAt20C> declare_at_20C(DeviationTable table, const std::string& reason);
+/// @param readings  whether all rows have the same number, or each at least one
+Result<RunAt20C> declare_at_20C(DeviationTable table,
+                                const std::string& reason,
+                                RowLengths readings = RowLengths::equal);
+/// Of any target and direction; 0 without any.
+int fewest_readings(const RunAt20C& run);
 
 struct PositionRow {
     double target = 0;

@@ -62,8 +62,8 @@ CaseAnswer refuse_all(const Error& error) {
 Error no_case(const std::string& utf8) {
     const std::string begin = utf8.substr(0, std::min(utf8.find_first_of("\r\n"), std::size_t{40}));
     return {Fault::bad_case,
-            "neither that nor a table that is known here ('" + printable(begin) +
-                "'). A table begins with a column 'target [mm]', 'angle [deg]' or 'feature'; "
+            "neither JSON nor a table that is known here ('" + printable(begin) +
+                "'). A table has a column 'target [mm]', 'angle [deg]' or 'feature' first; "
                 "'axiscal case new positioning --csv FILE' writes one to be filled in",
             {},
             "json"};

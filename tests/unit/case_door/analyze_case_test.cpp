@@ -209,7 +209,7 @@ TEST(AnalyzeCaseRefuses, NoTargetsByTheirNameWhateverTheRowsAre) {
 TEST(AnalyzeCaseRefuses, WhatIsNoFiniteNumber) {
     expect_field(refusal_with("/forward/2/1", "3.0"), "forward[2][1]");
     expect_field(refusal_with("/forward/2/1", true), "forward[2][1]");
-    expect_field(refusal_with("/forward/2/1", nullptr), "forward[2][1]");
+    expect_field(refusal_with("/targets/1", nullptr), "targets[1]"); // of a reading: it is missing
     expect_field(refusal_with("/backward/0/4", {1}), "backward[0][4]");
     expect_field(refusal_with("/targets/1", "100"), "targets[1]");
     expect_field(refusal_with("/targets/1", 1e13), "targets[1]");

@@ -105,6 +105,31 @@ TEST(CaseTable, StatesWhatElseACaseHolds) {
     EXPECT_NE(refusal("# uncertanty.eve_um: 3\n" + plain).find("uncertanty"), std::string::npos);
 }
 
+// As laser programs export: the run back descends.
+TEST(CaseTable, MayHaveARowAReading) {
+    const std::string rows = "1;0;+;0,5\n1;500;+;2,5\n1;1000;+;9,5\n"
+                             "1;1000;-;8,5\n1;500;-;1,5\n1;0;-;-0,5\n"
+                             "2;0;+;1,5\n2;500;+;3,5\n2;1000;+;10,5\n"
+                             "2;1000;-;7,5\n2;500;-;0,5\n2;0;-;-1,5\n";
+    EXPECT_EQ(answer("run;target [mm];direction;deviation [um]\n" + rows), as_json());
+    EXPECT_NE(refusal("run;target [mm];deviation [um]\n1;0;0,5\n").find("direction"),
+              std::string::npos);
+    EXPECT_NE(refusal("target [mm];direction;deviation [um]\n0;east;0,5\n").find("must be + or -"),
+              std::string::npos);
+    const std::string uneven =
+        refusal("target [mm];direction;deviation [um]\n0;+;0,5\n0;+;0,6\n10;+;0,7\n");
+    EXPECT_NE(uneven.find("forward[1]: has 1 readings"), std::string::npos) << uneven;
+}
+
+TEST(CaseTable, MayLackReadings) {
+    std::string gap = plain;
+    gap.replace(gap.find("3.5"), 3, "");
+    const json got = answer(gap);
+    EXPECT_EQ(got["completeness"]["left_out"], json::array({"forward[1][1]"}));
+    EXPECT_FALSE(got["parameters"].contains("R")); // of one reading there is no spread
+    EXPECT_TRUE(got["parameters"].contains("M"));
+}
+
 TEST(CaseTable, OfARotaryAxisIsKnownByItsUnit) {
     const json got =
         answer("# readings: deviations\n# axis: C\ntarget [deg],+ [arcsec]\n0,1\n90,2\n");
@@ -117,7 +142,7 @@ TEST(CaseTable, IsRefusedByLineAndColumnWithTheWayOut) {
     };
     EXPECT_NE(cell("x").find("table line 4, column run1 + [um]: 'x' is not a number"),
               std::string::npos);
-    EXPECT_NE(cell("").find("is empty"), std::string::npos);
+    EXPECT_NE(cell("").find("forward[0]: is empty"), std::string::npos);
     EXPECT_NE(cell("1.234,5").find("thousands"), std::string::npos);
     EXPECT_NE(refusal(statements + "target [mm],run1 + [um]\n0,\"1,234\"\n").find("thousands"),
               std::string::npos);

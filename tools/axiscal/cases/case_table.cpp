@@ -1,10 +1,10 @@
 #include "tools/axiscal/cases/case_table.hpp"
 
 #include "tools/axiscal/case_text.hpp"
+#include "tools/axiscal/cases/case_reader.hpp"
+#include "tools/axiscal/cases/table_columns.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <map>
 
 namespace axiscal {
@@ -24,69 +24,6 @@ refuse_column(const CaseTable& table, const std::string& name, std::string why) 
 std::string place_of(const CaseTable& table, const TableRow& row, std::size_t column) {
     return "table line " + std::to_string(row.line) + ", column " +
            printable(table.header.cells[column]);
-}
-
-/// "run1 + [um]" is the name "run1 +" in "um"; also with round brackets or "target_mm".
-struct Heading {
-    std::string name, unit;
-};
-
-std::string unit_word(std::string unit) {
-    if (unit == "\xc2\xb5m" || unit == "\xce\xbcm") return "um"; // both letters mu
-    if (unit == "\xc2\xb0") return "deg";
-    return unit;
-}
-
-Heading heading_of(std::string text) {
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        const auto begin = text.rfind(open);
-        if (begin == std::string::npos || text.empty() || text.back() != close) continue;
-        std::string unit = text.substr(begin + 1, text.size() - begin - 2);
-        const auto end = text.find_last_not_of(' ', begin == 0 ? 0 : begin - 1);
-        return {text.substr(0, end + 1), unit_word(std::move(unit))};
-    }
-    for (const std::string unit : {"mm", "um", "deg", "rad", "arcsec"})
-        if (text.ends_with("_" + unit))
-            return {text.substr(0, text.size() - unit.size() - 1), unit};
-    return {std::move(text), ""};
-}
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
-    return text;
-}
-
-/// One reading of a target: the word or sign of its direction, and its number.
-struct Approach {
-    bool forward = true;
-    int number = 1;
-    auto operator<=>(const Approach&) const = default;
-};
-
-bool is_word_in(const std::string& name, std::string_view word) {
-    const auto at = name.find(word);
-    if (at == std::string::npos) return false;
-    const auto letter = [&](std::size_t place) {
-        return place < name.size() && std::isalpha(static_cast<unsigned char>(name[place])) != 0;
-    };
-    return (at == 0 || !letter(at - 1)) && !letter(at + word.size());
-}
-
-std::optional<Approach> approach_of(const std::string& heading) {
-    constexpr std::array forward{"+", "\xe2\x86\x91", "forward", "up", "positive", "pos", "fwd"};
-    constexpr std::array backward{"-",        "\xe2\x86\x93", "backward", "down",
-                                  "negative", "neg",          "reverse"};
-    const std::string name = lower(heading);
-    const auto says = [&](const char* word) { return is_word_in(name, word); };
-    const bool goes_up = std::ranges::any_of(forward, says);
-    const bool goes_down = std::ranges::any_of(backward, says);
-    if (goes_up == goes_down) return std::nullopt;
-    const auto digit = name.find_first_of("0123456789");
-    Approach found{goes_up, 1};
-    if (digit != std::string::npos) found.number = std::atoi(name.c_str() + digit);
-    return found;
 }
 
 /// A statement's value: JSON where it is (a number, true, an object), else the words.
@@ -117,6 +54,7 @@ Result<std::string> common_unit(const CaseTable& table,
                                 const std::vector<std::size_t>& columns,
                                 const json& stated,
                                 const std::string& key) {
+    const std::string usual = key == "target_unit" ? "mm" : "um";
     std::string unit =
         stated.contains(key) && stated.at(key).is_string() ? stated.at(key).get<std::string>() : "";
     for (const std::size_t column : columns) {
@@ -131,8 +69,8 @@ Result<std::string> common_unit(const CaseTable& table,
     if (!unit.empty()) return unit;
     return refuse_column(table, table.header.cells[columns.front()],
                          "tells no unit: write \"" +
-                             heading_of(table.header.cells[columns.front()]).name +
-                             " [um]\", or \"# " + key + ": um\" above the header");
+                             heading_of(table.header.cells[columns.front()]).name + " [" + usual +
+                             "]\", or \"# " + key + ": " + usual + "\" above the header");
 }
 
 /// Of a table whose numbers have both points and commas, the commas are no decimal ones.
@@ -156,6 +94,64 @@ Result<double> reading_at(const CaseTable& table, const TableRow& row, std::size
         return refuse(Fault::bad_case, place_of(table, row, column),
                       "is empty: every target needs all its readings");
     return number_in_cell(row.cells[column], table.separator, place_of(table, row, column));
+}
+
+/// A row a reading: which column holds what.
+struct LongForm {
+    std::size_t target = 0, reading = 0, direction = 0;
+    std::string readings; ///< "deviations" or "positions"; empty: the heading does not say
+};
+
+std::optional<std::size_t> column_named(const CaseTable& table, const Words& names) {
+    for (std::size_t at = 0; at < table.header.cells.size(); ++at)
+        if (std::ranges::find(names, lower(heading_of(table.header.cells[at]).name)) != names.end())
+            return at;
+    return std::nullopt;
+}
+
+/// Nothing where the table has a column a reading.
+Result<std::optional<LongForm>> long_form_of(const CaseTable& table) {
+    const auto deviation = column_named(table, {"deviation", "deviations", "error"});
+    const auto position = column_named(table, {"position", "positions"});
+    const auto other = column_named(table, {"reading", "readings", "value"});
+    if (!deviation && !position && !other) return std::optional<LongForm>{};
+    const auto direction = column_named(table, {"direction", "dir"});
+    if (!direction)
+        return refuse_column(table, table.header.cells.back(),
+                             "stands without a column \"direction\" of + and -");
+    LongForm form;
+    form.target = column_named(table, {"target", "targets"}).value_or(0);
+    form.direction = *direction;
+    form.reading = deviation ? *deviation : position ? *position : *other;
+    form.readings = deviation ? "deviations" : position ? "positions" : "";
+    return std::optional{form};
+}
+
+/// Readings of a target and direction in the order of their rows.
+Result<void> read_long_rows(const CaseTable& table, const LongForm& form, json& object) {
+    std::vector<double> targets;
+    std::map<double, std::pair<json, json>> readings;
+    for (const TableRow& row : table.rows) {
+        AXISCAL_TRY(const double target, reading_at(table, row, form.target));
+        AXISCAL_TRY(const double reading, reading_at(table, row, form.reading));
+        const auto approach = approach_of(row.cells[form.direction]);
+        if (!approach)
+            return refuse(Fault::bad_case, place_of(table, row, form.direction),
+                          "must be + or -, forward or backward, up or down");
+        if (!readings.contains(target)) targets.push_back(target);
+        auto& [forward, backward] = readings[target];
+        (approach->forward ? forward : backward).push_back(reading);
+    }
+    const bool both =
+        std::ranges::any_of(readings, [](const auto& one) { return !one.second.second.is_null(); });
+    for (const double target : targets) {
+        auto& [forward, backward] = readings[target];
+        object["targets"].push_back(target);
+        object["forward"].push_back(forward.is_null() ? json::array() : std::move(forward));
+        if (both)
+            object["backward"].push_back(backward.is_null() ? json::array() : std::move(backward));
+    }
+    return {};
 }
 
 using ApproachColumns = std::map<Approach, std::size_t>;
@@ -190,8 +186,11 @@ Result<void> read_rows(const CaseTable& table, const ApproachColumns& columns, j
         object["targets"].push_back(target);
         json forward = json::array(), backward = json::array();
         for (const auto& [approach, column] : columns) {
-            AXISCAL_TRY(const double reading, reading_at(table, row, column));
-            (approach.forward ? forward : backward).push_back(reading);
+            json reading; // an empty cell: it is missing
+            if (!row.cells[column].empty()) {
+                AXISCAL_TRY(reading, reading_at(table, row, column));
+            }
+            (approach.forward ? forward : backward).push_back(std::move(reading));
         }
         if (!forward.empty()) object["forward"].push_back(std::move(forward));
         if (!backward.empty()) object["backward"].push_back(std::move(backward));
@@ -199,11 +198,8 @@ Result<void> read_rows(const CaseTable& table, const ApproachColumns& columns, j
     return {};
 }
 
-Result<json> positioning_of(const CaseTable& table) {
-    json object = statements_of(table);
-    AXISCAL_TRY(const ApproachColumns columns, approach_columns(table));
-    AXISCAL_TRY(object["target_unit"], common_unit(table, {0}, object, "target_unit"));
-    AXISCAL_TRY(object["unit"], common_unit(table, places_of(columns), object, "unit"));
+/// What a table need not say.
+Result<void> complete_positioning(json& object) {
     if (!object.contains("readings"))
         return refuse(
             Fault::bad_case, "readings",
@@ -217,6 +213,27 @@ Result<json> positioning_of(const CaseTable& table) {
     object["axis"] = std::move(axis);
     if (!object.contains("standard")) object["standard"] = "ISO 230-2:2014";
     object["analysis"] = "positioning";
+    return {};
+}
+
+Result<json> long_positioning_of(const CaseTable& table, const LongForm& form) {
+    json object = statements_of(table);
+    AXISCAL_TRY(object["target_unit"], common_unit(table, {form.target}, object, "target_unit"));
+    AXISCAL_TRY(object["unit"], common_unit(table, {form.reading}, object, "unit"));
+    if (!object.contains("readings") && !form.readings.empty()) object["readings"] = form.readings;
+    AXISCAL_CHECK(complete_positioning(object));
+    AXISCAL_CHECK(read_long_rows(table, form, object));
+    return object;
+}
+
+Result<json> positioning_of(const CaseTable& table) {
+    AXISCAL_TRY(const auto form, long_form_of(table));
+    if (form) return long_positioning_of(table, *form);
+    json object = statements_of(table);
+    AXISCAL_TRY(const ApproachColumns columns, approach_columns(table));
+    AXISCAL_TRY(object["target_unit"], common_unit(table, {0}, object, "target_unit"));
+    AXISCAL_TRY(object["unit"], common_unit(table, places_of(columns), object, "unit"));
+    AXISCAL_CHECK(complete_positioning(object));
     AXISCAL_CHECK(read_rows(table, columns, object));
     return object;
 }
@@ -260,11 +277,15 @@ Result<json> circular_of(const CaseTable& table) {
 } // namespace
 
 std::optional<TableKind> kind_of_table(std::string_view utf8) {
-    const std::string first = lower(heading_of(first_cell_of(utf8)).name);
-    if (first == "target" || first == "targets") return TableKind::positioning;
-    if (first == "angle") return TableKind::circular;
-    if (first == "feature") return TableKind::workpiece;
-    return std::nullopt;
+    Words names;
+    for (std::string& cell : header_cells_of(utf8))
+        names.push_back(lower(heading_of(std::move(cell)).name));
+    if (names.empty()) return std::nullopt;
+    if (names.front() == "angle") return TableKind::circular;
+    if (names.front() == "feature") return TableKind::workpiece;
+    const bool has_target = std::ranges::any_of(
+        names, [](const std::string& name) { return name == "target" || name == "targets"; });
+    return has_target ? std::optional{TableKind::positioning} : std::nullopt;
 }
 
 Result<json> case_of_table(const CaseTable& table, TableKind kind) {

@@ -12,11 +12,12 @@ namespace axiscal {
 
 enum class TableKind : std::uint8_t { positioning, circular, workpiece };
 
-/// By the first column: target, angle, or feature. Empty for any other.
+/// By its header: the first column is angle or feature, or one is target. Empty for any other.
 std::optional<TableKind> kind_of_table(std::string_view utf8);
 
-/// Columns of positioning: "target [mm]", then one a reading, "run1 + [um]", "run1 - [um]". Of
-/// circular: "angle [deg]", then "ccw [um]", "cw [um]"; an empty cell is no reading.
+/// Columns of positioning: "target [mm]", then one a reading, "run1 + [um]", "run1 - [um]"; or a
+/// row a reading with the columns target, direction, and deviation or position. Of circular: "angle
+/// [deg]", then "ccw [um]", "cw [um]"; an empty cell is no reading.
 /// @errors Fault::bad_case with line and column, and the form that is accepted.
 Result<nlohmann::json> case_of_table(const CaseTable& table, TableKind kind);
 

@@ -72,7 +72,7 @@ void add_approaches_remark(const json& object,
                            const PositioningInput& input,
                            std::vector<std::string>& remarks) {
     const auto n = stated(object, "n");
-    const auto rows = static_cast<double>(input.run.forward().front().size());
+    const double rows = fewest_readings(input.run);
     if (n && *n != rows)
         remarks.push_back("uncertainty.n states " + six_digits(*n) + " approaches, the rows hold " +
                           six_digits(rows) + ": the uncertainties are those of the rows");

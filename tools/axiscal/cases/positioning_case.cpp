@@ -27,6 +27,16 @@ const Words& known_keys() {
     return known;
 }
 
+/// As on the certificate of a run that was not finished.
+void add_completeness(const PositioningInput& input, ordered_json& document) {
+    if (input.missing.empty()) return;
+    ordered_json& known = document["completeness"];
+    known["status"] = "partial";
+    known["expected"] = input.expected;
+    known["used"] = input.expected - static_cast<int>(input.missing.size());
+    known["left_out"] = input.missing;
+}
+
 void add_artefact(const json& object, ordered_json& document) {
     const std::string key = artefact_key(object);
     if (key.empty()) return;
@@ -38,9 +48,9 @@ void add_artefact(const json& object, ordered_json& document) {
 /// The rule is of ISO 230-2 alone; `travel` and `interval` are checked for every standard.
 Result<TargetFinding>
 add_target_rule(const json& object, const PositioningInput& input, ordered_json& document) {
-    AXISCAL_TRY(const TargetQuestion question,
-                target_question_of(object, input.axis, input.run.targets(),
-                                   static_cast<int>(input.run.forward().front().size())));
+    AXISCAL_TRY(
+        const TargetQuestion question,
+        target_question_of(object, input.axis, input.run.targets(), fewest_readings(input.run)));
     AXISCAL_TRY(TargetFinding finding, judge_targets(question));
     if (input.standard->is_iso()) document["target_rule"] = target_rule_json(question, finding);
     return finding;
@@ -53,7 +63,8 @@ Result<RunAt20C> in_one_unit(const PositioningInput& input) {
     const double scale = base_units_in(input.axis.target_unit) / base_units_in(input.axis.unit);
     for (double& target : table.targets)
         target *= scale;
-    return declare_at_20C(std::move(table), "targets in the unit of the deviations");
+    return declare_at_20C(std::move(table), "targets in the unit of the deviations",
+                          input.row_lengths());
 }
 
 Result<void> add_budget(const json& object,
@@ -75,6 +86,10 @@ Result<void> add_limits(const json& object,
                         double travel,
                         ordered_json& document) {
     if (!object.contains("tolerances")) return {};
+    if (!input.missing.empty()) { // a partial result has no verdict
+        add_remarks({"no verdict on the tolerances: readings are missing"}, document);
+        return {};
+    }
     AXISCAL_TRY(const ToleranceSet set, tolerance_set_of(object.at("tolerances"), input.axis));
     add_verdicts(set, travel, document);
     return {};
@@ -91,6 +106,7 @@ Result<ordered_json> positioning_case(const json& object) {
     ordered_json document = standard.is_iso()
                                 ? result_to_json(result)
                                 : style_to_json(evaluate_style(standard.figures, input.run), input);
+    add_completeness(input, document);
     AXISCAL_CHECK(add_budget(object, input, result, document));
     add_words(input, result.positions, document);
     add_artefact(object, document);

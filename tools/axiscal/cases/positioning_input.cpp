@@ -16,17 +16,49 @@ void subtract_targets(DeviationTable& table) {
                 value -= table.targets[i];
 }
 
-Result<DeviationTable> table_of(const json& object) {
+/// What stands in the rows of a case.
+struct Rows20C {
     DeviationTable table;
+    int expected = 0;
+    std::vector<std::string> missing;
+};
+
+/// `null` is a reading that is missing. All rows must state as many, though.
+Result<Rows> rows_with_gaps(const json& object, const std::string& key, Rows20C& out) {
+    json present = json::array();
+    const json& rows = object.at(key);
+    for (std::size_t i = 0; rows.is_array() && i < rows.size(); ++i) {
+        json row = rows[i].is_array() ? json::array() : rows[i];
+        for (std::size_t j = 0; rows[i].is_array() && j < rows[i].size(); ++j) {
+            ++out.expected;
+            if (rows[i][j].is_null())
+                out.missing.push_back(indexed(indexed(key, i), j));
+            else
+                row.push_back(rows[i][j]);
+        }
+        if (rows[i].is_array() && rows[0].is_array() && !rows[0].empty() &&
+            rows[i].size() != rows[0].size())
+            return refuse(Fault::bad_case, indexed(key, i),
+                          "has " + std::to_string(rows[i].size()) + " readings where " + key +
+                              "[0] has " + std::to_string(rows[0].size()) +
+                              "; null stands for one that is missing");
+        present.push_back(std::move(row));
+    }
+    return rows_of(rows.is_array() ? present : rows, key);
+}
+
+Result<Rows20C> table_of(const json& object) {
+    Rows20C out;
+    DeviationTable& table = out.table;
     AXISCAL_TRY(table.targets, numbers_at(object, "targets", "targets"));
     if (table.targets.empty()) // else the rows, of which none is right then, would be named
         return refuse(Fault::bad_case, "targets", "is empty; at least one target is needed");
-    AXISCAL_TRY(const json* forward, member(object, "forward", "forward"));
-    AXISCAL_TRY(table.forward, rows_of(*forward, "forward"));
+    AXISCAL_TRY([[maybe_unused]] const json* forward, member(object, "forward", "forward"));
+    AXISCAL_TRY(table.forward, rows_with_gaps(object, "forward", out));
     if (object.contains("backward")) {
-        AXISCAL_TRY(table.backward, rows_of(object.at("backward"), "backward"));
+        AXISCAL_TRY(table.backward, rows_with_gaps(object, "backward", out));
     }
-    return table;
+    return out;
 }
 
 Result<void> check_compensation(const json& object) {
@@ -85,15 +117,21 @@ Result<PositioningInput> positioning_input_of(const json& object) {
     AXISCAL_TRY(CaseAxis axis, axis_of(object));
     AXISCAL_TRY(const std::string readings, readings_of(object, axis));
     AXISCAL_CHECK(check_compensation(object));
-    AXISCAL_TRY(DeviationTable table, table_of(object));
+    AXISCAL_TRY(Rows20C rows, table_of(object));
+    DeviationTable& table = rows.table;
+    const RowLengths lengths = rows.missing.empty() ? RowLengths::equal : RowLengths::any;
+    if (lengths == RowLengths::any && !standard->is_iso())
+        return refuse(Fault::bad_case, rows.missing.front(),
+                      "is missing: a figure of this style needs all readings");
     table.unit = axis.unit;
     // positions are first checked as they came: the shape must be right and the numbers sane
-    AXISCAL_TRY(const RunAt20C as_it_came, declare_at_20C(table, "as it came"));
+    AXISCAL_TRY(const RunAt20C as_it_came, declare_at_20C(table, "as it came", lengths));
     if (readings == "positions") subtract_targets(table);
     AXISCAL_CHECK(take_out_artefact(object, axis, table));
-    AXISCAL_TRY(RunAt20C run,
-                declare_at_20C(std::move(table), "a case is taken as measured at 20 degC"));
-    return PositioningInput{std::move(axis), standard, std::move(run)};
+    AXISCAL_TRY(RunAt20C run, declare_at_20C(std::move(table),
+                                             "a case is taken as measured at 20 degC", lengths));
+    return PositioningInput{std::move(axis), standard, std::move(run), rows.expected,
+                            std::move(rows.missing)};
 }
 
 } // namespace axiscal

@@ -22,6 +22,11 @@ struct PositioningInput {
     CaseAxis axis;
     const PositioningStandard* standard = nullptr; ///< never null once read
     RunAt20C run;                                  ///< targets in target_unit, the rest in unit
+    int expected = 0;                              ///< readings, those that are missing included
+    std::vector<std::string> missing;              ///< `null`: "forward[2][1]"
+    [[nodiscard]] RowLengths row_lengths() const {
+        return missing.empty() ? RowLengths::equal : RowLengths::any;
+    }
 };
 
 /// The key `standard`, one of positioning_standards(); the refusal shows the list.

@@ -142,17 +142,17 @@ Result<std::string> utf8_of(std::string_view bytes) {
     return std::string{bytes};
 }
 
-std::string first_cell_of(std::string_view utf8) {
+std::vector<std::string> header_cells_of(std::string_view utf8) {
     while (!utf8.empty()) {
         const auto end = std::min(utf8.find('\n'), utf8.size());
         const std::string_view line = utf8.substr(0, end);
         utf8.remove_prefix(std::min(end + 1, utf8.size()));
         if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
-        const auto cell = trimmed(line.substr(0, line.find(separator_of(line))));
-        const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-        return std::string{quoted ? cell.substr(1, cell.size() - 2) : cell};
+        const char separator = separator_of(line);
+        if (auto row = row_of(line, 1, separator)) return std::move(row->cells);
+        return {std::string{trimmed(line.substr(0, line.find(separator)))}}; // a quote stays open
     }
-    return "";
+    return {};
 }
 
 Result<CaseTable> read_table_text(std::string_view utf8) {

@@ -29,8 +29,8 @@ struct CaseTable {
     char separator = ',';
 };
 
-/// Of the header; empty where there is none.
-std::string first_cell_of(std::string_view utf8);
+/// Of the header, as far as they can be told; none where there is no header.
+std::vector<std::string> header_cells_of(std::string_view utf8);
 
 /// Empty lines are passed over. Below the header # is a letter like any other, but a line that
 /// begins with it and has another number of cells is a remark.

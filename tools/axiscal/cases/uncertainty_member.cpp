@@ -137,12 +137,14 @@ Result<void> add_uncertainty(ordered_json& document,
                              const RunAt20C& run,
                              const PositioningResult& result) {
     default_length(member.statement, run);
-    auto budget = make_budget(member.statement, result.approaches,
-                              static_cast<int>(run.targets().size()), result.cover_factor);
+    const int approaches = fewest_readings(run); // the largest U
+    auto budget = make_budget(member.statement, approaches, static_cast<int>(run.targets().size()),
+                              result.cover_factor);
     if (!budget)
         return refuse(Fault::bad_case, field_prefix + budget.error().field, budget.error().detail);
     add_uncertainty_json(document, *budget, member.target_uncertainty, result.unit);
-    if (!member.monte_carlo.asked) return {};
+    const bool uneven = approaches != result.approaches; // a simulation draws the same n
+    if (!member.monte_carlo.asked || uneven) return {};
     return add_monte_carlo(document, member.monte_carlo, *budget, run, result);
 }
 
