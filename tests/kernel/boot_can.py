@@ -316,13 +316,15 @@ def spoilt(station, nodes, fault, cable_fault, reasons):
 def corrupt(station):
     """One bit of each byte. No sum goes with a PDO's content, for the bus has its own; a node whose state is
     wrong is set up anew, and what it answers then is no answer."""
-    spoilt(station, ["gauge", "probe-4"], "corrupt 1", ["corrupt", 128], ["was taken out of operation", "does not answer"])
+    spoilt(station, ["gauge", "probe-4"], "corrupt 1", ["corrupt", 128],
+           ["was taken out of operation", "does not answer", "what came is not Modbus"])
 
 
 @check("ShortFramesAndRepliesAreNoReadings")
 def cut(station):
     before = {name: station.instrument(name)["bad_frames"] for name in ("ballbar", "probe-6")}
-    spoilt(station, list(before), "cut 3", ["cut", 3], ["shorter than its mapping", "does not answer"])
+    spoilt(station, list(before), "cut 3", ["cut", 3],
+           ["shorter than its mapping", "does not answer", "what came is not Modbus"])
     for name, count in before.items():
         expect(station.instrument(name)["bad_frames"] > count, f"{name} counts no short frame")
 
