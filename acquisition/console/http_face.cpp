@@ -205,7 +205,8 @@ Task<Response> HttpFace::Impl::respond(Request request, Door door, int descripto
     if (path == "/v1/instruments")
         co_return answer(request, http::status::ok, to_json(status)["instruments"]);
     if (path == "/v1/preflight") {
-        const auto checks = station.preflight({});
+        ArmRequest as_configured;
+        const auto checks = co_await station.preflight(std::move(as_configured));
         if (!checks) co_return answer(request, checks.error());
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
@@ -222,9 +223,10 @@ Task<Response> HttpFace::Impl::change(Request request, Orderer by, int descripto
     const std::string target = path_of(request);
     if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by), descriptor);
     if (target == "/v1/preflight") {
-        const auto wanted = arm_request_from_json(request.body());
+        auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
-        const auto checks = station.preflight(*wanted);
+        ArmRequest order = *std::move(wanted);
+        const auto checks = co_await station.preflight(std::move(order));
         if (!checks) co_return answer(request, checks.error());
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
@@ -285,8 +287,10 @@ Task<Response> HttpFace::Impl::arm(Request request, Orderer by, int descriptor) 
     order.has_gone = [descriptor] { return has_hung_up(descriptor); };
     ArmRequest asked = order;
     const auto run = co_await station.arm(std::move(asked));
-    if (!run && run.error().field == "preflight")
-        co_return answer_with_checks(request, run.error(), station.preflight(order));
+    if (!run && run.error().field == "preflight") {
+        const auto checks = co_await station.preflight(std::move(order));
+        co_return answer_with_checks(request, run.error(), checks);
+    }
     if (!run) co_return answer(request, run.error());
     co_return answer(request, http::status::created, {{"run", *run}});
 }

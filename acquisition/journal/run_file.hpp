@@ -189,6 +189,8 @@ std::string certificate_name(const RunSummary& run);
 /// A stored result of a drift test.
 struct StoredDrift {
     std::string run_id, document;
+    Duration duration{}; ///< as long as it was to last: it is complete
+    Length place;        ///< where the axis rested, as was stated; 0 for a ballbar
 };
 /// Which drift test a budget takes its E_VE from.
 struct WantedDrift {

@@ -428,7 +428,14 @@ Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wan
                                           (wanted.of_bar ? "ballbar " : "axis ") + wanted.of +
                                           " in " + folder + "; " + wanted.order() + " makes one");
     AXISCAL_TRY(StoredResult stored, read_stored_result(found->path));
-    return StoredDrift{found->run_id, std::move(stored.document)};
+    AXISCAL_TRY(const auto database, open_checked(found->path));
+    AXISCAL_TRY(const auto rows, rows_of(*database, "SELECT duration_ns, place_m FROM drift"));
+    const auto* duration_ns = rows.empty() ? nullptr : std::get_if<std::int64_t>(&rows[0][0]);
+    const auto* place_m = rows.empty() ? nullptr : std::get_if<double>(&rows[0][1]);
+    if (duration_ns == nullptr || place_m == nullptr)
+        return bad(found->path, "the drift test does not say how long it lasted");
+    return StoredDrift{found->run_id, std::move(stored.document), Duration{*duration_ns},
+                       metre(*place_m)};
 }
 
 std::vector<std::string> open_run_files(const std::string& folder) {

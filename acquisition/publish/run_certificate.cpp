@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace axiscal {
 namespace {
 
@@ -60,6 +62,14 @@ void take_as_open(RunRecord& run) {
     run.closed = {};
 }
 
+/// With its length and place, where the pre-flight check told them.
+std::string source_of_eve(const Certificate& certificate) {
+    const auto& checks = certificate.revisions.preflight;
+    const auto told = std::ranges::find(checks, "eve", &PreflightRecord::name);
+    if (told != checks.end()) return told->verdict;
+    return "E_VE is the range of the drift test " + certificate.attachments.eve_source + ".";
+}
+
 Result<FirstResult> first_result_of(const std::string& run_file) {
     AXISCAL_TRY(const bool circular, is_circular_run(run_file));
     if (!circular) {
@@ -89,8 +99,7 @@ Result<Certificate> certificate_of_run_file(const std::string& run_file) {
                                  std::move(sha256)));
     certificate.attachments = std::move(contents.attachments);
     if (!certificate.attachments.eve_source.empty())
-        certificate.remarks.push_back("E_VE is the range of the drift test " +
-                                      certificate.attachments.eve_source + ".");
+        certificate.remarks.push_back(source_of_eve(certificate));
     certificate.result_digest = result_digest(certificate.result);
     const auto document = [&certificate] { return result_to_json(certificate.result); };
     // No partial result is stored or bears a number; of a run that is open again, what it held before is.

@@ -5,6 +5,7 @@
 #include "acquisition/run/principal_positions.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace axiscal {
 namespace {
@@ -201,6 +202,24 @@ Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_
     AXISCAL_TRY(auto second, plan_pass(stretch));
     plans.push_back(std::move(second));
     return plans;
+}
+
+Duration least_time_of(const RunPlan& plan, Speed feed, Duration dwell) {
+    Length way;
+    for (std::size_t i = 1; i < plan.points.size(); ++i) {
+        const auto target = [&](std::size_t k) {
+            return plan.targets[static_cast<std::size_t>(plan.points[k].target_index)];
+        };
+        way = way + abs(target(i) - target(i - 1));
+    }
+    const double moving_s = feed > Speed{} ? way.si() / feed.si() : 0;
+    return from_seconds(moving_s) + static_cast<int>(plan.points.size()) * dwell;
+}
+
+Duration least_time_of(const CircularPlan& plan) {
+    const double circles = static_cast<double>(plan.senses.size()) * (plan.repeats + plan.warm_up);
+    const double arc_mm = plan.nominal_radius_mm * plan.arc_deg * std::numbers::pi / 180;
+    return from_seconds(plan.feed_mm_per_s > 0 ? circles * arc_mm / plan.feed_mm_per_s : 0);
 }
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 // does not allow them (ISO 230-2:2014, 4.3 and 4.4). Pure.
 
 #include "acquisition/run/target_positions.hpp"
+#include "analysis/circular/circular_setup.hpp"
 #include "config/station_config.hpp"
 
 #include <cstdint>
@@ -21,5 +22,12 @@ Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_
 /// below, then n times from above. Unidirectional: the upward half alone.
 std::vector<PlannedPoint>
 order_points(CycleKind cycle, int targets, int approaches, bool bidirectional);
+
+/// What such a run takes without starting, braking, overrun and answers: the way from point to point
+/// at the programmed feed, and the dwell at each. A feed of 0 is not known and takes no time.
+Duration least_time_of(const RunPlan& plan, Speed feed, Duration dwell);
+
+/// The evaluated arcs of a circular test at their feed, without feed-in and overshoot.
+Duration least_time_of(const CircularPlan& plan);
 
 } // namespace axiscal

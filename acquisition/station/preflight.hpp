@@ -27,6 +27,19 @@ struct SensorFacts {
     bool on_scale = false; ///< of the scale that measures the axis, none of the machine
 };
 
+/// The drift test that the budget takes its E_VE from, beside what the run asks of it.
+struct EveFacts {
+    std::string run_id, order; ///< `order` makes another
+    std::string why_not = {};  ///< it cannot be taken; the rest says nothing then
+    Duration lasted{};
+    Duration run_takes{};       ///< at least
+    std::optional<Length> rest; ///< coordinate at which the axis stood; of a bar: none
+    bool angle = false;         ///< one millimetre of `rest` for one degree
+    /// Of the beam, dead path included: at rest, and the longest of the run. Absent where no beam
+    /// measures a length.
+    std::optional<Length> beam, longest_beam;
+};
+
 /// Everything that the checks look at.
 struct PreflightFacts {
     const StationConfig& config;
@@ -49,6 +62,7 @@ struct PreflightFacts {
     std::string run_out = {};                ///< of a rotary axis's set-up, as stated
     bool boot_known = true;                  ///< the kernel tells the daemon its boot id
     std::string newest_run = {}, newest_run_day = {}; ///< its ISO date; empty: none is stored
+    std::optional<EveFacts> eve = {}; ///< where the station file takes E_VE from a drift test
     std::string may_sleep = {}; ///< why the computer may fall asleep in mid-run; empty: it may not
 };
 
@@ -63,7 +77,8 @@ inline Duration drift_reach(const PreflightConfig& config) {
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
 /// "certificates", "environment", "computer", "clock", in this order, of a linear or rotary run and
-/// of a circular test alike; of a rotary run also "run_out".
+/// of a circular test alike; of a rotary run also "run_out", with an
+/// `eve_run` also "eve".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

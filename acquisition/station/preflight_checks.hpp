@@ -44,6 +44,9 @@ PreflightRecord check_environment(const PreflightFacts& facts);
 // preflight_drift.cpp
 PreflightRecord check_drift(const PreflightFacts& facts);
 
+// preflight_eve.cpp
+PreflightRecord check_eve(const EveFacts& eve);
+
 // preflight_statements.cpp
 PreflightRecord check_expansion(const PreflightFacts& facts);
 PreflightRecord check_compensation(const PreflightFacts& facts);

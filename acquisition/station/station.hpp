@@ -73,8 +73,7 @@ public:
     Result<void> trigger() override;
     Result<void> type_reading(double seconds_of_arc) override;
     Task<Result<RunEnding>> abort(std::string reason, Orderer by = {}) override;
-    [[nodiscard]] Result<std::vector<PreflightRecord>>
-    preflight(const ArmRequest& request) const override;
+    Task<Result<std::vector<PreflightRecord>>> preflight(ArmRequest request) override;
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
     Task<Result<int>> exclude(RevisionRequest request) override;
     Task<Result<std::string>> drift(DriftRequest request) override;
@@ -332,6 +331,7 @@ private:
     Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
     [[nodiscard]] Result<DriftSetup> drift_setup_of(const DriftRequest& request,
                                                     const RunPlan& plan) const;
+    [[nodiscard]] Result<void> rests_at(Length place) const;
     [[nodiscard]] std::vector<ChannelRecord>
     every_channel(int watched, const std::vector<int>& environment) const;
     /// Ends with the test of this id: another one may begin at once.
@@ -347,13 +347,21 @@ private:
     struct FoundEve {
         Length eve; ///< one millimetre for one degree of a rotary axis
         std::string run_id;
+        Duration lasted{};
+        Length rest; ///< where the axis stood
     };
     /// @errors those of find_drift(); Fault::refused for a test that left readings out;
     /// Fault::bad_run_file for one of the other kind.
     Task<Result<FoundEve>> find_eve(WantedDrift wanted, AxisKind kind);
-    /// E_VE of the drift test that the station file points to, if it does: of the axis, of the bar.
-    Task<Result<void>> adopt_eve(RunRecord& header, RunAttachments& attachments);
-    Task<Result<void>> adopt_eve(CircularSetup& setup, RunAttachments& attachments);
+    /// E_VE of the drift test that the station file points to, if it does: of the bar for circles,
+    /// else of the axis.
+    Task<Result<std::optional<FoundEve>>> eve_for(bool circles);
+    [[nodiscard]] bool takes_circles(const ArmRequest& request) const;
+    /// What of it the pre-flight checks look at.
+    [[nodiscard]] Result<EveFacts> eve_facts(const ArmRequest& request,
+                                             const FoundEve& found) const;
+    [[nodiscard]] Result<std::vector<PreflightRecord>>
+    judge(const ArmRequest& request, const std::optional<FoundEve>& eve) const;
 
     // station_align.cpp
     void watch_alignment(const Sample& sample);

@@ -110,7 +110,8 @@ Task<Result<std::string>> Station::arm(ArmRequest request) {
 
 Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(RunPlan plan, plan_for(request));
-    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, preflight(request));
+    AXISCAL_CO_TRY(std::optional<FoundEve> eve, co_await eve_for(takes_circles(request)));
+    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
     const RunHeaderParts parts{
@@ -122,8 +123,11 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
         !free)
         co_return tl::unexpected<Error>(free.error());
     RunAttachments attachments;
-    if (auto adopted = co_await adopt_eve(header, attachments); !adopted)
-        co_return tl::unexpected<Error>(adopted.error());
+    if (eve) {
+        if (!header.uncertainty) header.uncertainty.emplace();
+        header.uncertainty->eve = eve->eve;
+        attachments.eve_source = std::move(eve->run_id);
+    }
     attachments.alignment =
         alignment_for_run(); // ends one that is going on: not before all else fits
     std::string path =

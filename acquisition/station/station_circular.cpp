@@ -74,14 +74,17 @@ Task<Result<std::string>> Station::arm_circular(ArmRequest request) {
 }
 
 Task<Result<std::string>> Station::open_circular(ArmRequest request) {
-    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, preflight(request));
+    AXISCAL_CO_TRY(std::optional<FoundEve> eve, co_await eve_for(takes_circles(request)));
+    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
     AXISCAL_CO_TRY(RunRecord header, circular_header(request));
     CircularSetup setup = circular_setup();
     RunAttachments attachments;
-    if (auto adopted = co_await adopt_eve(setup, attachments); !adopted)
-        co_return tl::unexpected<Error>(adopted.error());
+    if (eve) {
+        setup.uncertainty.eve_um = eve->eve.in(um);
+        attachments.eve_source = std::move(eve->run_id);
+    }
     std::string path =
         config_.state_directory + "/runs/" + header.run_id + std::string{run_file_ending};
     RunRecord copy = header;

@@ -3,6 +3,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/run/live_position.hpp"
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
@@ -74,7 +75,26 @@ Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const Ru
     const Length place = request.place_mm ? mm(*request.place_mm) : usual;
     if (place < low || place > high)
         return refuse(Fault::bad_request, "place_mm", "lies outside the travel of the axis");
+    AXISCAL_CHECK(rests_at(place));
     return DriftSetup{request.duration, request.interval, place};
+}
+
+/// While the datum of the last run stands, the laser tells where the axis is. A rotary axis may be
+/// behind any position of its table.
+Result<void> Station::rests_at(Length place) const {
+    constexpr Length near = mm(1);
+    if (!run_ || !datum_ || run_->header.rotary || !set_up_lost_.empty() || !datum_stands())
+        return {};
+    const auto reading = history_.newest();
+    if (!reading || !reading->value()) return {};
+    const Length seen =
+        live_position(run_->header.laser, *datum_, metre(*reading->value()), live_scale_);
+    if (abs(seen - place) <= near) return {};
+    const std::string there = plain_number(seen.in(mm), 1);
+    return refuse(Fault::bad_request, "place_mm",
+                  "is " + plain_number(place.in(mm), 3) + " mm, and by the datum of run " +
+                      run_->header.run_id + " the axis stands at " + there +
+                      " mm: drive it to the place, or say --at " + there);
 }
 
 /// Every channel of the station, the one that is watched first. One that no run of it uses stands

@@ -2,8 +2,11 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/journal/run_file.hpp"
+#include "acquisition/run/cycle_plan.hpp"
 
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace axiscal {
 namespace {
@@ -46,27 +49,46 @@ Task<Result<Station::FoundEve>> Station::find_eve(WantedDrift wanted, AxisKind k
         co_return fail(Fault::bad_run_file, "the drift test " + found->run_id +
                                                 " states no E_VE in the unit of this " +
                                                 (wanted.of_bar ? "ballbar" : "axis"));
-    co_return FoundEve{*eve, found->run_id};
+    co_return FoundEve{*eve, found->run_id, found->duration, found->place};
 }
 
-Task<Result<void>> Station::adopt_eve(RunRecord& header, RunAttachments& attachments) {
-    if (config_.eve_run.empty()) co_return Result<void>{};
-    WantedDrift wanted{config_.eve_run, false, header.statements.axis};
-    AXISCAL_CO_TRY(FoundEve found, co_await find_eve(std::move(wanted), header.plan.axis_kind));
-    if (!header.uncertainty) header.uncertainty.emplace();
-    header.uncertainty->eve = found.eve;
-    attachments.eve_source = std::move(found.run_id);
-    co_return Result<void>{};
+bool Station::takes_circles(const ArmRequest& request) const {
+    const bool asked = request.pass == circular_pass || (!roles_.laser && !reads_polygon());
+    return asked && roles_.ballbar && config_.circular;
 }
 
-Task<Result<void>> Station::adopt_eve(CircularSetup& setup, RunAttachments& attachments) {
-    const std::string& which = config_.circular->eve_run;
-    if (which.empty()) co_return Result<void>{};
-    WantedDrift wanted{which, true, shown_name_of(*roles_.ballbar)};
-    AXISCAL_CO_TRY(FoundEve found, co_await find_eve(std::move(wanted), AxisKind::linear));
-    setup.uncertainty.eve_um = found.eve.in(um);
-    attachments.eve_source = std::move(found.run_id);
-    co_return Result<void>{};
+Task<Result<std::optional<Station::FoundEve>>> Station::eve_for(bool circles) {
+    WantedDrift wanted{circles ? config_.circular->eve_run : config_.eve_run, circles, {}};
+    if (wanted.which.empty()) co_return std::optional<FoundEve>{};
+    const std::string& stated = config_.statements.axis;
+    const std::string& axis = stated.empty() ? config_.axis.name : stated;
+    wanted.of = circles ? shown_name_of(*roles_.ballbar) : axis;
+    const AxisKind kind = circles ? AxisKind::linear : config_.cycle.axis_kind;
+    AXISCAL_CO_TRY(FoundEve found, co_await find_eve(std::move(wanted), kind));
+    co_return std::optional{std::move(found)};
+}
+
+Result<EveFacts> Station::eve_facts(const ArmRequest& request, const FoundEve& found) const {
+    EveFacts facts;
+    facts.run_id = found.run_id;
+    facts.lasted = found.lasted;
+    const bool circles = takes_circles(request);
+    facts.order = WantedDrift{{}, circles, {}}.order();
+    if (circles) {
+        facts.run_takes = least_time_of(config_.circular->setup.plan);
+        return facts;
+    }
+    AXISCAL_TRY(const RunPlan plan, plan_for(request));
+    facts.run_takes = least_time_of(plan, config_.cycle.feed, config_.cycle.dwell);
+    facts.rest = found.rest;
+    facts.angle = plan.axis_kind == AxisKind::rotary;
+    if (facts.angle || config_.axis.scale) return facts;
+    const Length dead = config_.axis.dead_path;
+    facts.beam = dead + abs(found.rest - plan.datum);
+    facts.longest_beam = dead;
+    for (const Length target : plan.targets)
+        facts.longest_beam = std::max(*facts.longest_beam, dead + abs(target - plan.datum));
+    return facts;
 }
 
 } // namespace axiscal

@@ -190,8 +190,7 @@ public:
     /// can.
     virtual Task<Result<RunEnding>> abort(std::string reason, Orderer by) = 0;
     /// What arming would meet now. @errors Fault::bad_request for an override that is none.
-    [[nodiscard]] virtual Result<std::vector<PreflightRecord>>
-    preflight(const ArmRequest& request) const = 0;
+    virtual Task<Result<std::vector<PreflightRecord>>> preflight(ArmRequest request) = 0;
     /// Points of the open run, or of the last one while its set-up stands. Durable on return.
     /// @errors the reason why not.
     virtual Task<Result<RetakeAnswer>> retake(RevisionRequest request) = 0;

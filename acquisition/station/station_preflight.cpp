@@ -56,8 +56,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         facts.newest_run_day = iso8601_utc(newest_run_utc_ns_).substr(0, day_letters);
     facts.may_sleep = sleep_lock_.refusal();
     facts.polygon = reads_polygon();
-    const bool asked = request.pass == circular_pass || !roles_.laser;
-    facts.circular = asked && roles_.ballbar && config_.circular;
+    facts.circular = takes_circles(request);
     std::vector<int> roles = facts.circular ? roles_.of_circles() : roles_.environment();
     for (const int id : roles)
         facts.sensors.push_back(sensor_facts(id));
@@ -95,10 +94,27 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     return facts;
 }
 
-Result<std::vector<PreflightRecord>> Station::preflight(const ArmRequest& request) const {
-    auto checks = judge_preflight(preflight_facts(request));
+Result<std::vector<PreflightRecord>>
+Station::judge(const ArmRequest& request, const std::optional<FoundEve>& eve) const {
+    PreflightFacts facts = preflight_facts(request);
+    if (eve) {
+        AXISCAL_TRY(facts.eve, eve_facts(request, *eve));
+    }
+    auto checks = judge_preflight(facts);
     AXISCAL_CHECK(override_checks(checks, request.overrides));
     return checks;
+}
+
+/// Where the drift test is missing its check fails, and no reason helps: arming finds no E_VE.
+Task<Result<std::vector<PreflightRecord>>> Station::preflight(ArmRequest request) {
+    const auto eve = co_await eve_for(takes_circles(request));
+    if (eve) co_return judge(request, *eve);
+    PreflightFacts facts = preflight_facts(request);
+    facts.eve.emplace().why_not = eve.error().detail;
+    auto checks = judge_preflight(facts);
+    if (auto kept = override_checks(checks, request.overrides); !kept)
+        co_return tl::unexpected<Error>(kept.error());
+    co_return checks;
 }
 
 } // namespace axiscal

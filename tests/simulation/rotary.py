@@ -146,7 +146,7 @@ def drift(b):
 
     b.write_program()
     b.go_to_datum()
-    b.arm()
+    b.arm("--override", "eve=a simulated hall")
     certificate = b.finish()
     expect(any(ended["id"] in remark for remark in certificate["run"]["remarks"]),
            f"{certificate['run']['remarks']}")

@@ -72,10 +72,9 @@ public:
         co_return RunEnding{false, reason_given};
     }
 
-    [[nodiscard]] Result<std::vector<PreflightRecord>>
-    preflight(const ArmRequest& request) const override {
+    Task<Result<std::vector<PreflightRecord>>> preflight(ArmRequest request) override {
         const auto reason = request.overrides.find("soak");
-        return std::vector<PreflightRecord>{
+        co_return std::vector<PreflightRecord>{
             {"soak", false, false, "Wait.",
              reason == request.overrides.end() ? "" : reason->second}};
     }

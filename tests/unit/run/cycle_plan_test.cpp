@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <random>
 #include <tuple>
 
@@ -377,6 +378,28 @@ TEST(CyclePlan, LawEveryAcceptedPlanIsSoundAndEveryRefusalSpeaks) {
         EXPECT_EQ(again->front().targets, plans->front().targets);
     }
     EXPECT_GT(accepted, 300);
+}
+
+// 0, 100, 200, 200, 100, 0 mm: 400 mm at 1 m/min are 24 s, six halts of 3 s are 18 s.
+TEST(CyclePlan, LeastTimeIsTheWayAtItsFeedAndTheHalts) {
+    RunPlan plan;
+    plan.targets = {0.0_mm, 100.0_mm, 200.0_mm};
+    plan.points = order_points(CycleKind::standard, 3, 1, true);
+    const Speed feed = Speed::from_si(1.0 / 60);
+    EXPECT_NEAR(seconds_of(least_time_of(plan, feed, std::chrono::seconds{3})), 42, 1e-6);
+    EXPECT_NEAR(seconds_of(least_time_of(plan, {}, std::chrono::seconds{3})), 18, 1e-6);
+    EXPECT_EQ(least_time_of(RunPlan{}, feed, std::chrono::seconds{3}), Duration{});
+}
+
+// Four circles of 2 pi 100 mm at 50 mm/s: 16 pi s.
+TEST(CyclePlan, LeastTimeOfCirclesIsThatOfTheirArcs) {
+    CircularPlan plan;
+    plan.nominal_radius_mm = 100;
+    plan.feed_mm_per_s = 50;
+    plan.warm_up = 1;
+    EXPECT_NEAR(seconds_of(least_time_of(plan)), 16 * std::numbers::pi, 1e-6);
+    plan.arc_deg = 90;
+    EXPECT_NEAR(seconds_of(least_time_of(plan)), 4 * std::numbers::pi, 1e-6);
 }
 
 } // namespace

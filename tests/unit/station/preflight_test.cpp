@@ -430,5 +430,57 @@ TEST_F(CircularPreflight, WithoutACoefficientFAndDStandAsMeasured) {
     EXPECT_TRUE(named(judge_preflight(facts()), "expansion").passed);
 }
 
+EveFacts eve_of_a_long_test() {
+    EveFacts eve;
+    eve.run_id = "shop-20261121T100000Z-X-drift";
+    eve.order = "'axiscal drift'";
+    eve.lasted = 30min;
+    eve.run_takes = 12min;
+    eve.rest = mm(900);
+    eve.beam = mm(950);
+    eve.longest_beam = mm(1050);
+    return eve;
+}
+
+TEST_F(Preflight, ADriftTestTellsItsLengthAndItsPlace) {
+    PreflightFacts with = facts();
+    EXPECT_FALSE(with.eve);
+    const auto without = judge_preflight(with);
+    EXPECT_EQ(std::ranges::find(without, "eve", &PreflightRecord::name), without.end());
+    with.eve = eve_of_a_long_test();
+    const auto checks = judge_preflight(with);
+    EXPECT_TRUE(named(checks, "eve").passed);
+    EXPECT_EQ(named(checks, "eve").verdict,
+              "E_VE is of the drift test shop-20261121T100000Z-X-drift: 30 min, the axis at 900 mm; "
+              "the run takes 12 min or more.");
+    with.eve->lasted = 12min;
+    EXPECT_TRUE(named(judge_preflight(with), "eve").passed);
+    with.eve->angle = true;
+    EXPECT_NE(named(judge_preflight(with), "eve").verdict.find("at 900 deg"), std::string::npos);
+}
+
+TEST_F(Preflight, ADriftTestShorterThanTheRunSaysTooLittleOfIt) {
+    PreflightFacts with = facts();
+    with.eve = eve_of_a_long_test();
+    with.eve->lasted = 20s;
+    with.eve->run_takes = 109s;
+    expect_failure(with, "eve", "20 s, the axis at 900 mm. That is too short, the run takes 109 s");
+    expect_failure(with, "eve", "'axiscal drift' with --duration \"2 min\" or more");
+    with.eve->lasted = 12min - 1ms;
+    with.eve->run_takes = 12min;
+    expect_failure(with, "eve", "too short");
+}
+
+TEST_F(Preflight, ADriftTestNearTheInterferometerSaysTooLittleOfAFarRun) {
+    PreflightFacts with = facts();
+    with.eve = eve_of_a_long_test();
+    with.eve->beam = mm(525);
+    EXPECT_TRUE(named(judge_preflight(with), "eve").passed);
+    with.eve->beam = mm(524);
+    expect_failure(with, "eve", "a beam of 524 mm where the run's is up to 1050 mm");
+    with.eve->beam.reset(); // a scale, a ballbar
+    EXPECT_TRUE(named(judge_preflight(with), "eve").passed);
+}
+
 } // namespace
 } // namespace axiscal::preflight_test

@@ -209,7 +209,7 @@ TEST(StationRotary, PreflightWantsAnAutocollimatorThatAnswersButNoFaceYet) {
     CollimatorShop shop;
     Life life{shop};
     const auto instruments = [&] {
-        const auto checks = life.station->preflight({}).value();
+        const auto checks = life.preflight({}).value();
         return *std::ranges::find(checks, "instruments", &PreflightRecord::name);
     };
     life.laser->quality = Quality::beam_lost; // between two faces

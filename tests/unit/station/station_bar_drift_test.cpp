@@ -283,8 +283,10 @@ TEST_F(StationBarDrifts, AndATestOfTheAxisAreNotEachOthersSource) {
     shop.config.circular->eve_run = shop.config.eve_run = "latest";
     shop.config.axis.name = "XY"; // as the plane: the name alone tells nothing
     Life life{shop};
-    begin(life, a_minute(false));
-    life.run(70s);
+    DriftRequest of_axis = a_minute(false);
+    of_axis.duration = 5min; // as long as a run
+    begin(life, of_axis);
+    life.run(5min + 10s);
     store_figures(shop.run_files().at(0), 1.25);
     EXPECT_EQ(arm_circles(life).error().fault, Fault::not_found);
     const auto of_bar = begin(life, a_minute(true));

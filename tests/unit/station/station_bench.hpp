@@ -410,6 +410,17 @@ public:
         run(1s);
         return answer ? *answer : Result<int>{fail(Fault::internal, "still at it")};
     }
+    Result<std::vector<PreflightRecord>> preflight(ArmRequest request = {}) {
+        std::optional<Result<std::vector<PreflightRecord>>> answer;
+        boost::asio::co_spawn(scheduler.loop(), station->preflight(std::move(request)),
+                              [&answer](std::exception_ptr,
+                                        Result<std::vector<PreflightRecord>> r) {
+                                  answer = std::move(r);
+                              });
+        run(100ms);
+        if (!answer) return fail(Fault::internal, "still at it");
+        return *answer;
+    }
     std::shared_ptr<std::optional<Result<std::string>>> begin_arm(ArmRequest request = {}) {
         auto answer = std::make_shared<std::optional<Result<std::string>>>();
         boost::asio::co_spawn(

@@ -129,6 +129,24 @@ TEST_F(StationDrifts, StandsAtTheFarEndUnlessSaidOtherwise) {
     EXPECT_FALSE(contents().run.complete);
 }
 
+TEST_F(StationDrifts, AtAnotherPlaceThanTheLaserSeesIsRefused) {
+    Life life{shop};
+    ASSERT_TRUE(life.arm());
+    const double datum_mm = shop.plan().datum.in(mm);
+    ASSERT_TRUE(life.abort("enough"));
+    life.run(1s);
+    const auto refused = life.begin_drift(short_test()); // at the far end, it says
+    ASSERT_TRUE(*refused && !**refused);
+    EXPECT_EQ((*refused)->error().field, "place_mm");
+    EXPECT_NE((*refused)->error().detail.find("drive it to the place, or say --at"),
+              std::string::npos)
+        << (*refused)->error().detail;
+    DriftRequest there = short_test();
+    there.place_mm = datum_mm + 0.5;
+    const auto begun = life.begin_drift(there);
+    EXPECT_TRUE(*begun && **begun) << describe((*begun)->error());
+}
+
 TEST_F(StationDrifts, RunsAndAlignmentsWaitForItsEnd) {
     Life life{shop};
     life.begin_drift(short_test());
@@ -210,8 +228,10 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().fault, Fault::not_found);
     EXPECT_NE(refused.error().detail.find("axiscal drift"), std::string::npos);
-    const auto id = life.begin_drift(short_test());
-    life.run(70s);
+    DriftRequest long_enough = short_test();
+    long_enough.duration = 5min;
+    const auto id = life.begin_drift(long_enough);
+    life.run(5min + 10s);
     EXPECT_FALSE(life.arm()) << "complete, but not evaluated yet";
     store_eve(shop.run_files().at(0), 1.25);
     ASSERT_TRUE(life.arm());
@@ -222,6 +242,37 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
         EXPECT_NEAR(file->run.uncertainty->eve->in(um), 1.25, 1e-9);
         EXPECT_EQ(file->attachments.eve_source, **id);
     }
+}
+
+TEST_F(StationDrifts, ShorterThanTheRunNeedsAReasonThatStandsInItsFile) {
+    shop.config.eve_run = "latest";
+    shop.config.cycle.dwell = 60s; // two halts are longer than the test
+    Life life{shop};
+    const auto eve_now = [&] {
+        const auto checks = life.preflight().value();
+        return *std::ranges::find(checks, "eve", &PreflightRecord::name);
+    };
+    EXPECT_NE(eve_now().verdict.find("names no complete drift test of axis X"), std::string::npos)
+        << eve_now().verdict;
+    life.begin_drift(short_test());
+    life.run(70s);
+    store_eve(shop.run_files().at(0), 1.25);
+    EXPECT_FALSE(eve_now().passed);
+    const auto refused = life.arm();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "preflight");
+    EXPECT_NE(refused.error().detail.find("60 s, the axis at 1000 mm. That is too short"),
+              std::string::npos)
+        << refused.error().detail;
+    ArmRequest request;
+    request.overrides["eve"] = "the hall is at rest";
+    ASSERT_TRUE(life.arm(request));
+    const auto file = read_run_file_contents(life.status().run->file);
+    const auto& checks = file->revisions.preflight;
+    const auto kept = std::ranges::find(checks, "eve", &PreflightRecord::name);
+    ASSERT_NE(kept, checks.end());
+    EXPECT_EQ(kept->override_reason, "the hall is at rest");
+    EXPECT_NEAR(file->run.uncertainty->eve->in(um), 1.25, 1e-9);
 }
 
 TEST_F(StationDrifts, ThatLeftReadingsOutFeedsNothingAndSaysWhy) {

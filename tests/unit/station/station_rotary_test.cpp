@@ -91,7 +91,7 @@ TEST(StationRotary, AsksForTheRunOutOfTheSetUp) {
     TableShop shop;
     Life life{shop};
     const auto run_out = [&](const ArmRequest& request) {
-        const auto checks = life.station->preflight(request).value();
+        const auto checks = life.preflight(request).value();
         return *std::ranges::find(checks, "run_out", &PreflightRecord::name);
     };
     EXPECT_TRUE(run_out({}).warning);
@@ -105,7 +105,7 @@ TEST(StationRotary, AnArtefactThatIsPastItsDateBlocks) {
     TableShop shop;
     shop.config.axis.angle->artefact.due_on = "1969-12-31"; // the bench's calendar begins after it
     Life life{shop};
-    const auto checks = life.station->preflight({}).value();
+    const auto checks = life.preflight({}).value();
     const auto papers = std::ranges::find(checks, "certificates", &PreflightRecord::name);
     EXPECT_FALSE(papers->passed);
     EXPECT_NE(papers->verdict.find("indexing table was due for calibration on 1969-12-31"),
@@ -135,7 +135,9 @@ TEST(StationRotary, ADriftTestGivesEveInSecondsOfArcToLaterBudgets) {
     const std::string document = R"({"unit":"arcsec","parameters":{"E_VE":{"value":1.9}}})";
     ASSERT_TRUE(store_result(path, {sha256_hex(document), document}));
     shop.reading_m = [](MonotonicTime) { return 0.0; };
-    const auto armed = life.arm();
+    ArmRequest request;
+    request.overrides["eve"] = "the run takes longer than the test";
+    const auto armed = life.arm(request);
     ASSERT_TRUE(armed) << describe(armed.error());
     for (const std::string& one : shop.run_files()) {
         const auto run = read_run_file_contents(one).value();

@@ -169,7 +169,7 @@ TEST_F(StationWithATape, SaysSoInStateNotesAndPreflight) {
     EXPECT_EQ(views[1].tape, "/traces/air.tape");
     EXPECT_EQ(life.notes_with("air plays a tape"), 1);
     EXPECT_EQ(life.notes_with("air is available"), 0);
-    const auto checks = life.station->preflight({});
+    const auto checks = life.preflight({});
     ASSERT_TRUE(checks);
     const auto check = std::ranges::find(*checks, "instruments", &PreflightRecord::name);
     ASSERT_NE(check, checks->end());
