@@ -12,6 +12,7 @@ namespace axiscal {
 namespace {
 
 constexpr Duration opening_patience = std::chrono::seconds{5};
+constexpr Duration connecting_patience = std::chrono::seconds{1}; // other units wait meanwhile
 
 ModbusQuestion question_of(const ModbusRead& request) {
     return {static_cast<std::uint8_t>(request.unit_id), static_cast<std::uint8_t>(request.function),
@@ -132,7 +133,9 @@ private:
 Task<Result<void>> ModbusBus::Line::make_ready(const ModbusRead& request) {
     Duration still = request.gap;
     if (!link_) {
-        auto opened = co_await opener_.open(settings_, scheduler_.now() + opening_patience);
+        const Duration patience =
+            is_serial() ? opening_patience : std::max(connecting_patience, request.timeout);
+        auto opened = co_await opener_.open(settings_, scheduler_.now() + patience);
         if (!opened) co_return tl::unexpected<Error>(opened.error());
         link_ = *std::move(opened);
         connection_ = {};

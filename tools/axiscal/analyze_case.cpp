@@ -116,8 +116,13 @@ CaseAnswer analyze_cases(std::string_view bytes) {
     const auto utf8 = utf8_of(bytes);
     if (!utf8) return refuse_all(utf8.error());
     const auto begin = utf8->find_first_not_of(" \t\r\n");
-    const bool means_json =
-        begin == std::string::npos || (*utf8)[begin] == '{' || (*utf8)[begin] == '[';
+    if (begin == std::string::npos)
+        return refuse_all({Fault::bad_case,
+                           "the file is empty; 'axiscal case new positioning --csv FILE' writes a "
+                           "table to be filled in",
+                           {},
+                           "json"});
+    const bool means_json = (*utf8)[begin] == '{' || (*utf8)[begin] == '[';
     if (!means_json && !json::accept(*utf8)) return answer_table(*utf8);
     const auto text = read_case_text(*utf8);
     if (!text) return refuse_all(text.error());

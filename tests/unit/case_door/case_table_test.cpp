@@ -176,6 +176,14 @@ TEST(CaseTable, OfAnotherProgramIsRefusedWithWhatIsAccepted) {
     }
 }
 
+TEST(CaseTable, ThatIsEmptySaysSoAndHowOneIsMade) {
+    for (const std::string& text : {std::string{}, std::string{" \n\r\n"}, std::string{"\xff\xfe"}}) {
+        const std::string told = refusal(text);
+        EXPECT_NE(told.find("the file is empty"), std::string::npos) << told;
+        EXPECT_NE(told.find("axiscal case new positioning --csv FILE"), std::string::npos) << told;
+    }
+}
+
 TEST(CaseTable, OfCirclesIsTheSameCaseAsJson) {
     const std::string head = "# nominal_radius_mm: 100\n# feed_mm_per_min: 1000\n";
     std::string rows;
