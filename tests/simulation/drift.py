@@ -53,11 +53,8 @@ def drift(b):
         "eve_run": "latest",
     }
     b.start()
-    ended = json.loads(
-        b.axiscal("drift", "--duration", f"{DURATION_S} s", "--interval", f"{INTERVAL_S} s",
-                  "--at", "0", "--wait", "--json", "--state-that", "operator=Shift 2")
-    )
-    expect(ended["state"] == "complete" and ended["missing"] == 0, f"{ended}")
+    ended = b.drift_test("--duration", f"{DURATION_S} s", "--interval", f"{INTERVAL_S} s", "--at", "0",
+                         "--state-that", "operator=Shift 2")
     folder = Path(ended["certificate"])
     found = json.loads((folder / "certificate.json").read_text())
     eve = found["parameters"]["E_VE"]["value"]

@@ -128,9 +128,7 @@ def drift(b):
     b.scenario["errors"]["drift_um_per_hour"] = creep_um_per_h
     b.station["uncertainty"] = {"device": "1.2 arcsec", "eve_run": "latest"}
     b.start()
-    ended = json.loads(b.axiscal("drift", "--duration", f"{duration_s} s", "--interval",
-                                 f"{interval_s} s", "--wait", "--json"))
-    expect(ended["state"] == "complete" and ended["missing"] == 0, f"{ended}")
+    ended = b.drift_test("--duration", f"{duration_s} s", "--interval", f"{interval_s} s")
     folder = Path(ended["certificate"])
     found = json.loads((folder / "certificate.json").read_text())
     expect(found["unit"] == "arcsec" and found["test"]["place_deg"] == -2, f"{found['test']}")
