@@ -77,8 +77,7 @@ inline Duration drift_reach(const PreflightConfig& config) {
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
 /// "certificates", "environment", "computer", "clock", in this order, of a linear or rotary run and
-/// of a circular test alike; of a rotary run also "run_out", with an
-/// `eve_run` also "eve".
+/// of a circular test alike; of a rotary run also "run_out", with an `eve_run` also "eve".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.
