@@ -9,6 +9,7 @@
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
 #include "drivers/clock/placed_time.hpp"
+#include "drivers/environment/stated_settings.hpp"
 #include "drivers/link/arrival.hpp"
 #include "drivers/link/link_settings.hpp"
 #include "drivers/link/modbus_bus.hpp"
@@ -35,8 +36,9 @@ std::optional<int> register_outside(const ModbusProfile& profile, int offset) {
         const int first = field.address + offset;
         return first < 0 || first + field.count > 65536;
     };
-    for (const ModbusChannel& channel : profile.channels)
-        if (outside(channel.field)) return channel.field.address;
+    for (const auto& fields : {channel_fields(profile), setting_fields(profile)})
+        for (const ModbusField& field : fields)
+            if (outside(field)) return field.address;
     if (profile.serial_number && outside(*profile.serial_number))
         return profile.serial_number->address;
     return std::nullopt;
@@ -48,7 +50,8 @@ public:
         : profile_{std::move(profile)}
         , station_{std::move(station)}
         , channels_{channels_of(profile_)}
-        , blocks_{register_blocks(profile_)} {}
+        , blocks_{register_blocks(channel_fields(profile_))}
+        , settings_{profile_} {}
     [[nodiscard]] const std::vector<Channel>& channels() const override { return channels_; }
     Task<Result<void>> run(InstrumentContext context) override;
     [[nodiscard]] const InstrumentCounters& counters() const override { return counters_; }
@@ -57,6 +60,7 @@ private:
     [[nodiscard]] ModbusRead request(int function, int address, int count) const;
     Task<void> identify(ModbusBus& bus, SampleSink& sink);
     Task<Result<int>> round(ModbusBus& bus, InstrumentContext context);
+    Task<Result<bool>> check_settings(ModbusBus& bus, SampleSink& sink);
     void hand_up(const RegisterBlock& block, const ModbusWords& reply, SampleSink& sink);
     void hand_up_absent(const RegisterBlock& block, MonotonicTime at, SampleSink& sink);
     void count(Fault fault);
@@ -65,6 +69,7 @@ private:
     ModbusStation station_;
     std::vector<Channel> channels_;
     std::vector<RegisterBlock> blocks_;
+    StatedSettings settings_;
     InstrumentCounters counters_;
     Error last_failure_;
     bool refusal_told_ = false;
@@ -116,28 +121,54 @@ void ModbusInstrument::hand_up(const RegisterBlock& block,
                                const ModbusWords& reply,
                                SampleSink& sink) {
     ++counters_.frames;
-    const std::span<const std::uint16_t> words{reply.words};
     const PlacedTime placed = placed_between(reply.asked_at, reply.read_at);
-    for (const std::size_t place : block.channels) {
+    for (const std::size_t place : block.places) {
         const ModbusChannel& channel = profile_.channels[place];
-        const auto begin = static_cast<std::size_t>(channel.field.address - block.address);
-        const auto value = channel_value(
-            words.subspan(begin, static_cast<std::size_t>(channel.field.count)), channel);
+        const auto value = channel_value(words_of(block, reply.words, channel.field), channel);
         ++counters_.samples;
-        sink.take(sample_at(static_cast<int>(place), placed, value));
+        sink.take(sample_at(static_cast<int>(place), placed,
+                            settings_.spoils(place) ? std::nullopt : value));
     }
 }
 
 void ModbusInstrument::hand_up_absent(const RegisterBlock& block,
                                       MonotonicTime at,
                                       SampleSink& sink) {
-    for (const std::size_t place : block.channels)
+    for (const std::size_t place : block.places)
         sink.take(Sample::bad(static_cast<int>(place), at, Quality::absent));
+}
+
+/// Whether all settings were read or refused: without them no value can be taken.
+Task<Result<bool>> ModbusInstrument::check_settings(ModbusBus& bus, SampleSink& sink) {
+    for (const RegisterBlock& block : settings_.blocks()) {
+        const ModbusRead read = request(block.function, block.address, block.count);
+        const auto reply = co_await bus.read(read);
+        const Fault fault = reply ? Fault::none : reply.error().fault;
+        count(fault);
+        if (reply) ++counters_.frames;
+        if (!reply && fault != Fault::refused) {
+            last_failure_ = reply.error();
+            if (fault == Fault::link_closed) co_return tl::unexpected<Error>(reply.error());
+            co_return false;
+        }
+        const auto told = reply ? settings_.take(block, reply->words)
+                                : settings_.refuse(block, reply.error().detail);
+        for (const std::string& text : told)
+            sink.note(reply ? Fault::bad_configuration : Fault::refused, text);
+    }
+    co_return true;
 }
 
 /// The number of blocks that were answered, a Modbus exception being an answer.
 Task<Result<int>> ModbusInstrument::round(ModbusBus& bus, InstrumentContext context) {
     int answered = 0;
+    const auto checked = co_await check_settings(bus, *context.sink);
+    if (!checked) {
+        for (const RegisterBlock& block : blocks_)
+            hand_up_absent(block, context.scheduler->now(), *context.sink);
+        co_return tl::unexpected<Error>(checked.error());
+    }
+    if (!*checked) co_return 0;
     for (const RegisterBlock& block : blocks_) {
         const ModbusRead read = request(block.function, block.address, block.count);
         const auto reply = co_await bus.read(read);
@@ -166,6 +197,7 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
     const auto bus = buses->bus(station_.link);
     if (!bus) co_return tl::unexpected<Error>(bus.error());
     refusal_told_ = false;
+    settings_.forget();
     bool identified = false;
     int silent = 0;
     MonotonicTime next = context.scheduler->now();

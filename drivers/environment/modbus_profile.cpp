@@ -42,8 +42,17 @@ std::vector<std::string> unit_names() {
     return names;
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view between) {
+    std::string text;
+    for (const std::string& word : words) {
+        if (!text.empty()) text += between;
+        text += word;
+    }
+    return text;
+}
+
 WordType type_of(std::string_view name) {
-    constexpr std::array names{"s16", "u16", "s32", "u32", "f32", "bcd"};
+    constexpr std::array names{"s16", "u16", "s32", "u32", "f32", "bcd", "bit"};
     const auto found = std::ranges::find(names, name);
     return found == names.end() ? WordType::s16 : static_cast<WordType>(found - names.begin());
 }
@@ -53,11 +62,14 @@ int width_of(WordType type) {
     return two ? 2 : 1;
 }
 
-ModbusField read_field(Settings& table) {
+/// @param lowest_function 3, or 1 where bits may be read
+ModbusField read_field(Settings& table, int lowest_function = 3) {
     ModbusField field;
-    field.function = static_cast<int>(table.integer("function", 3, 4));
+    field.function = static_cast<int>(table.integer("function", lowest_function, 4));
     field.address = static_cast<int>(table.integer("address", 0, 65535));
-    field.type = type_of(table.choice("type", {"s16", "u16", "s32", "u32", "f32", "bcd"}));
+    field.type = field.function < 3
+                     ? type_of(table.choice("type", {"bit"}, "bit"))
+                     : type_of(table.choice("type", {"s16", "u16", "s32", "u32", "f32", "bcd"}));
     field.count = field.type == WordType::bcd ? static_cast<int>(table.integer("count", 1, 4, 1))
                                               : width_of(field.type);
     field.low_word_first = table.choice("word_order", {"high word first", "low word first"},
@@ -101,6 +113,26 @@ ModbusChannel read_channel(Settings& table) {
     return channel;
 }
 
+/// @param channels of the profile, all of which a setting concerns that names none
+ModbusSetting read_setting(Settings& table, const std::vector<ModbusChannel>& channels) {
+    ModbusSetting setting;
+    setting.name = table.text("name");
+    setting.field = read_field(table, 1);
+    setting.must_be = table.number("must_be", -4294967295.0, 4294967295.0);
+    std::vector<std::string> known;
+    for (const ModbusChannel& channel : channels)
+        known.push_back(channel.channel.name);
+    for (const std::string& name : table.texts("channels", known)) {
+        const auto found = std::ranges::find(known, name);
+        if (found == known.end())
+            table.refuse("channels", "\"" + name + "\" is no channel of this profile; known: " +
+                                         joined(known, ", "));
+        else
+            setting.channels.push_back(static_cast<std::size_t>(found - known.begin()));
+    }
+    return setting;
+}
+
 LinkSettings read_line(Settings& root) {
     LinkSettings link;
     link.baud = static_cast<int>(root.integer("baud", 1200, 3'000'000, 9600));
@@ -125,6 +157,8 @@ ModbusProfile read_profile(Settings root) {
     for (Settings& table : root.tables("channel"))
         profile.channels.push_back(read_channel(table));
     if (profile.channels.empty()) root.refuse("channel", "a profile has at least one [[channel]]");
+    for (Settings& table : root.tables("setting"))
+        profile.settings.push_back(read_setting(table, profile.channels));
     if (root.has("serial_number")) {
         Settings table = root.table("serial_number");
         profile.serial_number = read_field(table);
@@ -154,21 +188,12 @@ std::vector<std::string> profiles_in(const std::vector<std::string>& folders) {
     return names;
 }
 
-std::string joined(const std::vector<std::string>& words, std::string_view between) {
-    std::string text;
-    for (const std::string& word : words) {
-        if (!text.empty()) text += between;
-        text += word;
-    }
-    return text;
-}
-
 } // namespace
 
 std::optional<double> decode_words(std::span<const std::uint16_t> words, const ModbusField& field) {
     if (words.size() != static_cast<std::size_t>(field.count)) return std::nullopt;
     if (field.type == WordType::bcd) return decode_bcd(words);
-    if (field.type == WordType::u16) return words[0];
+    if (field.type == WordType::u16 || field.type == WordType::bit) return words[0];
     if (field.type == WordType::s16) return static_cast<std::int16_t>(words[0]);
     const std::uint32_t high = words[field.low_word_first ? 1 : 0];
     const std::uint32_t both = (high << 16) | words[field.low_word_first ? 0 : 1];
@@ -189,27 +214,47 @@ std::optional<double> channel_value(std::span<const std::uint16_t> words,
     return in_unit * channel.stored_scale + channel.stored_offset;
 }
 
-std::vector<RegisterBlock> register_blocks(const ModbusProfile& profile) {
-    std::vector<std::size_t> order(profile.channels.size());
+std::vector<RegisterBlock> register_blocks(const std::vector<ModbusField>& fields) {
+    std::vector<std::size_t> order(fields.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i;
     const auto place = [&](std::size_t i) {
-        const ModbusField& field = profile.channels[i].field;
-        return std::pair{field.function, field.address};
+        return std::pair{fields[i].function, fields[i].address};
     };
     std::ranges::stable_sort(order, {}, place);
     std::vector<RegisterBlock> blocks;
     for (const std::size_t i : order) {
-        const ModbusField& field = profile.channels[i].field;
+        const ModbusField& field = fields[i];
         const bool joins = !blocks.empty() && blocks.back().function == field.function &&
                            field.address <= blocks.back().address + blocks.back().count &&
                            field.address + field.count - blocks.back().address <= most_registers;
         if (!joins) blocks.push_back({field.function, field.address, 0, {}});
         RegisterBlock& block = blocks.back();
         block.count = std::max(block.count, field.address + field.count - block.address);
-        block.channels.push_back(i);
+        block.places.push_back(i);
     }
     return blocks;
+}
+
+std::vector<ModbusField> channel_fields(const ModbusProfile& profile) {
+    std::vector<ModbusField> fields;
+    for (const ModbusChannel& channel : profile.channels)
+        fields.push_back(channel.field);
+    return fields;
+}
+
+std::vector<ModbusField> setting_fields(const ModbusProfile& profile) {
+    std::vector<ModbusField> fields;
+    for (const ModbusSetting& setting : profile.settings)
+        fields.push_back(setting.field);
+    return fields;
+}
+
+std::span<const std::uint16_t> words_of(const RegisterBlock& block,
+                                        std::span<const std::uint16_t> words,
+                                        const ModbusField& field) {
+    return words.subspan(static_cast<std::size_t>(field.address - block.address),
+                         static_cast<std::size_t>(field.count));
 }
 
 Result<ModbusProfile> load_profile(const std::string& path) {

@@ -11,12 +11,13 @@
 
 namespace axiscal {
 
-enum class WordType : std::uint8_t { s16, u16, s32, u32, f32, bcd };
+enum class WordType : std::uint8_t { s16, u16, s32, u32, f32, bcd, bit };
 
 struct ModbusField {
-    int function = 3; ///< 3 holding, 4 input registers
+    int function =
+        3; ///< 3 holding, 4 input registers; of a setting also 1 coils, 2 discrete inputs
     int address = 0;  ///< on the wire, from 0
-    int count = 1;    ///< registers
+    int count = 1;    ///< registers or bits
     WordType type = WordType::s16;
     bool low_word_first = false;
 };
@@ -30,6 +31,14 @@ struct ModbusChannel {
     std::optional<double> lowest, highest;      ///< possible values in `unit`
 };
 
+/// What the instrument can be switched to and must not be: a unit, an own correction, a fault.
+struct ModbusSetting {
+    std::string name;
+    ModbusField field;
+    double must_be = 0;                ///< the number in the registers
+    std::vector<std::size_t> channels; ///< that have no value while it is another
+};
+
 struct ModbusProfile {
     std::string maker, model;
     LinkSettings link; ///< defaults of a serial line
@@ -37,6 +46,7 @@ struct ModbusProfile {
     int address_offset = 0; ///< default of the station's key
     Duration poll_period{}, gap{}, timeout{};
     std::vector<ModbusChannel> channels;
+    std::vector<ModbusSetting> settings;
     std::optional<ModbusField> serial_number; ///< BCD or whole number
 };
 
@@ -48,14 +58,22 @@ std::optional<double> decode_words(std::span<const std::uint16_t> words, const M
 std::optional<double> channel_value(std::span<const std::uint16_t> words,
                                     const ModbusChannel& channel);
 
-/// Registers that are read at once. `channels` are places in ModbusProfile::channels.
+/// Registers that are read at once. `places` are those of the fields that it holds.
 struct RegisterBlock {
     int function = 3, address = 0, count = 0;
-    std::vector<std::size_t> channels;
+    std::vector<std::size_t> places;
 };
 /// Neighbouring registers of one function join into one block; gaps are never read across, since
 /// instruments answer unknown addresses with an exception.
-std::vector<RegisterBlock> register_blocks(const ModbusProfile& profile);
+std::vector<RegisterBlock> register_blocks(const std::vector<ModbusField>& fields);
+
+std::vector<ModbusField> channel_fields(const ModbusProfile& profile);
+std::vector<ModbusField> setting_fields(const ModbusProfile& profile);
+
+/// The words of one field among those of its block.
+std::span<const std::uint16_t> words_of(const RegisterBlock& block,
+                                        std::span<const std::uint16_t> words,
+                                        const ModbusField& field);
 
 /// Reads a profile file. @errors Fault::bad_configuration with every refusal, or not found.
 Result<ModbusProfile> load_profile(const std::string& path);

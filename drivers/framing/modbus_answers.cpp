@@ -40,7 +40,8 @@ ModbusAnswer judged(Bytes pdu, const ModbusQuestion& question) {
     case ModbusReplyKind::exception:
         return pdu.size() == 2 ? ModbusAnswer{Kind::exception, {}, pdu[1]} : ModbusAnswer{};
     case ModbusReplyKind::answer:
-        if (auto words = registers_of_reply(pdu, question.count))
+        if (auto words = question.function < 3 ? bits_of_reply(pdu, question.count)
+                                               : registers_of_reply(pdu, question.count))
             return {Kind::words, *std::move(words)};
         return {};
     case ModbusReplyKind::other: break;
@@ -82,9 +83,10 @@ std::optional<ModbusAnswer> RtuAnswer::take() {
         const unsigned function = held_[1] & ~exception_bit;
         const bool exception = (held_[1] & exception_bit) != 0;
         const bool ours = held_[0] == question_.unit;
-        if (function != 3 && function != 4) return ModbusAnswer{};
+        if (function < 1 || function > 4) return ModbusAnswer{};
         // Told at once: with another count it is not waited for.
-        if (ours && !exception && held_[2] != 2 * question_.count) return ModbusAnswer{};
+        if (ours && !exception && held_[2] != bytes_of_answer(question_.function, question_.count))
+            return ModbusAnswer{};
         const std::size_t length = exception ? exception_frame : exception_frame + held_[2];
         if (held_.size() < length) return std::nullopt;
         const Bytes frame = Bytes{held_}.first(length);

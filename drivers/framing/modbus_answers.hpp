@@ -1,6 +1,6 @@
 #pragma once
-// Requests for registers, and which bytes of a line or connection answer one. Pure. Modbus over
-// serial line V1.02, 2.5.1 (RTU: unit, PDU, checksum); Modbus Messaging on TCP/IP V1.0b, 3.1.3
+// Requests for registers and bits, and which bytes of a line or connection answer one. Pure. Modbus
+// over serial line V1.02, 2.5.1 (RTU: unit, PDU, checksum); Modbus Messaging on TCP/IP V1.0b, 3.1.3
 // (TCP: transaction, protocol 0, length, unit, PDU).
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 namespace axiscal {
 
 struct ModbusQuestion {
-    std::uint8_t unit = 1, function = 3; ///< 3 holding, 4 input registers
+    /// 1 coils, 2 discrete inputs, 3 holding, 4 input registers
+    std::uint8_t unit = 1, function = 3;
     std::uint16_t address = 0;
     int count = 1; ///< 1 to 125
 };
@@ -28,7 +29,7 @@ struct ModbusAnswer {
         another,    ///< answers something else
         out_of_step ///< no frame: where the next one begins cannot be told
     } kind = Kind::another;
-    std::vector<std::uint16_t> words;
+    std::vector<std::uint16_t> words; ///< a bit is 0 or 1
     int exception = 0;
 };
 

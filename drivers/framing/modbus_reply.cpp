@@ -29,4 +29,14 @@ std::optional<std::vector<std::uint16_t>> registers_of_reply(std::span<const std
     return words;
 }
 
+std::optional<std::vector<std::uint16_t>> bits_of_reply(std::span<const std::uint8_t> pdu,
+                                                        int count) {
+    const std::size_t bytes = bytes_of_answer(1, count);
+    if (pdu.size() != bytes + 2 || pdu[1] != bytes) return std::nullopt;
+    std::vector<std::uint16_t> bits;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+        bits.push_back(static_cast<std::uint16_t>((pdu[2 + i / 8] >> (i % 8)) & 1U));
+    return bits;
+}
+
 } // namespace axiscal

@@ -1,7 +1,7 @@
 #pragma once
 // What a Modbus server answers to a request of ours. Pure. Modbus Messaging on TCP/IP V1.0b,
-// section 3.1.3 (header); Modbus application protocol V1.1b3, sections 6.3 and 6.4 (registers read)
-// and 7 (exceptions).
+// section 3.1.3 (header); Modbus application protocol V1.1b3, sections 6.1 to 6.4 (bits and
+// registers read) and 7 (exceptions).
 
 #include <cstddef>
 #include <cstdint>
@@ -38,5 +38,15 @@ ModbusReplyKind kind_of_modbus_reply(std::span<const std::uint8_t> pdu, std::uin
 /// another number.
 std::optional<std::vector<std::uint16_t>> registers_of_reply(std::span<const std::uint8_t> pdu,
                                                              int count);
+
+/// The bits of an answer to function 1 or 2, each as 0 or 1; the first is the lowest of its byte.
+std::optional<std::vector<std::uint16_t>> bits_of_reply(std::span<const std::uint8_t> pdu,
+                                                        int count);
+
+/// How many bytes of data answer a request by `function` for `count` bits (1, 2) or registers.
+inline std::size_t bytes_of_answer(unsigned function, int count) {
+    const auto number = static_cast<std::size_t>(count);
+    return function < 3 ? (number + 7) / 8 : 2 * number;
+}
 
 } // namespace axiscal

@@ -16,8 +16,8 @@
 
 namespace axiscal {
 
-/// One request. Function 3 reads holding registers, 4 input registers; addresses are those on the
-/// wire, from 0.
+/// One request. Function 1 reads coils, 2 discrete inputs, 3 holding registers, 4 input registers;
+/// addresses are those on the wire, from 0.
 struct ModbusRead {
     int unit_id = 1, function = 3, address = 0, count = 1;
     Duration timeout = std::chrono::milliseconds{500}; ///< for the whole reply
@@ -25,7 +25,7 @@ struct ModbusRead {
 };
 
 struct ModbusWords {
-    std::vector<std::uint16_t> words;
+    std::vector<std::uint16_t> words; ///< a bit is 0 or 1
     MonotonicTime asked_at; ///< right before the request
     MonotonicTime read_at;  ///< right after the last byte of the reply was read
 };

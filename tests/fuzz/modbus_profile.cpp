@@ -1,7 +1,9 @@
 // A profile of a Modbus sensor as anybody may have written it, then, behind a zero byte, the words
-// that its registers hold.
+// that its registers hold: those of the channels, and the same bytes again as those of the
+// settings.
 
 #include "drivers/environment/modbus_profile.hpp"
+#include "drivers/environment/stated_settings.hpp"
 #include "tests/fuzz/judge.hpp"
 
 #include <algorithm>
@@ -25,32 +27,52 @@ Result<ModbusProfile> profile_of(std::string_view text) {
     return profile;
 }
 
-void judge_blocks(const ModbusProfile& profile) {
-    std::size_t channels = 0;
-    for (const RegisterBlock& block : register_blocks(profile)) {
+void judge_blocks(const std::vector<ModbusField>& fields) {
+    std::size_t read = 0;
+    for (const RegisterBlock& block : register_blocks(fields)) {
         fuzz::require(block.count >= 1 && block.count <= 125, "a reply holds a block");
-        channels += block.channels.size();
-        for (const std::size_t place : block.channels) {
-            const ModbusField& field = profile.channels.at(place).field;
+        read += block.places.size();
+        for (const std::size_t place : block.places) {
+            const ModbusField& field = fields.at(place);
             fuzz::require(field.address >= block.address &&
                               field.address + field.count <= block.address + block.count,
-                          "a channel lies in its block");
+                          "a field lies in its block");
         }
     }
-    fuzz::require(channels == profile.channels.size(), "each channel is read once");
+    fuzz::require(read == fields.size(), "each field is read once");
+}
+
+std::uint16_t word_of(std::string_view bytes, std::size_t i) {
+    const auto byte = [&](std::size_t at) {
+        return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0U;
+    };
+    return static_cast<std::uint16_t>(byte(2 * i) << 8 | byte(2 * i + 1));
+}
+
+/// Whatever the settings are, a channel without one has its value.
+void judge_settings(const ModbusProfile& profile, std::string_view bytes) {
+    StatedSettings settings{profile};
+    for (const RegisterBlock& block : settings.blocks()) {
+        std::vector<std::uint16_t> words;
+        for (int i = 0; i < block.count; ++i)
+            words.push_back(word_of(bytes, static_cast<std::size_t>(i)));
+        settings.take(block, words);
+        fuzz::require(settings.take(block, words).empty(), "nothing is told twice");
+    }
+    for (std::size_t channel = 0; channel < profile.channels.size(); ++channel) {
+        bool concerned = false;
+        for (const ModbusSetting& setting : profile.settings)
+            concerned |= std::ranges::find(setting.channels, channel) != setting.channels.end();
+        fuzz::require(concerned || !settings.spoils(channel), "no channel is spoilt by none");
+    }
 }
 
 void judge_values(const ModbusProfile& profile, std::string_view bytes) {
     std::vector<std::uint16_t> words(4);
     for (const ModbusChannel& channel : profile.channels) {
         const auto count = static_cast<std::size_t>(channel.field.count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const unsigned high =
-                bytes.size() > 2 * i ? static_cast<unsigned char>(bytes[2 * i]) : 0;
-            const unsigned low =
-                bytes.size() > 2 * i + 1 ? static_cast<unsigned char>(bytes[2 * i + 1]) : 0;
-            words[i] = static_cast<std::uint16_t>(high << 8 | low);
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            words[i] = word_of(bytes, i);
         const auto value = channel_value(std::span{words}.first(count), channel);
         fuzz::require(!value || std::isfinite(*value), "no NaN leaves the decoder");
         bytes.remove_prefix(std::min(bytes.size(), 2 * count));
@@ -67,7 +89,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(!profile.error().detail.empty(), "a refused profile has a reason");
         return 0;
     }
-    judge_blocks(*profile);
-    judge_values(*profile, end == std::string_view::npos ? "" : input.substr(end + 1));
+    judge_blocks(channel_fields(*profile));
+    judge_blocks(setting_fields(*profile));
+    const auto bytes = end == std::string_view::npos ? std::string_view{} : input.substr(end + 1);
+    judge_settings(*profile, bytes);
+    judge_values(*profile, bytes);
     return 0;
 }

@@ -16,7 +16,7 @@ using namespace axiscal;
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-constexpr std::uint8_t read_holding_registers = 3;
+constexpr std::uint8_t read_coils = 1, read_holding_registers = 3;
 
 void judge(const std::optional<ModbusAnswer>& answer, int count) {
     if (!answer) return;
@@ -25,8 +25,8 @@ void judge(const std::optional<ModbusAnswer>& answer, int count) {
                   "as many words as were asked for, or none");
 }
 
-void find_answers(Bytes answer, int count, std::uint16_t transaction) {
-    const ModbusQuestion question{answer[6], read_holding_registers, 0, count};
+void find_answers(Bytes answer, std::uint8_t function, int count, std::uint16_t transaction) {
+    const ModbusQuestion question{answer[6], function, 0, count};
     const auto half = std::as_bytes(answer.first(answer.size() / 2));
     const auto rest = std::as_bytes(answer.subspan(answer.size() / 2));
     TcpAnswers connection;
@@ -63,6 +63,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto words = registers_of_reply(pdu, count);
     fuzz::require(!words || words->size() == static_cast<std::size_t>(count),
                   "as many words as were asked for");
-    find_answers(answer, count, transaction);
+    const auto bits = bits_of_reply(pdu, count);
+    fuzz::require(!bits || bits->size() == static_cast<std::size_t>(count),
+                  "as many bits as were asked for");
+    for (const std::uint8_t function : {read_coils, read_holding_registers})
+        find_answers(answer, function, count, transaction);
     return 0;
 }

@@ -55,6 +55,23 @@ TEST(RtuAnswer, IsWaitedForByteAfterByte) {
     EXPECT_EQ(answer.take()->words, Words{231});
 }
 
+// V1.1b3, 6.1: outputs 20 to 38, whose states are CD 6B 05, the first the lowest bit of CD.
+TEST(RtuAnswer, HoldsTheBitsThatWereAskedFor) {
+    const ModbusQuestion outputs{0x11, 1, 0x13, 0x13};
+    EXPECT_EQ(rtu_request(outputs), bytes_of({0x11, 1, 0, 0x13, 0, 0x13, 0x8E, 0x92}));
+    const auto answer = on_a_line({0x11, 1, 3, 0xCD, 0x6B, 5, 0x40, 0x12}, outputs);
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->kind, Kind::words);
+    EXPECT_EQ(answer->words, (Words{1, 0, 1, 1, 0, 0, 1, 1, 1, 1, 0, 1, 0, 1, 1, 0, 1, 0, 1}));
+    EXPECT_EQ(on_a_line({0x11, 1, 2, 0xCD, 0x6B}, outputs)->kind, Kind::another);
+}
+
+TEST(TcpAnswers, HoldsTheBitsThatWereAskedFor) {
+    const auto answer = on_a_connection({1, 2, 0, 0, 0, 4, 0x11, 1, 1, 2}, {0x11, 1, 266, 2});
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->words, (Words{0, 1}));
+}
+
 TEST(RtuAnswer, OfAnotherUnitIsPassedOver) {
     EXPECT_FALSE(on_a_line({0x02, 0x04, 0x02, 0x01, 0xC8, 0xFD, 0x36}));
     const auto answer = on_a_line({0x02, 0x04, 0x02, 0x01, 0xC8, 0xFD, 0x36, //

@@ -99,6 +99,9 @@ public:
     void hold(int address, int value) {
         map_->tab_registers[address] = static_cast<std::uint16_t>(value);
     }
+    void hold_input(int address, int value) {
+        map_->tab_input_registers[address] = static_cast<std::uint16_t>(value);
+    }
     void serve() {
         thread_ = std::thread{[this] {
             while (::modbus_tcp_accept(context_, &listener_) >= 0) {
@@ -307,6 +310,40 @@ TEST(ModbusSensorTcp, TellsAnAddressOffsetThatIsWrongByTheSerialNumber) {
     EXPECT_EQ(air.sink.notes[0], Fault::bad_configuration);
 }
 
+/// The sensor adds its register 0x0103, in tenths of a degree, to what it measures.
+TEST(ModbusSensorTcp, AnOwnCorrectionOfTheSensorLeavesNoNumberAndIsTold) {
+    TcpServer server;
+    server.hold_input(1, 245);
+    server.hold_input(2, 546);
+    server.hold(0x103, -5);
+    server.serve();
+    Station station;
+    const auto& air =
+        station.start(profile_keys("xy-md02") + server.keys() + "poll_period = \"20 ms\"\n");
+    ASSERT_TRUE(station.until([&] { return air.sink.samples.size() >= 6; }));
+    for (const Sample& sample : air.sink.samples)
+        EXPECT_EQ(sample.quality(), sample.channel == 0 ? Quality::absent : Quality::good);
+    EXPECT_EQ(air.sink.notes, std::vector{Fault::bad_configuration}) << "once";
+    EXPECT_FALSE(air.ended);
+}
+
+TEST(ModbusSensorTcp, ASettingThatItDoesNotShowIsToldAndTakenAsStated) {
+    testing::ScratchFolder scratch;
+    const std::string path = scratch.path() + "/plain.toml";
+    std::ofstream{path} << "maker = \"M\"\nmodel = \"X\"\npoll_period = \"20 ms\"\n"
+                           "[[setting]]\nname = \"unit\"\nfunction = 1\naddress = 7\nmust_be = 1\n"
+                           "[[channel]]\nname = \"t\"\nmedium = \"air\"\nunit = \"degC\"\n"
+                           "function = 4\naddress = 1\ntype = \"s16\"\n";
+    TcpServer server; // without coils
+    server.serve();
+    Station station;
+    const auto& sensor = station.start("profile = \"" + path + "\"\n" + server.keys());
+    ASSERT_TRUE(station.until([&] { return sensor.sink.samples.size() >= 3; }));
+    for (const Sample& sample : sensor.sink.samples)
+        EXPECT_EQ(sample.quality(), Quality::good);
+    EXPECT_EQ(sensor.sink.notes, std::vector{Fault::refused});
+}
+
 TEST(ModbusSensorTcp, AnExceptionMakesTheChannelAbsentAndIsToldOnce) {
     testing::ScratchFolder scratch;
     const std::string path = scratch.path() + "/two.toml";
@@ -373,6 +410,17 @@ TEST(ModbusSensorTcp, ADeadPeerIsToldAndComesBackByItself) {
     }));
 }
 
+/// What an XY-MD02 as delivered answers: no own correction, 24.5 degC and 54.6 %.
+std::string xy_md02_answer(const std::string& request, bool of_values_damaged = false) {
+    const std::string unit = request.substr(0, 1);
+    const bool first = unit == "\x01";
+    if (request[1] == 3)
+        return unit + std::string("\x03\x04\0\0\0\0", 6) + (first ? "\xFA\x33" : "\xC9\x33");
+    std::string checksum = first ? "\x6A\xCF" : "\x59\xCF";
+    if (of_values_damaged) checksum[1] = '\xCE';
+    return unit + std::string("\x04\x04\x00\xF5\x02\x22", 6) + checksum;
+}
+
 /// Two instruments on one line: requests take turns on one bus, each gets its own answer.
 TEST(ModbusSensorRtu, TwoInstrumentsShareOneLine) {
     testing::PtyPair pty;
@@ -380,10 +428,7 @@ TEST(ModbusSensorRtu, TwoInstrumentsShareOneLine) {
     std::thread line{[&] {
         while (!stop) {
             const std::string request = pty.receive(8, 100);
-            if (request.size() == 8 && request[0] == 1)
-                pty.send(std::string("\x01\x04\x04\x00\xF5\x02\x22\x6A\xCF", 9));
-            if (request.size() == 8 && request[0] == 2)
-                pty.send(std::string("\x02\x04\x04\x00\xF5\x02\x22\x59\xCF", 9));
+            if (request.size() == 8 && request[0] <= 2) pty.send(xy_md02_answer(request));
         }
     }};
     {
@@ -403,6 +448,34 @@ TEST(ModbusSensorRtu, TwoInstrumentsShareOneLine) {
         EXPECT_EQ(first.instrument->counters().checksum_errors, 0u);
     }
     stop = true;
+    line.join();
+}
+
+/// A setting that is changed while the station reads.
+TEST(ModbusSensorRtu, IsAskedBeforeEachReadingHowItIsSet) {
+    testing::PtyPair pty;
+    std::thread line{[&] {
+        for (int turn = 0; turn < 6; ++turn) {
+            const std::string request = pty.receive(8);
+            if (request.size() != 8) return;
+            const bool corrected = turn == 2; // 0x0103 holds 5
+            pty.send(corrected ? std::string("\x01\x03\x04\0\x05\0\0\xEA\x32", 9)
+                               : xy_md02_answer(request));
+        }
+    }};
+    {
+        Station station;
+        const auto& air = station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path +
+                                        "\"\npoll_period = \"20 ms\"\n");
+        EXPECT_TRUE(station.until([&] { return air.sink.samples.size() >= 6; }));
+        std::vector<Quality> temperature, humidity;
+        for (const Sample& sample : air.sink.samples)
+            (sample.channel == 0 ? temperature : humidity).push_back(sample.quality());
+        temperature.resize(3);
+        humidity.resize(3);
+        EXPECT_EQ(temperature, (std::vector{Quality::good, Quality::absent, Quality::good}));
+        EXPECT_EQ(humidity, (std::vector{Quality::good, Quality::good, Quality::good}));
+    }
     line.join();
 }
 
@@ -430,7 +503,8 @@ TEST(ModbusSensorRtu, ItsLineIsHeldAlone) {
     Station station;
     const auto& sensor =
         station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path + "\"\n");
-    ASSERT_TRUE(station.until([&] { return sensor.instrument->counters().timeouts >= 1; }));
+    ASSERT_TRUE(station.until([&] { return !pty.receive(8, 0).empty(); })) << "it asks";
+    EXPECT_EQ(sensor.instrument->counters().timeouts, 0U) << "and waits for an answer";
     LinkSettings settings;
     settings.path = pty.path;
     EXPECT_EQ(open_tty(settings).error().fault, Fault::link_closed);
@@ -466,9 +540,10 @@ TEST(ModbusStation, AnOffsetDoesNotMoveARegisterOffTheWire) {
 TEST(ModbusSensorRtu, ADamagedReplyIsCountedAndGivesNoNumber) {
     testing::PtyPair pty;
     std::thread line{[&] {
-        for (int turn = 0; turn < 3; ++turn) {
-            if (pty.receive(8).size() != 8) return;
-            pty.send(std::string("\x01\x04\x04\x00\xF5\x02\x23\x6A\xCF", 9));
+        for (int turn = 0; turn < 6; ++turn) {
+            const std::string request = pty.receive(8);
+            if (request.size() != 8) return;
+            pty.send(xy_md02_answer(request, true));
         }
     }};
     {
@@ -486,9 +561,10 @@ TEST(ModbusSensorRtu, ADamagedReplyIsCountedAndGivesNoNumber) {
 TEST(ModbusSensorRtu, OneDamagedReplyDoesNotMakeTheSensorAbsent) {
     testing::PtyPair pty;
     std::thread line{[&] {
-        for (const char* last : {"\xCF", "\xCE", "\xCF"}) {
-            if (pty.receive(8).size() != 8) return;
-            pty.send(std::string("\x01\x04\x04\x00\xF5\x02\x22\x6A", 8) + last);
+        for (int turn = 0; turn < 6; ++turn) {
+            const std::string request = pty.receive(8);
+            if (request.size() != 8) return;
+            pty.send(xy_md02_answer(request, turn / 2 == 1));
         }
     }};
     {

@@ -26,7 +26,8 @@ std::optional<double> decode(std::vector<std::uint16_t> words, const ModbusField
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Function, first address and number of registers: a request without unit number and checksum.
+/// Function, first address and number of registers or bits: a request without unit number and
+/// checksum.
 Bytes request_of(const RegisterBlock& block) {
     const auto high = [](int number) { return static_cast<std::uint8_t>(number >> 8); };
     const auto low = [](int number) { return static_cast<std::uint8_t>(number & 255); };
@@ -125,7 +126,7 @@ TEST(ModbusProfile, GivesTheContactChannelsAsMaterial) {
 /// -32768 is under and 7FFF = 32767 over the range.
 TEST(ModbusProfile, ReadsSixInputsOfTheM7015AtOnce) {
     const auto profile = load_profile(shipped + "/m-7015.toml").value();
-    const auto blocks = register_blocks(profile);
+    const auto blocks = register_blocks(channel_fields(profile));
     ASSERT_EQ(blocks.size(), 1u);
     EXPECT_EQ(request_of(blocks[0]), (Bytes{0x04, 0x00, 0x00, 0x00, 0x06}));
     const auto values = values_of(profile, {0x04, 0x0C, 0x00, 0xE1, 0xFF, 0xF3, 0x00, 0x00, 0x80,
@@ -144,7 +145,7 @@ TEST(ModbusProfile, ReadsSixInputsOfTheM7015AtOnce) {
 /// own words (TEST_FLOAT32).
 TEST(ModbusProfile, ReadsTwoThermocouplesOfTheT7AtOnce) {
     const auto profile = load_profile(shipped + "/labjack-t7-thermocouple.toml").value();
-    const auto blocks = register_blocks(profile);
+    const auto blocks = register_blocks(channel_fields(profile));
     ASSERT_EQ(blocks.size(), 1u);
     EXPECT_EQ(request_of(blocks[0]), (Bytes{0x03, 0x1B, 0x58, 0x00, 0x04}));
     const auto values =
@@ -171,7 +172,7 @@ TEST(ModbusProfile, ReadsTheSerialNumberOfTheT7) {
 /// -1.25 x 8 = -10 V are -1 mm; C1280000: -1.3125 x 8 = -10.5 V are beyond the conditioner's range.
 TEST(ModbusProfile, ReadsVoltsOfTheT7AsALength) {
     const auto profile = load_profile(shipped + "/labjack-t7-lvdt.toml").value();
-    const auto blocks = register_blocks(profile);
+    const auto blocks = register_blocks(channel_fields(profile));
     ASSERT_EQ(blocks.size(), 1u);
     EXPECT_EQ(request_of(blocks[0]), (Bytes{0x03, 0x00, 0x00, 0x00, 0x02}));
     const auto length_m = [&](std::uint8_t high, std::uint8_t low) {
@@ -183,11 +184,14 @@ TEST(ModbusProfile, ReadsVoltsOfTheT7AsALength) {
 }
 
 TEST(ModbusProfile, JoinsNeighboursAndNeverReadsAcrossAGap) {
-    const auto air = register_blocks(load_profile(shipped + "/xy-md02.toml").value());
+    const auto channel_blocks = [](const std::string& name) {
+        return register_blocks(channel_fields(load_profile(shipped + name).value()));
+    };
+    const auto air = channel_blocks("/xy-md02.toml");
     ASSERT_EQ(air.size(), 1u);
     EXPECT_EQ(air[0].address, 1);
     EXPECT_EQ(air[0].count, 2);
-    const auto comet = register_blocks(load_profile(shipped + "/comet-t7510.toml").value());
+    const auto comet = channel_blocks("/comet-t7510.toml");
     ASSERT_EQ(comet.size(), 2u);
     EXPECT_EQ(comet[0].count, 2);
     EXPECT_EQ(comet[1].address, 0x34);
@@ -210,6 +214,27 @@ TEST(ModbusProfile, IsRefusedWithFileAndLine) {
     ASSERT_FALSE(profile);
     for (const char* word : {"bad.toml:3", "bad.toml:7", "bad.toml:8"})
         EXPECT_NE(profile.error().detail.find(word), std::string::npos) << profile.error().detail;
+}
+
+TEST(ModbusProfile, SettingsHaveAPlaceANumberAndChannels) {
+    testing::ScratchFolder scratch;
+    const std::string path = scratch.path() + "/set.toml";
+    const std::string head = "maker = \"M\"\nmodel = \"X\"\n[[channel]]\nname = \"t\"\n"
+                             "medium = \"air\"\nunit = \"degC\"\nfunction = 4\naddress = 1\n"
+                             "type = \"s16\"\n[[setting]]\nname = \"s\"\n";
+    const auto told = [&](const std::string& keys) {
+        std::ofstream{path} << head << keys;
+        const auto profile = load_profile(path);
+        return profile ? std::string{} : profile.error().detail;
+    };
+    EXPECT_EQ(told("function = 1\naddress = 266\nmust_be = 1\n"), "");
+    EXPECT_EQ(told("function = 3\naddress = 1\ntype = \"f32\"\nmust_be = 0.5\n"), "");
+    EXPECT_NE(told("function = 1\naddress = 266\n").find("must_be"), std::string::npos);
+    EXPECT_NE(told("function = 1\naddress = 1\nmust_be = 1\ntype = \"s16\"\n").find("type"),
+              std::string::npos);
+    const auto unknown = told("function = 2\naddress = 1\nmust_be = 1\nchannels = [\"u\"]\n");
+    EXPECT_NE(unknown.find("\"u\" is no channel of this profile; known: t"), std::string::npos)
+        << unknown;
 }
 
 TEST(ModbusProfile, KeysOfTheStationFileAreChecked) {

@@ -33,7 +33,10 @@ RegisterBank tm_th8(const Scenario& s, double seconds) {
     bank.holding = bank.input;
     for (int channel = 0; channel < 8; ++channel)
         bank.holding[256 + channel] = 0x60; // type code of each channel
-    bank.coils[268] = true;                 // engineering format
+    for (int channel = 0; channel < 8; ++channel)
+        bank.holding[448 + channel] = 0; // temperature offset of each channel
+    bank.coils[266] = true;              // Celsius
+    bank.coils[268] = true;              // engineering format
     for (int channel = 0; channel < 8; ++channel)
         bank.discretes[128 + channel] = bank.input[channel] == 0x7FFF;
     return bank;
@@ -75,17 +78,21 @@ void put_float(RegisterBank& bank, int address, double value, bool low_word_firs
 }
 
 /// Vaisala HMP, alone or behind an Indigo: FC 3, floats with the low word first; humidity at 0,
-/// temperature at 2.
+/// temperature at 2; status registers from 0200 hex.
 RegisterBank vaisala_hmp(const TrueAir& air) {
     RegisterBank bank;
     bank.functions = {3};
     put_float(bank, 0, air.humidity.in(percent), true);
     put_float(bank, 2, air.temperature.in_celsius(), true);
+    bank.holding[0x0200] = bank.holding[0x0201] = 1; // no errors, online
+    for (int status = 0x0207; status <= 0x020A; ++status)
+        bank.holding[status] = 0;
     return bank;
 }
 
 /// LabJack T7: FC 3, floats with the high word first; AIN0 (0 V), AIN#_EF_READ_A from 7000 for the
-/// contact sensors, -9999 where there is none; serial number at 60028.
+/// contact sensors, -9999 where there is none, thermocouples of type K in Celsius; serial number at
+/// 60028.
 RegisterBank labjack_t7(const Scenario& s, double seconds) {
     constexpr double no_reading = -9999;
     RegisterBank bank;
@@ -96,6 +103,10 @@ RegisterBank labjack_t7(const Scenario& s, double seconds) {
         const bool there = i < s.thermal.sensor_difference_k.size();
         put_float(bank, 7000 + 2 * static_cast<int>(i),
                   there ? material + s.thermal.sensor_difference_k[i] : no_reading, false);
+        const auto high = 2 * static_cast<int>(i);
+        bank.holding[9000 + high] = bank.holding[9300 + high] = 0;
+        bank.holding[9001 + high] = 22; // AIN#_EF_INDEX
+        bank.holding[9301 + high] = 1;  // AIN#_EF_CONFIG_A
     }
     bank.holding[60028] = 0x1C03; // 470 012 345
     bank.holding[60029] = 0xD1B9;
