@@ -25,7 +25,7 @@ constexpr std::uint32_t most_entries = 64; ///< of a mapping: single bits
 constexpr std::uint32_t longest_id = 0x7FF;
 
 constexpr ObjectKey device_type_key{0x1000, 0}, device_name_key{0x1008, 0}, software_key{0x100A, 0},
-    heartbeat_key{0x1017, 0}, error_register_key{0x1001, 0};
+    heartbeat_key{0x1017, 0};
 constexpr std::uint16_t identity_index = 0x1018, pdo_index = 0x1800, mapping_index = 0x1A00;
 
 ObjectKey key_of(std::uint16_t base, int number, int sub) {
@@ -42,7 +42,8 @@ std::string hexadecimal(std::uint32_t number) {
 
 CanOpenSession::CanOpenSession(CanOpenSetup setup, InstrumentCounters& counters)
     : setup_{std::move(setup)}
-    , counters_{counters} {}
+    , counters_{counters}
+    , register_watch_{setup_.node} {}
 
 void CanOpenSession::close() {
     node_.reset();
@@ -109,6 +110,7 @@ Task<Result<void>> CanOpenSession::open(InstrumentContext context) {
     layouts_.clear();
     used_.clear();
     beats_ = in_error_ = operational_ = false;
+    register_watch_ = RegisterWatch{setup_.node};
     guard_.end();
     bus_errors_ = 0;
     then_.reset();
@@ -178,21 +180,35 @@ Task<Result<void>> CanOpenSession::guard() {
     co_return sent;
 }
 
+/// A fault that no emergency told stands in the register all the same.
+void CanOpenSession::judge_error_register(unsigned errors) {
+    if (in_error_ || !tells_a_fault(errors)) return;
+    in_error_ = true;
+    context_.sink->note(Fault::signal_error, node_->name() +
+                                                 " tells of a fault in its error register, " +
+                                                 hexadecimal(errors));
+}
+
 /// What the node told before nobody heard.
 Task<Result<void>> CanOpenSession::read_error_register() {
     AXISCAL_CO_TRY(const std::uint32_t errors, co_await number_or(error_register_key, 0));
-    in_error_ = tells_a_fault(errors & 0xFFU);
-    if (in_error_)
-        context_.sink->note(Fault::signal_error, node_->name() +
-                                                     " tells of a fault in its error register, " +
-                                                     hexadecimal(errors & 0xFFU));
+    judge_error_register(errors & 0xFFU);
     co_return Result<void>{};
+}
+
+/// Beside the PDOs, when that is due.
+Task<Result<void>> CanOpenSession::ask_error_register() {
+    const MonotonicTime now = context_.scheduler->now();
+    const auto question = register_watch_.question(now);
+    if (!question) co_return Result<void>{};
+    auto sent = co_await link_->send(*question, now + send_patience);
+    co_return sent;
 }
 
 Task<Result<void>> CanOpenSession::start(std::vector<std::size_t> used) {
     used_ = std::move(used);
     const auto n = static_cast<std::uint32_t>(setup_.node);
-    std::vector<std::uint32_t> ids{0x080 + n, 0x700 + n};
+    std::vector<std::uint32_t> ids{0x080 + n, 0x580 + n, 0x700 + n};
     for (const std::size_t index : used_) {
         const auto done = co_await set_up(layouts_[index]);
         if (!done) co_return done;
@@ -219,6 +235,7 @@ Result<void> CanOpenSession::take_state(NodeState state, MonotonicTime at) {
 }
 
 void CanOpenSession::take_emergency(const Emergency& emergency) {
+    register_watch_.after_emergency();
     if (emergency.is_of_communication()) return void(++counters_.bad_frames);
     in_error_ = !emergency.is_over();
     if (in_error_)
@@ -249,6 +266,7 @@ Result<void> CanOpenSession::take(const TimedCanFrame& timed, std::vector<PdoArr
         take_emergency(*emergency);
         return {};
     }
+    if (const auto errors = register_watch_.take(timed.frame)) judge_error_register(*errors);
     const auto found = std::ranges::find_if(used_, [&](std::size_t index) {
         return layouts_[index].id == timed.frame.id && timed.frame.is_plain();
     });
@@ -273,6 +291,8 @@ Task<Result<std::vector<TimedCanFrame>>> CanOpenSession::read_on() {
     for (;;) {
         const auto guarded = co_await guard();
         if (!guarded) co_return tl::unexpected<Error>(guarded.error());
+        const auto asked = co_await ask_error_register();
+        if (!asked) co_return tl::unexpected<Error>(asked.error());
         const MonotonicTime end = std::max(silent_from(), least);
         const MonotonicTime look = std::min(end, guard_.next_question().value_or(end));
         auto arrived = co_await link_->read_some(look);

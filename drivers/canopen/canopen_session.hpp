@@ -5,6 +5,7 @@
 #include "drivers/canopen/canopen_node.hpp"
 #include "drivers/canopen/node_guard.hpp"
 #include "drivers/canopen/pdo_layout.hpp"
+#include "drivers/canopen/register_watch.hpp"
 #include "drivers/instrument.hpp"
 
 #include <optional>
@@ -61,6 +62,8 @@ private:
     Task<Result<void>> ask_for_heartbeat();
     Task<Result<void>> read_error_register();
     Task<Result<void>> guard();
+    Task<Result<void>> ask_error_register();
+    void judge_error_register(unsigned errors);
     [[nodiscard]] MonotonicTime silent_from() const;
     Task<Result<std::vector<TimedCanFrame>>> read_on();
     Result<void> take(const TimedCanFrame& timed, std::vector<PdoArrival>& arrived);
@@ -79,6 +82,7 @@ private:
     MonotonicTime last_beat_{}, last_pdo_{};
     Duration beat_patience_{};
     NodeGuard guard_;
+    RegisterWatch register_watch_;
     std::optional<Error> then_;    ///< told after the PDOs that came before it
     std::uint64_t bus_errors_ = 0; ///< counted so far
 };

@@ -17,6 +17,7 @@ import sys
 NO_CODEC = {
     "drivers/appearance.hpp": "a table of what instruments show themselves as",
     "drivers/canopen/pdo_stream.hpp": "counts frames by their times; the frames are judged by canopen",
+    "drivers/canopen/register_watch.hpp": "one object read; its frames are judged by canopen",
     "drivers/clock/lower_hull.hpp": "reached through device_clock",
     "drivers/clock/open_requests.hpp": "instants, no bytes",
     "drivers/clock/placed_time.hpp": "two instants, no bytes",

@@ -245,6 +245,43 @@ TEST_F(CanOpen, AFaultThatWasToldBeforeAnybodyListenedIsFoundInTheRegister) {
     EXPECT_TRUE(ballbar.sink.samples.back().value());
 }
 
+std::ptrdiff_t reads_of_the_register(const std::vector<CanFrame>& sent) {
+    const CanFrame read = plain_frame(0x600 + 125, {0x40, 0x01, 0x10, 0, 0, 0, 0, 0});
+    return std::ranges::count(sent, read);
+}
+
+// 7.5.2.2: the register is the device's; the emergency tells it as it was when that was sent.
+TEST_F(CanOpen, TheRegisterIsReadAgainAfterEachEmergency) {
+    material.start();
+    scheduler.run_for(3s);
+    const auto at_the_start = reads_of_the_register(bus.sent);
+    EXPECT_EQ(at_the_start, 1);
+    probe->tell_emergency(0x5030, 0x81, {});
+    scheduler.run_for(2s);
+    EXPECT_EQ(reads_of_the_register(bus.sent), at_the_start + 1);
+    probe->tell_emergency(0, 0, {});
+    probe->put_number(0x1001, 0, 0x81, 1); // what it says is over is not
+    scheduler.run_for(2s);
+    EXPECT_EQ(reads_of_the_register(bus.sent), at_the_start + 2);
+    EXPECT_EQ(material.sink.samples.back().quality(), Quality::absent);
+    EXPECT_EQ(material.sink.notes, (std::vector{Fault::signal_error, Fault::signal_error}));
+    probe->tell_emergency(0, 0, {});
+    scheduler.run_for(2s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+    EXPECT_TRUE(material.ends.empty()) << material.last_end();
+}
+
+// An answer that comes before the last emergency was heard says nothing of it.
+TEST_F(CanOpen, AFaultThatCameAndWentAtOnceLeavesNumbers) {
+    material.start();
+    scheduler.run_for(3s);
+    probe->tell_emergency(0x5030, 0x81, {});
+    probe->tell_emergency(0, 0, {});
+    scheduler.run_for(2s);
+    EXPECT_TRUE(material.sink.samples.back().value());
+    EXPECT_TRUE(material.ends.empty()) << material.last_end();
+}
+
 TEST_F(CanOpen, ARegisterThatTellsOfTheBusAloneSpoilsNoNumber) {
     probe->put_number(0x1001, 0, 0x11, 1);
     material.start();

@@ -109,6 +109,7 @@ void CanNode::tell_emergency(std::uint16_t code, std::uint8_t error_register, co
     bytes.push_back(error_register);
     bytes.insert(bytes.end(), maker.begin(), maker.end());
     bytes.resize(8);
+    put_number(0x1001, 0, error_register, 1);
     if (state_ != off) waiting_.push_back({0x080 + node_, bytes});
 }
 
