@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -85,6 +87,14 @@ bool set_modem_line(int descriptor, int line, std::optional<bool> high) {
     return set || errno == ENOTTY || errno == EINVAL;
 }
 
+/// A pty lives on with its other end: where a program that was killed had made it exclusive, nobody
+/// but root opens it again. A serial port forgets that when it is closed.
+bool is_pty(int tty) {
+    constexpr unsigned first_major = 136, majors = 8; // UNIX98_PTY_SLAVE_MAJOR on
+    struct stat status {};
+    return ::fstat(tty, &status) == 0 && major(status.st_rdev) - first_major < majors;
+}
+
 DescriptorKind kind_of(const LinkSettings& settings) {
     DescriptorKind kind;
     kind.name = settings.describe();
@@ -123,7 +133,7 @@ Result<int> open_tty(const LinkSettings& settings) {
         return fail(Fault::link_closed,
                     name + " is in use by another program, or its adapter has not let go of it yet",
                     last_error());
-    ::ioctl(tty.get(), TIOCEXCL); // best effort: root passes it anyway
+    if (!is_pty(tty.get())) ::ioctl(tty.get(), TIOCEXCL); // best effort: root passes it anyway
     if (!make_raw(tty.get(), settings, speed->code))
         return fail(Fault::link_closed, name + " refuses these line settings", last_error());
     const bool powered = set_modem_line(tty.get(), TIOCM_DTR, settings.dtr) &&

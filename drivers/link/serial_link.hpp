@@ -1,5 +1,5 @@
 #pragma once
-// Opening a serial line: raw, exclusive, as the station file says. Works on ptys.
+// Opening a serial line: raw, held alone, as the station file says. Works on ptys.
 
 #include "drivers/link/tty_porter.hpp"
 

@@ -130,6 +130,20 @@ TEST(SerialLink, BelongsToOneProgramAndIsFreeAfterwards) {
     EXPECT_NE(bench.open(serial(pty.path)), nullptr);
 }
 
+/// socat and its like keep a pty while the station's service, which is not root, is started anew.
+TEST(SerialLink, APtyIsNotExclusiveForAProgramThatWasKilled) {
+    testing::PtyPair pty;
+    LinkSettings settings;
+    settings.path = pty.path;
+    const auto tty = open_tty(settings);
+    ASSERT_TRUE(tty) << describe(tty.error());
+    int exclusive = -1;
+    EXPECT_EQ(::ioctl(*tty, TIOCGEXCL, &exclusive), 0);
+    EXPECT_EQ(exclusive, 0);
+    EXPECT_EQ(open_tty(settings).error().fault, Fault::link_closed) << "held alone all the same";
+    ::close(*tty);
+}
+
 TEST(SerialLink, RefusesWhatIsNoSerialLine) {
     Bench bench;
     const auto no_tty = bench.wait(bench.opener.open(serial("/dev/null"), bench.soon()));
