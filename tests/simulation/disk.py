@@ -110,12 +110,13 @@ def can_mount():
 
 def require_mounts():
     """A user namespace, root, or the same script as root; where none can be had the test ends here."""
-    if os.geteuid() != 0 and can_mount():
+    # A user namespace is for a process without threads, and the bench starts one.
+    if os.geteuid() != 0 and can_mount() and own_mounts():
         return
     why = "not even root may mount here"
     try:
         as_root.require()
-        if can_mount():
+        if can_mount() and own_mounts():
             return
     except as_root.NoRoot as refusal:
         why = f"no user namespace, and {refusal}"
@@ -127,7 +128,6 @@ def require_mounts():
 def really_full(b):
     state = b.folder / "state"
     state.mkdir()
-    expect(own_mounts(), "a namespace that could be had a moment ago is refused")
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=3m", "axiscal-test", state], check=True)
     try:
         begin(b)
