@@ -83,6 +83,9 @@ printf 'root:x:0:\ndialout:x:20:\n' >"$root/etc/group"
 "${as_root[@]}" systemd-sysusers --root="$root" axiscal.conf >"$root/sysusers.log" 2>&1 \
     || { cat "$root/sysusers.log"; fail "sysusers"; }
 grep -q '^axiscal:.*:/var/lib/axiscal:' "$root/etc/passwd" || fail "sysusers made no user axiscal"
+# It makes nothing of root's below a folder that is another's.
+"${as_root[@]}" chown -R root:root "$root"
+"${as_root[@]}" chmod 755 "$root"
 "${as_root[@]}" systemd-tmpfiles --root="$root" --create axiscal.conf || fail "tmpfiles"
 [ "$("${as_root[@]}" stat -c %a "$root/var/lib/axiscal/outbox")" = 750 ] || fail "the outbox has other rights than 0750"
 
