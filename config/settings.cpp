@@ -15,7 +15,7 @@ std::string assignment(std::string_view key, const std::string& value) {
 std::string joined(const std::vector<std::string>& words) {
     std::string list;
     for (const std::string& word : words)
-        list += (list.empty() ? "" : ", ") + quoted(word);
+        list += (list.empty() ? "" : ", ") + in_quotes(word);
     return list;
 }
 } // namespace
@@ -78,11 +78,11 @@ std::string Settings::choice(std::string_view key,
     if (!value && fallback) return *fallback;
     if (!value) return impl_->refuse(key, "is missing: say one of " + joined(allowed)), first;
     const auto* text = std::get_if<std::string>(&value->value);
-    if (!text) return impl_->refuse_kind(key, *value, "a text", quoted(first)), first;
+    if (!text) return impl_->refuse_kind(key, *value, "a text", in_quotes(first)), first;
     if (std::find(allowed.begin(), allowed.end(), *text) != allowed.end()) return *text;
     const std::string near = nearest_word(*text, allowed);
-    impl_->refuse(key, quoted(*text) + " is not one of " + joined(allowed) +
-                           (near.empty() ? "" : "; did you mean " + quoted(near) + "?"));
+    impl_->refuse(key, in_quotes(*text) + " is not one of " + joined(allowed) +
+                           (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?"));
     return near.empty() ? first : near; // what follows from it is judged by what was meant
 }
 
@@ -144,8 +144,9 @@ std::string Settings::date(std::string_view key,
     if (!text) return impl_->refuse_kind(key, *value, "a date", example), "";
     if (is_calendar_date(*text) || (text->empty() && fallback)) return *text;
     if (!or_word.empty() && *text == or_word) return *text;
-    impl_->refuse(key, quoted(*text) + " is no date: write year-month-day, for example " + example +
-                           (or_word.empty() ? "" : ", or " + quoted(std::string{or_word})));
+    impl_->refuse(key, in_quotes(*text) + " is no date: write year-month-day, for example " +
+                           example +
+                           (or_word.empty() ? "" : ", or " + in_quotes(std::string{or_word})));
     return "";
 }
 

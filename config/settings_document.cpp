@@ -73,7 +73,7 @@ void SettingsDocument::State::entitle(const std::string& path,
                                       const TomlNode& node) {
     const TomlNode* said = find_entry(node, key == "channel" ? "channel" : "name");
     const auto* words = said ? std::get_if<std::string>(&said->value) : nullptr;
-    if (words && !words->empty()) titles[path] = std::string{key} + " " + quoted(*words);
+    if (words && !words->empty()) titles[path] = std::string{key} + " " + in_quotes(*words);
 }
 
 std::string SettingsDocument::State::shown_key(const std::string& key) const {

@@ -17,7 +17,7 @@ double Settings::Impl::measure_node(const std::string& key,
                                     Range range,
                                     double stand_in,
                                     UnitName* unit) {
-    const std::string example = quoted(example_of(measure, range.low, range.high));
+    const std::string example = in_quotes(example_of(measure, range.low, range.high));
     const auto refuse_here = [&](std::string reason) {
         state->refuse(joined_path(path, key), value.line, std::move(reason));
         return stand_in;
@@ -34,7 +34,7 @@ double Settings::Impl::measure_node(const std::string& key,
     const auto read = read_measure(*text, measure);
     if (!read) return refuse_here(read.error().detail + way_out);
     if (!within(read->si, range.low, range.high))
-        return refuse_here(quoted(*text) + " is out of range: from " +
+        return refuse_here(in_quotes(*text) + " is out of range: from " +
                            write_measure(range.low, read->unit) + " to " +
                            write_measure(range.high, read->unit));
     if (unit) *unit = read->unit;
@@ -49,7 +49,7 @@ double Settings::Impl::measured(std::string_view key,
     const TomlNode* value = ask(key);
     const double stand_in = fallback.value_or(range.low);
     if (value) return measure_node(std::string{key}, *value, measure, range, stand_in, unit);
-    if (!fallback) refuse_missing(key, quoted(example_of(measure, range.low, range.high)));
+    if (!fallback) refuse_missing(key, in_quotes(example_of(measure, range.low, range.high)));
     return stand_in;
 }
 
@@ -58,7 +58,7 @@ Settings::Impl::measured_list(std::string_view key,
                               const Measure& measure,
                               Range range,
                               const std::optional<std::vector<Length>>& fallback) {
-    const std::string example = "[" + quoted(example_of(measure, range.low, range.high)) + "]";
+    const std::string example = "[" + in_quotes(example_of(measure, range.low, range.high)) + "]";
     const TomlNode* value = ask(key);
     if (!value && !fallback) refuse_missing(key, example);
     if (!value) return fallback.value_or(std::vector<Length>{});

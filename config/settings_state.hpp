@@ -31,7 +31,7 @@ struct SettingsDocument::State {
 /// "axis.material": a key below a path; the root has the empty path.
 std::string joined_path(std::string_view path, std::string_view key);
 
-inline std::string quoted(std::string_view text) {
+inline std::string in_quotes(std::string_view text) {
     return "\"" + std::string{text} + "\"";
 }
 

@@ -34,7 +34,7 @@ std::vector<std::byte> numbered_packet() {
 
 } // namespace
 
-SeenByDevice& seen_at(const std::string& port) {
+SeenByDevice& seen_at(std::string port) {
     return all_seen.at(static_cast<std::size_t>(std::stoi(port.substr(2)) - 1));
 }
 

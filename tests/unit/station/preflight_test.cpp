@@ -286,7 +286,7 @@ TEST_F(Preflight, ADaemonFromWhichTheBootIdIsHiddenIsWarnedAndMayMeasure) {
     hidden.boot_known = false;
     const auto checks = judge_preflight(hidden);
     EXPECT_EQ(open_objections(checks), "");
-    const PreflightRecord& computer = named(checks, "computer");
+    const PreflightRecord computer = named(checks, "computer");
     EXPECT_TRUE(computer.passed && computer.warning);
     EXPECT_NE(computer.verdict.find("ProcSubset=pid"), std::string::npos) << computer.verdict;
     EXPECT_FALSE(named(judge_preflight(facts()), "computer").warning);
@@ -297,7 +297,7 @@ TEST_F(Preflight, AComputerThatMayFallAsleepIsWarnedOf) {
     refused.may_sleep = "systemd-inhibit: Failed to inhibit: Access denied";
     const auto checks = judge_preflight(refused);
     EXPECT_EQ(open_objections(checks), "");
-    const PreflightRecord& computer = named(checks, "computer");
+    const PreflightRecord computer = named(checks, "computer");
     EXPECT_TRUE(computer.passed && computer.warning);
     for (const char* words : {"Access denied", "polkit"})
         EXPECT_NE(computer.verdict.find(words), std::string::npos) << computer.verdict;
@@ -347,7 +347,7 @@ TEST_F(Preflight, AShopWithoutCertificatesIsWarnedAndMayMeasure) {
         instrument.certificate_number.clear(), instrument.due_on.clear();
     const auto checks = judge_preflight(facts());
     EXPECT_EQ(open_objections(checks), "");
-    const PreflightRecord& certificates = named(checks, "certificates");
+    const PreflightRecord certificates = named(checks, "certificates");
     EXPECT_TRUE(certificates.passed && certificates.warning);
     for (const char* words : {"laser has no certificate_number", "air has no certificate_number",
                               "material has no certificate_number", "is not known"})
