@@ -25,4 +25,8 @@ for package in "$first"/*.deb; do
         fail "$name has other bits the second time"
     fi
 done
+# docs/release.md: whoever builds a release again compares two short files.
+cmp "$first/SHA256SUMS" "$work/second/SHA256SUMS" || fail "SHA256SUMS differs"
+(cd "$first" && sha256sum --check --quiet --strict SHA256SUMS) || fail "SHA256SUMS does not fit the packages"
+[ "$(wc -l <"$first/SHA256SUMS")" = "$(ls "$first"/*.deb | wc -l)" ] || fail "SHA256SUMS names another number of packages"
 echo "$(ls "$first"/*.deb | wc -l) packages have the same bits twice"
