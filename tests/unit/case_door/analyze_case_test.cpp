@@ -164,7 +164,16 @@ void expect_field(const std::string& line, const std::string& field) {
 TEST(AnalyzeCaseRefuses, EachMissingKey) {
     for (const char* key :
          {"analysis", "standard", "axis", "unit", "readings", "targets", "forward"})
-        EXPECT_EQ(refusal_without(key), std::string{"refused: "} + key + ": is missing");
+        EXPECT_TRUE(
+            refusal_without(key).starts_with(std::string{"refused: "} + key + ": is missing"))
+            << refusal_without(key);
+}
+
+TEST(AnalyzeCaseRefuses, AMissingKeyWithTheWordsThatItTakes) {
+    EXPECT_EQ(refusal_without("unit"),
+              "refused: unit: is missing; it must be one of \"mm\", \"um\", \"m\"");
+    EXPECT_EQ(refusal_without("readings"),
+              "refused: readings: is missing; it must be one of \"positions\", \"deviations\"");
 }
 
 TEST(AnalyzeCaseRefuses, UnknownWords) {
@@ -241,6 +250,9 @@ TEST(AnalyzeCaseRefuses, UnknownKeysWithTheNearestKnownOne) {
     expect_field(refusal_with("/cover_factor", 3), "cover_factor");
     expect_field(refusal_with("/axis/travel", 3), "axis.travel");
     expect_field(refusal_with("/line\nbreak", 3), "line?break");
+    const std::string line = refusal_with("/spindle_speed", 3);
+    for (const char* words : {"known here: \"analysis\", ", "\"targets\"", "'comment'"})
+        EXPECT_NE(line.find(words), std::string::npos) << line;
 }
 
 TEST(AnalyzeCaseRefuses, RepeatedKeys) {

@@ -52,6 +52,14 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+/// "a", "b"
+std::string listed(const Words& words) {
+    std::string list;
+    for (const std::string& word : words)
+        list += (list.empty() ? "\"" : ", \"") + word + '"';
+    return list;
+}
+
 std::string hint_for(const std::string& key, const Words& known) {
     constexpr std::size_t longest_key = 32, near = 2;
     const auto renamed = std::ranges::find(renamed_keys, key, &Renamed::before);
@@ -59,7 +67,7 @@ std::string hint_for(const std::string& key, const Words& known) {
     if (key.size() <= longest_key)
         for (const std::string& word : known)
             if (edit_distance(key, word) <= near) return "did you mean '" + word + "'?";
-    return "remarks go under 'comment'";
+    return "known here: " + listed(known) + "; remarks go under 'comment'";
 }
 
 } // namespace
@@ -92,14 +100,12 @@ Result<std::string> text_of(const json& object, const std::string& key, const st
 
 Result<std::string>
 one_of(const json& object, const std::string& key, const std::string& field, const Words& allowed) {
+    const std::string must =
+        (allowed.size() == 1 ? "must be " : "must be one of ") + listed(allowed);
+    if (!object.contains(key)) return refuse(Fault::bad_case, field, "is missing; it " + must);
     AXISCAL_TRY(std::string word, text_of(object, key, field));
     if (std::ranges::find(allowed, word) != allowed.end()) return word;
-    std::string list;
-    for (const std::string& item : allowed)
-        list += (list.empty() ? "\"" : ", \"") + item + '"';
-    return refuse(Fault::bad_case, field,
-                  (allowed.size() == 1 ? "must be " : "must be one of ") + list +
-                      did_you_mean(word, allowed));
+    return refuse(Fault::bad_case, field, must + did_you_mean(word, allowed));
 }
 
 std::string indexed(const std::string& field, std::size_t index) {
