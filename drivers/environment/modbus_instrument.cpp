@@ -60,6 +60,8 @@ private:
     [[nodiscard]] ModbusRead request(int function, int address, int count) const;
     Task<void> identify(ModbusBus& bus, SampleSink& sink);
     Task<Result<int>> round(ModbusBus& bus, InstrumentContext context);
+    Task<bool> answers_for_values(ModbusBus& bus);
+    [[nodiscard]] std::string place() const;
     Task<Result<bool>> check_settings(ModbusBus& bus, SampleSink& sink);
     void hand_up(const RegisterBlock& block, const ModbusWords& reply, SampleSink& sink);
     void hand_up_absent(const RegisterBlock& block, MonotonicTime at, SampleSink& sink);
@@ -191,6 +193,20 @@ Task<Result<int>> ModbusInstrument::round(ModbusBus& bus, InstrumentContext cont
     co_return answered;
 }
 
+/// Some look-alikes pass over what they do not know instead of refusing it.
+Task<bool> ModbusInstrument::answers_for_values(ModbusBus& bus) {
+    if (settings_.blocks().empty()) co_return false; // it was asked for values alone
+    const RegisterBlock& block = blocks_.front();
+    const ModbusRead read = request(block.function, block.address, block.count);
+    const auto reply = co_await bus.read(read);
+    co_return reply.has_value();
+}
+
+std::string ModbusInstrument::place() const {
+    return profile_.model + " unit " + std::to_string(station_.unit_id) + " on " +
+           station_.link.describe();
+}
+
 Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
     ModbusBuses* const buses = context.links->modbus_buses();
     if (!buses) co_return fail(Fault::link_closed, "no Modbus lines here");
@@ -211,10 +227,13 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
         silent = *answered > 0 ? 0 : silent + 1;
         if (silent == silent_rounds && last_failure_.fault != Fault::link_timeout)
             co_return tl::unexpected<Error>(last_failure_); // damaged, or another's
+        if (silent == silent_rounds && co_await answers_for_values(**bus))
+            co_return fail(Fault::link_timeout,
+                           place() + " gives values and does not answer how it is set: another "
+                                     "model? A copy of the profile without its [[setting]] blocks "
+                                     "reads it; then look at its display");
         if (silent == silent_rounds)
-            co_return fail(Fault::link_timeout, profile_.model + " unit " +
-                                                    std::to_string(station_.unit_id) + " on " +
-                                                    station_.link.describe() + " does not answer");
+            co_return fail(Fault::link_timeout, place() + " does not answer");
         if (*answered > 0 && !std::exchange(identified, true))
             co_await identify(**bus, *context.sink);
         // A slow line delays the next round instead of piling rounds up.

@@ -67,6 +67,7 @@ public:
         std::unique_ptr<Instrument> instrument;
         testing::SampleRecorder sink{MonotonicTime{}, false};
         std::optional<Fault> ended;
+        std::string last_words;
     };
     Running& start(const std::string& keys, const std::string& driver = "modbus") {
         running_.push_back(std::make_unique<Running>());
@@ -88,6 +89,7 @@ private:
     Task<void> run(Running& one) {
         const InstrumentContext context{&scheduler, &opener, &one.sink};
         const auto result = co_await one.instrument->run(context);
+        if (!result) one.last_words = result.error().detail;
         one.ended = result ? Fault::none : result.error().fault;
     }
     std::vector<std::unique_ptr<Running>> running_;
@@ -498,6 +500,29 @@ TEST(ModbusSensorRtu, IsAskedBeforeEachReadingHowItIsSet) {
         EXPECT_EQ(temperature, (std::vector{Quality::good, Quality::absent, Quality::good}));
         EXPECT_EQ(humidity, (std::vector{Quality::good, Quality::good, Quality::good}));
     }
+    line.join();
+}
+
+TEST(ModbusSensorRtu, OneThatTellsItsValuesAndNotHowItIsSetSaysSo) {
+    testing::PtyPair pty;
+    std::atomic<bool> stop = false;
+    std::thread line{[&] {
+        while (!stop) {
+            const std::string request = pty.receive(8, 100);
+            if (request.size() == 8 && request[1] == 4) pty.send(xy_md02_answer(request));
+        }
+    }};
+    {
+        Station station;
+        const auto& air = station.start(profile_keys("xy-md02") + "link = \"serial:" + pty.path +
+                                        "\"\npoll_period = \"20 ms\"\n");
+        EXPECT_TRUE(station.until([&] { return air.ended.has_value(); }));
+        EXPECT_EQ(air.ended, Fault::link_timeout);
+        EXPECT_NE(air.last_words.find("does not answer how it is set"), std::string::npos)
+            << air.last_words;
+        EXPECT_TRUE(air.sink.samples.empty());
+    }
+    stop = true;
     line.join();
 }
 
