@@ -35,6 +35,11 @@ public:
         : table_{std::move(table)}
         , config_{config} {}
 
+    /// The only channel that can play the part, where none is named.
+    RoleConfig one_or_the_only(std::string_view key, Medium use) {
+        return table_.has(key) ? one(key, use) : RoleConfig{{}, {}, true};
+    }
+
     RoleConfig one(std::string_view key, Medium use) {
         const std::string written = table_.text(key);
         return table_.refused(key) ? RoleConfig{} : checked(key, written, use);
@@ -98,6 +103,10 @@ void read_material(Settings material, StationConfig& config) {
     setup.feedback = material.text("feedback", setup.feedback);
     const std::string form = material.choice("form", {"first_order", "exact"}, "first_order");
     setup.form = form == "exact" ? ExpansionForm::exact : ExpansionForm::first_order;
+    if (!material.has("temperature")) {
+        config.axis.material_temperature = {RoleConfig{{}, {}, true}};
+        return;
+    }
     config.axis.material_temperature =
         RoleReader{material, config}.several("temperature", Medium::material);
     const std::size_t sensors = config.axis.material_temperature.size();
@@ -109,8 +118,7 @@ void read_material(Settings material, StationConfig& config) {
     if (sensors == 1)
         config.warnings.push_back({config.file, material.line_of("temperature"),
                                    "axis.material.temperature",
-                                   "one material sensor: ISO 230-2 measurements want at least two "
-                                   "along the axis, for a gradient cannot be seen by one"});
+                                   std::string{single_material_sensor}});
 }
 
 void read_air(Settings air, StationConfig& config) {
@@ -122,9 +130,9 @@ void read_air(Settings air, StationConfig& config) {
     setup.co2_ppm = std::round(share.in(ppm)*1e6) / 1e6; // 450 ppm stays 450 exactly
     setup.oldest = air.duration("oldest", 1s, 1h, setup.oldest);
     RoleReader roles{air, config};
-    config.axis.air_temperature = roles.one("temperature", Medium::air);
-    config.axis.air_pressure = roles.one("pressure", Medium::air);
-    config.axis.air_humidity = roles.one("humidity", Medium::air);
+    config.axis.air_temperature = roles.one_or_the_only("temperature", Medium::air);
+    config.axis.air_pressure = roles.one_or_the_only("pressure", Medium::air);
+    config.axis.air_humidity = roles.one_or_the_only("humidity", Medium::air);
 }
 
 /// A scale counts true lengths: what a beam needs would be misread beside it, so each is named.
@@ -212,7 +220,7 @@ void read_axis(Settings axis, AxisUnits units, StationConfig& config) {
         return;
     }
     read_beam(axis, config.axis);
-    config.axis.laser = RoleReader{axis, config}.one("laser", Medium::none);
+    config.axis.laser = RoleReader{axis, config}.one_or_the_only("laser", Medium::none);
     read_material(axis.table("material"), config);
     read_air(axis.table("air"), config);
 }

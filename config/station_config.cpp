@@ -138,7 +138,7 @@ std::string read_absolute_path(Settings& table,
 namespace {
 
 AxisKind read_axis_kind(Settings axis) {
-    const bool rotary = axis.choice("kind", {"linear", "rotary"}) == "rotary";
+    const bool rotary = axis.choice("kind", {"linear", "rotary"}, "linear") == "rotary";
     return rotary ? AxisKind::rotary : AxisKind::linear;
 }
 

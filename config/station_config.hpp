@@ -102,6 +102,9 @@ struct CycleConfig {
 
 struct RoleConfig {                  ///< which instrument channel plays which part
     std::string instrument, channel; ///< "air", "air temperature"
+    /// Not named in the file: the only channel that can play the part; of material sensors, all.
+    /// The loader names it.
+    bool by_kind = false;
 };
 
 /// A circular test with a ballbar.
@@ -140,6 +143,10 @@ struct AxisConfig {
     std::optional<AngleConfig> angle; ///< of a rotary axis
     std::optional<ScaleConfig> scale; ///< then nothing is asked of beam and air
 };
+
+inline constexpr std::string_view single_material_sensor =
+    "one material sensor: ISO 230-2 measurements want at least two along the axis, for a gradient "
+    "cannot be seen by one";
 
 struct ConsoleConfig {
     std::string socket_path = "/run/axiscal/axiscald.sock";
@@ -188,7 +195,9 @@ struct StationConfig {
 
     /// A ballbar and no laser: the station measures circles and nothing else. Of `axis` only its
     /// name (that of the plane), material, material_temperature and perhaps air_temperature count.
-    [[nodiscard]] bool circles_alone() const { return circular && axis.laser.instrument.empty(); }
+    [[nodiscard]] bool circles_alone() const {
+        return circular && axis.laser.instrument.empty() && !axis.laser.by_kind;
+    }
 };
 
 /// Reads every key of the station but the drivers' own. Refusals stay in `document`; the returned

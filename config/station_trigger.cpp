@@ -67,8 +67,11 @@ void refuse_unused(Settings& trigger, bool used, Keys keys, const std::string& o
             trigger.refuse(key, "belongs to " + owner + " and says nothing here: remove it");
 }
 
+/// Of a CNC that is the server its own, which nobody can guess.
 void read_port(Settings& trigger, TriggerConfig& config) {
-    config.port = static_cast<int>(trigger.integer("port", 1, 65535));
+    const bool ours = config.transport != TriggerTransport::tcp_client;
+    config.port = static_cast<int>(trigger.integer(
+        "port", 1, 65535, ours ? std::optional<std::int64_t>{config.port} : std::nullopt));
 }
 
 void read_clients(Settings& trigger, TriggerConfig& config) {
@@ -89,8 +92,10 @@ void read_tcp(Settings& trigger, TriggerConfig& config) {
     refuse_unused(trigger, server, {"client_limit", "allowed_clients"}, "transport \"tcp\"");
     refuse_unused(trigger, client, {"base_address", "poll_interval"}, "transport \"tcp-mirrored\"");
     if (server) {
-        config.host = read_address(trigger, "host", config.host);
         read_clients(trigger, config);
+        // Whoever names clients wants them to be heard.
+        const std::string usual = config.allowed_clients.empty() ? config.host : "0.0.0.0";
+        config.host = read_address(trigger, "host", usual);
         refuse_open_door(trigger, config.host, config.allowed_clients); // Modbus has no password
     }
     if (client) {

@@ -40,6 +40,57 @@ find(const RoleConfig& role, const Wanted& wanted, const std::vector<StationChan
                                               known_channels(channels));
 }
 
+/// All that could play the part, those apart that play another.
+std::vector<RoleConfig> candidates(const Wanted& wanted,
+                                   const std::vector<RoleConfig>& taken,
+                                   const std::vector<StationChannel>& channels) {
+    std::vector<RoleConfig> found;
+    for (const StationChannel& channel : channels) {
+        const bool of_kind = channel.kind == wanted.kind &&
+                             (wanted.medium == Medium::none || channel.medium == wanted.medium);
+        const bool free = std::ranges::none_of(taken, [&](const RoleConfig& other) {
+            return other.instrument == channel.instrument_name && other.channel == channel.name;
+        });
+        if (of_kind && free) found.push_back({channel.instrument_name, channel.name});
+    }
+    return found;
+}
+
+std::string listed(const std::vector<RoleConfig>& roles) {
+    std::string list;
+    for (const RoleConfig& role : roles)
+        list += (list.empty() ? "\"" : ", \"") + role.instrument + "/" + role.channel + '"';
+    return list;
+}
+
+/// A sensor of its own goes before one that the laser brings along and that may not be connected.
+std::vector<RoleConfig> without_those_of(const std::string& laser, std::vector<RoleConfig> found) {
+    std::vector<RoleConfig> own;
+    for (const RoleConfig& one : found)
+        if (one.instrument != laser) own.push_back(one);
+    return own.empty() ? std::move(found) : own;
+}
+
+Result<void> name_role(RoleConfig& role,
+                       const Wanted& wanted,
+                       const std::string& laser,
+                       const std::vector<RoleConfig>& taken,
+                       const std::vector<StationChannel>& channels) {
+    if (!role.by_kind || !role.instrument.empty()) return {};
+    const auto found = without_those_of(laser, candidates(wanted, taken, channels));
+    if (found.size() == 1) {
+        role = found.front();
+        role.by_kind = true;
+        return {};
+    }
+    const std::string what = std::string{wanted.role} + " is not named, and ";
+    if (!found.empty())
+        return fail(Fault::bad_configuration,
+                    what + "several channels could be it: " + listed(found) + "; name one");
+    return fail(Fault::bad_configuration,
+                what + "no instrument has such a channel; there are " + known_channels(channels));
+}
+
 const char* reference_key(const AxisConfig& axis) {
     return axis.scale ? "axis.scale.channel" : "axis.laser";
 }
@@ -99,6 +150,30 @@ std::vector<int> StationRoles::of_circles() const {
     if (bar_temperature && std::ranges::find(ids, *bar_temperature) == ids.end())
         ids.push_back(*bar_temperature);
     return ids;
+}
+
+Result<void> name_roles(AxisConfig& axis,
+                        const std::vector<RoleConfig>& taken,
+                        const std::vector<StationChannel>& channels) {
+    const auto name = [&](RoleConfig& role, const Wanted& wanted) {
+        return name_role(role, wanted, axis.laser.instrument, taken, channels);
+    };
+    AXISCAL_CHECK(name(axis.laser, {"axis.laser", ChannelKind::displacement, Medium::none}));
+    AXISCAL_CHECK(name(axis.air_temperature,
+                       {"axis.air.temperature", ChannelKind::temperature, Medium::air}));
+    AXISCAL_CHECK(
+        name(axis.air_pressure, {"axis.air.pressure", ChannelKind::pressure, Medium::air}));
+    AXISCAL_CHECK(
+        name(axis.air_humidity, {"axis.air.humidity", ChannelKind::humidity, Medium::air}));
+    const bool all = axis.material_temperature.size() == 1 &&
+                     axis.material_temperature[0].by_kind &&
+                     axis.material_temperature[0].instrument.empty();
+    const Wanted material{"axis.material.temperature", ChannelKind::temperature, Medium::material};
+    if (!all) return {};
+    axis.material_temperature = candidates(material, taken, channels);
+    for (RoleConfig& role : axis.material_temperature)
+        role.by_kind = true;
+    return {};
 }
 
 Result<StationRoles> resolve_roles(const AxisConfig& axis,

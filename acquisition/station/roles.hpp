@@ -26,6 +26,14 @@ struct StationRoles {
     [[nodiscard]] std::vector<int> of_circles() const;
 };
 
+/// Names what the station file leaves to the kind of a channel: the only length, the only air
+/// temperature, a sensor of its own before one of the laser; every temperature on the material.
+/// @param taken  channels that play other parts
+/// @errors Fault::bad_configuration where no channel can play the part, or more than one.
+Result<void> name_roles(AxisConfig& axis,
+                        const std::vector<RoleConfig>& taken,
+                        const std::vector<StationChannel>& channels);
+
 /// An axis without a laser needs nothing; what it names is found all the same.
 /// @errors Fault::bad_configuration naming the role, the name and what there is instead;
 /// Fault::wrong_medium for an air channel in a material role, or the other way round.

@@ -90,6 +90,22 @@ bool targets_are_known(const std::vector<Refusal>& refusals) {
     });
 }
 
+/// Channels that the station file gives another part than those of the axis.
+std::vector<RoleConfig> other_parts(const StationConfig& config) {
+    std::vector<RoleConfig> taken;
+    if (config.ballbar) taken.push_back(*config.ballbar);
+    if (config.circular && config.circular->bar_temperature)
+        taken.push_back(*config.circular->bar_temperature);
+    if (config.axis.scale)
+        taken.insert(taken.end(), config.axis.scale->temperature.begin(),
+                     config.axis.scale->temperature.end());
+    return taken;
+}
+
+bool has_material_by_kind(const AxisConfig& axis) {
+    return !axis.material_temperature.empty() && axis.material_temperature.front().by_kind;
+}
+
 /// What is wrong with the whole although every key is right by itself.
 void check_together(LoadedStation& station, Settings root) {
     std::vector<StationChannel> channels;
@@ -99,6 +115,13 @@ void check_together(LoadedStation& station, Settings root) {
                                      static_cast<int>(i), static_cast<int>(channels.size()));
         std::ranges::move(more, std::back_inserter(channels));
     }
+    const bool all_material = has_material_by_kind(station.config.axis);
+    if (auto named = name_roles(station.config.axis, other_parts(station.config), channels); !named)
+        return root.refuse("axis", describe(named.error()));
+    if (all_material && station.config.axis.material_temperature.size() == 1)
+        station.config.warnings.push_back({station.config.file, root.table("axis").line(),
+                                           "axis.material.temperature",
+                                           std::string{single_material_sensor}});
     if (auto roles = resolve_roles(station.config.axis, channels)) {
         station.roles = *std::move(roles);
         if (const auto laser = station.roles.laser) {

@@ -244,13 +244,13 @@ Task<Result<void>> ModbusInstrument::run(InstrumentContext context) {
 
 } // namespace
 
-const Appearance modbus_appearance{
-    Wire::serial,
-    {},
-    true,
-    "material",
-    "profile = \"tm-th8\"             # the sensor's: /usr/share/axiscal/profiles lists them\n"
-    "unit_id = 1                    # its address on the line\n"};
+const Appearance modbus_appearance{Wire::serial,
+                                   {},
+                                   true,
+                                   "material",
+                                   "profile = \"tm-th8\"             # the sensor's: "
+                                   "/usr/share/axiscal/profiles lists them; unit_id, "
+                                   "where its address is another\n"};
 
 std::unique_ptr<Instrument> make_modbus_instrument(ModbusProfile profile, ModbusStation station) {
     return std::make_unique<ModbusInstrument>(std::move(profile), std::move(station));

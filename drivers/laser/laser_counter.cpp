@@ -229,7 +229,8 @@ std::unique_ptr<Instrument> make_counter(const InstrumentConfig& /*config*/, Set
     setup.bits = static_cast<int>(options.integer("bits", 8, 64));
     read_scale(options, setup);
     setup.sign = options.choice("counting", {"normal", "reversed"}, "normal") == "normal" ? 1 : -1;
-    setup.fastest = options.speed("fastest", mm_per_minute(1), metre_per_second(100));
+    setup.fastest =
+        options.speed("fastest", mm_per_minute(1), metre_per_second(100), metre_per_second(1));
     setup.silence = options.duration("silence", std::chrono::milliseconds{100},
                                      std::chrono::hours{1}, std::chrono::seconds{10});
     return std::make_unique<Counter>(std::move(setup));

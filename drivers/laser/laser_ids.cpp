@@ -385,7 +385,8 @@ std::unique_ptr<Instrument> make_ids(const InstrumentConfig& /*config*/, Setting
                               "sensors beside the beam: set the index of the device to 1 by hand "
                               "(compensation mode 2) and write \"corrected here\"");
     setup.wavelength = options.length("wavelength", nm(400), nm(1600));
-    setup.fastest = options.speed("fastest", mm_per_minute(1), metre_per_second(100));
+    setup.fastest =
+        options.speed("fastest", mm_per_minute(1), metre_per_second(100), metre_per_second(1));
     setup.start = options.choice("start", {"by hand", "by axiscal"}, "by hand") == "by axiscal";
     setup.poll_period = options.duration("poll_period", std::chrono::milliseconds{2},
                                          std::chrono::seconds{10}, std::chrono::milliseconds{10});

@@ -165,7 +165,8 @@ UmdSetup read_setup(Settings& options) {
     else
         read_laser(options, setup);
     setup.axis = static_cast<int>(options.integer("axis", 1, 3, 1));
-    setup.fastest = options.speed("fastest", mm_per_minute(1), metre_per_second(20));
+    setup.fastest =
+        options.speed("fastest", mm_per_minute(1), metre_per_second(20), metre_per_second(1));
     return setup;
 }
 
@@ -180,8 +181,7 @@ const std::array umd_ids{UsbId{0x16C0, 0x0483}, UsbId{0x0403, 0xA662}, UsbId{0x0
 const Appearance umd_appearance{
     Wire::serial, umd_ids, false, "laser",
     "wavelength = \"632.991354 nm\"   # in vacuum: write that of the laser's certificate\n"
-    "fold = \"corner cube\"           # or \"plane mirror\"\n"
-    "fastest = \"30 m/min\"           # the axis cannot move faster\n"};
+    "fold = \"corner cube\"           # or \"plane mirror\"\n"};
 
 std::unique_ptr<Instrument> make_umd(const InstrumentConfig& /*config*/, Settings& options) {
     LinkSettings defaults; // USB: the rate matters on the uMD0 only

@@ -33,7 +33,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "program": ["--dialect", "--out", "--retake"],
-            "export": ["RUN", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
+            "export": ["RUN", "--out"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
             "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild", "--block"],
@@ -488,8 +488,8 @@ class NoDaemon(Scratch):
         self.expect(5, "devices", "--host", "127.0.0.1:1")
 
 
-class Devices(Scratch):
-    """What is plugged in, without a daemon, in folders laid out as /sys and /dev are."""
+class Plugged(Scratch):
+    """Folders laid out as /sys and /dev are."""
 
     def plug(self, port, vendor, product, serial="", tty="", by_id="", driver="", its_class="00"):
         device = os.path.join(self.sys, "devices/pci0000:00/usb1", port)
@@ -526,6 +526,13 @@ class Devices(Scratch):
     def setUp(self):
         super().setUp()
         self.sys, self.dev = os.path.join(self.folder, "sys"), os.path.join(self.folder, "dev")
+
+
+class Devices(Plugged):
+    """What is plugged in, without a daemon."""
+
+    def setUp(self):
+        super().setUp()
         self.plug("1-1", "16c0", "0483", "7391231", "ttyACM0", "usb-Teensyduino_7391231-if00", "cdc_acm")
         self.plug("1-2", "289b", "0505", "E24638", "ttyACM1", "usb-Dracal_E24638-if00", "cdc_acm")
         self.plug("1-3", "0cd5", "0006")  # a U6 tells its number only when it is opened

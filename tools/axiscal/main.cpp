@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
     add_instrument_commands(app, options, chosen);
     add_tape_commands(app, options, chosen);
     add_paper_commands(app, options, chosen);
+    add_station_commands(app, options, chosen);
     for (CLI::App* command : app.get_subcommands({}))
         command->add_flag("--json", options.json, "print JSON for programs");
     const std::vector<std::string> words{argv + std::min(argc, 1), argv + argc};

@@ -15,7 +15,6 @@
 #include "acquisition/run/retake_plan.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "analysis/quantity/counted.hpp"
-#include "config/certificate_dates.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/cases/case_table.hpp"
@@ -24,7 +23,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -89,19 +87,6 @@ int analyze_run(const std::string& path) {
     if (!certificate) return complain(certificate.error());
     std::cout << certificate_json_text(*certificate);
     return exit_ok;
-}
-
-int print_refusals(const std::vector<Refusal>& refusals, bool json) {
-    Json list = Json::array();
-    for (const Refusal& refusal : refusals) {
-        list.push_back({{"file", refusal.file},
-                        {"line", refusal.line},
-                        {"key", refusal.key},
-                        {"reason", refusal.reason}});
-        if (!json) std::cerr << refusal.describe() << "\n";
-    }
-    if (json) std::cout << json_text(Json{{"refusals", std::move(list)}}) << "\n";
-    return exit_refused;
 }
 
 ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
@@ -220,7 +205,7 @@ int command_case_new(const NewCaseOrder& order) {
 
 int command_program(const ProgramRequest& request, bool json) {
     auto station = load_station(request.station_file);
-    if (!station) return print_refusals(station.error(), json);
+    if (!station) return complain(station.error(), json);
     StationConfig& config = station->config;
     if (const auto made = make_folder(request.out_directory); !made) return complain(made.error());
     if (!request.run_file.empty()) return write_retake_program(request, config, json);
@@ -262,50 +247,6 @@ int command_program(const ProgramRequest& request, bool json) {
                       << "; when the machine waits at rest: axiscal arm --pass circular\n";
     }
     if (json) std::cout << json_text(Json{{"programs", std::move(list)}}) << "\n";
-    return exit_ok;
-}
-
-namespace {
-
-/// ISO date, UTC.
-std::string today() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return iso8601_utc(std::chrono::nanoseconds{now}.count()).substr(0, 10);
-}
-
-} // namespace
-
-int command_check_config(const std::string& station_file, bool json) {
-    const auto station = load_station(station_file);
-    if (!station) return print_refusals(station.error(), json);
-    Json warnings = Json::array();
-    std::vector<Refusal> notes = station->config.warnings;
-    for (Refusal& note : expired_certificates(station->config, today()))
-        notes.push_back(std::move(note));
-    for (const Refusal& warning : notes) {
-        warnings.push_back(warning.describe());
-        if (!json) std::cout << "note: " << warning.describe() << "\n";
-    }
-    Json passes = Json::array();
-    for (const RunPlan& plan : station->passes) {
-        passes.push_back({{"pass", plan.pass},
-                          {"targets", plan.targets.size()},
-                          {"approaches", plan.approaches},
-                          {"points", plan.points.size()},
-                          {"remark", plan.remark}});
-        if (!json)
-            std::cout << "pass " << plan.pass << ": "
-                      << counted(static_cast<long>(plan.targets.size()), "target") << ", "
-                      << counted(static_cast<long>(plan.points.size()), "point")
-                      << (plan.remark.empty() ? "" : "; " + plan.remark) << "\n";
-    }
-    if (json)
-        std::cout << json_text(Json{{"refusals", Json::array()},
-                                    {"notes", std::move(warnings)},
-                                    {"passes", std::move(passes)}})
-                  << "\n";
-    else
-        std::cout << station_file << " is accepted.\n";
     return exit_ok;
 }
 

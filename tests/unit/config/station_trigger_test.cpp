@@ -77,7 +77,12 @@ INSTANTIATE_TEST_SUITE_P(
                     "exists for shape \"sequence-block\" only"},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"rtu\"\n",
                     "trigger.serial_port: is missing"},
-        TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp\"\n",
+        TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp\"\n", ""},
+        TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp\"\n"
+                    "allowed_clients = [\"192.168.10.20\"]\n",
+                    ""},
+        TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp-mirrored\"\n"
+                    "host = \"192.168.10.20\"\n",
                     "trigger.port: is missing"},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp-mirrored\"\nport = 502\n",
                     "trigger.host: is missing"},

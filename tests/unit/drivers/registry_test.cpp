@@ -102,8 +102,9 @@ TEST(Registry, RefusesAUmdThatIsScaleAndLaserOrNeither) {
 }
 
 TEST(Registry, RefusesWrongDriverKeysAllAtOnce) {
-    const auto made = testing::make_instrument(
-        "umd", "link = \"usb:1\"\nwavelength = \"633\"\nfold = \"corner\"\naxis = 4\nspeed = 1\n");
+    const auto made =
+        testing::make_instrument("umd", "link = \"usb:1\"\nwavelength = \"633\"\nfold = "
+                                        "\"corner\"\naxis = 4\nspeed = 1\nfastest = \"30\"\n");
     const std::string text = all_refusals(made);
     for (const char* key : {"link", "wavelength", "fold", "axis", "fastest", "speed"})
         EXPECT_NE(text.find(key), std::string::npos) << key << "\n" << text;

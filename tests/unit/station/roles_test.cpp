@@ -47,6 +47,62 @@ TEST_F(Roles, AreFoundByName) {
     EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
 }
 
+/// A station file that names none of them.
+class RolesByKind : public Roles {
+protected:
+    void SetUp() override {
+        Roles::SetUp();
+        const RoleConfig by_kind{{}, {}, true};
+        axis.laser = axis.air_temperature = axis.air_pressure = axis.air_humidity = by_kind;
+        axis.material_temperature = {by_kind};
+    }
+    void expect_not_named(const std::vector<std::string>& words) {
+        const auto named = name_roles(axis, {}, channels);
+        ASSERT_FALSE(named);
+        for (const std::string& word : words)
+            EXPECT_NE(named.error().detail.find(word), std::string::npos) << named.error().detail;
+    }
+};
+
+TEST_F(RolesByKind, AreTheOnlyChannelsThatCanPlayThem) {
+    ASSERT_TRUE(name_roles(axis, {}, channels));
+    EXPECT_EQ(axis.laser.instrument + "/" + axis.laser.channel, "laser/axis 1");
+    EXPECT_TRUE(axis.laser.by_kind) << "as check-config tells";
+    const auto roles = resolve_roles(axis, channels);
+    ASSERT_TRUE(roles) << describe(roles.error());
+    EXPECT_EQ(roles->laser, 0);
+    EXPECT_EQ(roles->environment(), (std::vector<int>{1, 2, 3, 4, 5}));
+}
+
+TEST_F(RolesByKind, AreAskedForWhereTwoChannelsCouldBeIt) {
+    add("gauge", "length", ChannelKind::displacement, Medium::none);
+    expect_not_named({"axis.laser is not named", "\"laser/axis 1\", \"gauge/length\"", "name one"});
+    ASSERT_TRUE(name_roles(axis, {{"gauge", "length"}}, channels)) << "it is the ballbar";
+    EXPECT_EQ(axis.laser.instrument, "laser");
+}
+
+/// A uMD has inputs for two air temperatures, connected or not.
+TEST_F(RolesByKind, AreASensorOfItsOwnBeforeOneOfTheLaser) {
+    add("laser", "temperature 1", ChannelKind::temperature, Medium::air);
+    add("laser", "temperature 2", ChannelKind::temperature, Medium::air);
+    ASSERT_TRUE(name_roles(axis, {}, channels));
+    EXPECT_EQ(axis.air_temperature.instrument, "air");
+    std::erase_if(channels, [](const auto& one) { return one.instrument_name == "air"; });
+    axis.air_temperature = RoleConfig{{}, {}, true};
+    expect_not_named({"axis.air.temperature", "\"laser/temperature 1\", \"laser/temperature 2\""});
+}
+
+TEST_F(RolesByKind, AreAskedForWhereNoChannelCouldBeIt) {
+    std::erase_if(channels, [](const auto& one) { return one.kind == ChannelKind::pressure; });
+    expect_not_named({"axis.air.pressure is not named", "no instrument has such a channel"});
+}
+
+TEST_F(RolesByKind, OfMaterialAreNoSensorsThatTouchAnotherPart) {
+    ASSERT_TRUE(name_roles(axis, {{"contacts", "2"}}, channels));
+    ASSERT_EQ(axis.material_temperature.size(), 1U);
+    EXPECT_EQ(axis.material_temperature[0].channel, "1");
+}
+
 TEST_F(Roles, AnAutocollimatorMustGiveAnAngle) {
     axis.laser = axis.air_temperature = axis.air_pressure = axis.air_humidity = {};
     axis.material_temperature.clear();

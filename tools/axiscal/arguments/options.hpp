@@ -10,6 +10,7 @@
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/probing_command.hpp"
+#include "tools/axiscal/station_command.hpp"
 #include "tools/axiscal/tape_commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -40,6 +41,7 @@ struct Options {
     ConformanceOrder conformance;
     DevicesRequest devices;
     DoctorRequest doctor;
+    NewStationRequest new_station;
     RecordRequest record;
     ReplayRequest replay;
     SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
@@ -54,6 +56,7 @@ void add_rest_commands(CLI::App& app, Options& options, Command& chosen);
 void add_probing_commands(CLI::App& app, Options& options, Command& chosen);
 void add_instrument_commands(CLI::App& app, Options& options, Command& chosen);
 void add_tape_commands(CLI::App& app, Options& options, Command& chosen);
+void add_station_commands(CLI::App& app, Options& options, Command& chosen);
 void add_paper_commands(CLI::App& app, Options& options, Command& chosen);
 
 /// "Exit codes: 0 done; ...", each in the words that every command has for it, in lines of 100
