@@ -35,6 +35,10 @@ PublishConfig read_publish(Settings publish) {
     } else if (!config.destination.empty()) {
         config.destination = read_absolute_path(publish, "destination");
     }
+    config.group = publish.text("group", "");
+    if (on_server && !config.group.empty())
+        publish.refuse("group", "belongs to a folder of this PC: who may read a share, its server "
+                                "decides");
     if (publish.has("credentials")) config.credentials = read_absolute_path(publish, "credentials");
     config.require_encryption =
         publish.choice("encryption", {"required", "asked"}, "required") == "required";

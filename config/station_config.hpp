@@ -161,6 +161,9 @@ struct PublishConfig {
     /// Folder, or smb:// address that parse_share_address() takes; empty: results stay in the
     /// outbox.
     std::string destination;
+    /// Who reads the results in a folder of this PC: it passes its group on to them; empty: nobody
+    /// beside the service.
+    std::string group;
     std::string credentials;        ///< file of the share's account; empty: see docs/share.md
     bool require_encryption = true; ///< else it is asked for, and signing is required
     Duration timeout = std::chrono::seconds{10}; ///< of one call to the server

@@ -63,6 +63,26 @@ Finding check_folder(const std::string& folder, const Account& service, const Mo
     return {Health::good, "share", folder + " can be written", ""};
 }
 
+/// A folder with the set-group-ID bit passes its group on to what is made in it; the service, which
+/// sees no other users, could not.
+Finding check_readers(const std::string& folder, const std::string& name) {
+    const auto readers = group_named(name);
+    if (!readers)
+        return {Health::broken, "share",
+                "there is no group " + name + ", which publish.group names",
+                "sudo addgroup " + name};
+    struct stat about {};
+    constexpr mode_t passes_on = S_ISGID | S_IRGRP | S_IXGRP;
+    const bool passes = ::stat(folder.c_str(), &about) == 0 && about.st_gid == *readers &&
+                        (about.st_mode & passes_on) == passes_on;
+    if (passes)
+        return {Health::good, "share", "the group " + name + " reads what comes to " + folder, ""};
+    return {Health::broken, "share",
+            "the group " + name + " cannot read what comes to " + folder + " (" +
+                rights_text(folder) + ")",
+            "sudo chgrp " + name + " " + folder + " && sudo chmod g+rxs " + folder};
+}
+
 Finding check_server(const OutboxView& outbox, const std::string& destination) {
     if (outbox.state == "waiting")
         return {Health::broken, "share", destination + ": " + outbox.reason,
@@ -118,6 +138,8 @@ check_share(const Patient& patient, std::int64_t utc_ns, const MountPlaces& moun
     found.push_back(is_share_address(publish.destination)
                         ? check_server(outbox, publish.destination)
                         : check_folder(publish.destination, patient.service, mounts));
+    if (!publish.group.empty() && found.back().health != Health::broken)
+        found.push_back(check_readers(publish.destination, publish.group));
     if (!outbox.publisher_runs)
         found.push_back({Health::note, "share", "axiscal-publish does not run",
                          "sudo systemctl enable --now axiscal-publish"});
