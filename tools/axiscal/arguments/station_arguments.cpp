@@ -10,11 +10,11 @@ constexpr const char* new_station_footer = R"words(Example, the CNC at 192.168.1
     --shape sequence-block --transport tcp --client 192.168.10.20 \
     --instrument /dev/ttyUSB0=modbus --set material.profile=tm-th8
 
-On a terminal it asks for what is missing;
-else it tells all that is missing at once and writes nothing.What could harm the machine or
-    the result is never guessed.Instruments are those that are plugged in;
-a device that could be several is named with --instrument, an instrument on a network, too:
---instrument tcp:192.168.0.20:502=modbus. Everything else has a default, which station.example.toml tells.
+On a terminal it asks for what is missing; else it tells all that is missing at once and writes nothing.
+What could harm the machine or the result is never guessed. Instruments are those that are plugged in; a
+device that could be several is named with --instrument, an instrument on a network, too:
+--instrument tcp:192.168.0.20:502=modbus. Everything else has a default: station.example.toml tells which.
+A file that is there is kept; --force puts it aside.
 See also: axiscal devices, check-config, doctor.)words";
 
 } // namespace
