@@ -8,9 +8,10 @@
 namespace axiscal {
 namespace {
 
-std::string in_words(double number) {
-    if (number == std::floor(number)) return std::to_string(static_cast<long long>(number));
-    return std::to_string(number);
+std::string number_text(double number) {
+    constexpr double exact = 1e15; // a float in the registers may be beyond any whole number
+    const bool whole = std::abs(number) < exact && number == std::floor(number);
+    return whole ? std::to_string(static_cast<long long>(number)) : std::to_string(number);
 }
 
 /// "coil 0x010A": as the profile counts, without the station's address_offset.
@@ -44,7 +45,7 @@ std::string StatedSettings::complaint(const ModbusSetting& setting, const std::s
     std::string spoilt;
     for (const std::size_t channel : setting.channels)
         spoilt += (spoilt.empty() ? "" : ", ") + channels_.at(channel);
-    return in_words(setting) + " is " + is + " and must be " + axiscal::in_words(setting.must_be) +
+    return in_words(setting) + " is " + is + " and must be " + number_text(setting.must_be) +
            ": no value of " + spoilt +
            " meanwhile. Set it there; if the instrument was calibrated with it, state it as "
            "must_be in a copy of the profile";
@@ -63,8 +64,7 @@ std::vector<std::string> StatedSettings::take(const RegisterBlock& block,
         }
         const bool known = seen.state == State::wrong && seen.number == number;
         seen = {State::wrong, number};
-        if (!known)
-            told.push_back(complaint(setting, number ? axiscal::in_words(*number) : "no number"));
+        if (!known) told.push_back(complaint(setting, number ? number_text(*number) : "no number"));
     }
     return told;
 }

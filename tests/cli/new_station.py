@@ -123,6 +123,14 @@ class NewStation(Plugged):
         links = [one.get("link") for one in tomllib.loads(self.written())["instrument"]]
         self.assertIn("tcp:192.168.0.20:502", links)
 
+    def test_what_is_set_is_a_number_only_where_it_is_one(self):
+        self.new(0, *self.modbus(), "--set", "material.unit_id=3", "--set", "material.serial=4411", "--set", "material.due_on=2027-01-20",
+                 "--set", "laser.serial=7391230")
+        by_name = {one["name"]: one for one in tomllib.loads(self.written())["instrument"]}
+        self.assertEqual(by_name["material"]["unit_id"], 3)
+        self.assertEqual((by_name["material"]["serial"], by_name["material"]["due_on"]), ("4411", "2027-01-20"))
+        self.assertEqual(by_name["laser"]["serial"], "7391230")
+
     def test_two_sensors_that_could_be_one_part_are_asked_for(self):
         told = self.new(3, *self.modbus(), "--instrument", "tcp:192.168.0.20:502=modbus", "--set", "material-2.profile=comet-t7510").stderr
         self.assertIn('axis.air.temperature is not named, and several channels could be it: "air/air temperature", "material-2/air temperature"', told)

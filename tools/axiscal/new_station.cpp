@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 
 namespace axiscal {
@@ -68,16 +70,20 @@ std::string quoted_text(const std::string& text) {
     return quoted + '"';
 }
 
+/// A number, true or false. An address or a date of digits and dots is a text.
 bool is_bare(const std::string& value) {
-    if (value == "true" || value == "false") return true;
-    std::size_t digits = 0;
-    for (const char c : value) {
-        if (c >= '0' && c <= '9')
-            ++digits;
-        else if (c != '-' && c != '+' && c != '.')
-            return false;
-    }
-    return digits > 0;
+    double number = 0;
+    const char* const end = value.data() + value.size();
+    const auto [rest, error] = std::from_chars(value.data(), end, number);
+    const bool is_number = error == std::errc{} && rest == end && std::isfinite(number);
+    return is_number || value == "true" || value == "false";
+}
+
+/// Numbers on a label or a certificate are texts.
+std::string instrument_value(const std::string& key, const std::string& value) {
+    constexpr std::array texts{"serial", "certificate_number", "name", "driver", "link"};
+    const bool is_text = std::ranges::find(texts, key) != texts.end();
+    return is_bare(value) && !is_text ? value : quoted_text(value);
 }
 
 std::string toml_value(const StationQuestion& question, const std::string& answer) {
@@ -136,7 +142,7 @@ std::string block_with(const std::string& block,
                        const std::vector<std::pair<std::string, std::string>>& settings) {
     std::string text = block;
     for (const auto& [key, value] : settings) {
-        const std::string line = key + " = " + (is_bare(value) ? value : quoted_text(value)) + "\n";
+        const std::string line = key + " = " + instrument_value(key, value) + "\n";
         const auto at = text.find("\n" + key + " = ");
         if (at == std::string::npos)
             text += line;

@@ -38,7 +38,7 @@ std::string station_text(const StationAnswers& answers);
 std::string complaint_about(const StationQuestion& question, const StationAnswers& answers);
 
 /// One [[instrument]] with keys exchanged or added. A value is a TOML number, true or false as it
-/// stands, else a text. @param settings  key and value
+/// stands, else a text; of a label's number (serial) always a text. @param settings  key and value
 std::string block_with(const std::string& block,
                        const std::vector<std::pair<std::string, std::string>>& settings);
 

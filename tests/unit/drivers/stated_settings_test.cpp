@@ -119,6 +119,17 @@ TEST(StatedSettings, AreToldOnceForEachNumberWithPlaceAndWayOut) {
     EXPECT_EQ(settings.take(block, Words{6, 0}).size(), 1u) << "opened anew";
 }
 
+/// A float of 1e30 (7149 F2CA): no whole number holds it.
+TEST(StatedSettings, AreToldWhateverTheRegistersHold) {
+    ModbusProfile profile = shipped("xy-md02");
+    profile.settings.resize(1);
+    profile.settings[0].field = {3, 0, 2, WordType::f32, false};
+    StatedSettings settings{profile};
+    const auto told = settings.take(settings.blocks().at(0), Words{0x7149, 0xF2CA});
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find(" is 1000000"), std::string::npos) << told[0];
+}
+
 TEST(StatedSettings, ThatAreNeverShownAreTakenAsStatedAndThatAreHiddenLaterAreNot) {
     StatedSettings settings{shipped("xy-md02")};
     const RegisterBlock& block = settings.blocks().at(0);
