@@ -5,6 +5,7 @@
 # Exit 77 (skipped) only where root or mmdebstrap is missing and AXISCAL_MAY_SKIP names debian.
 set -euo pipefail
 packages=$1 source=$2
+. /etc/os-release # a package is for the Debian that it was made on
 cannot() {
     case ",${AXISCAL_MAY_SKIP:-}," in *,debian,*) echo "skipped: $1"; exit 77 ;; esac
     echo "$1, or AXISCAL_MAY_SKIP=debian"
@@ -25,7 +26,7 @@ chmod -R a+rX "$work"
 
 "${as_root[@]}" mmdebstrap --quiet --variant=minbase --format=null --include=ca-certificates \
     --customize-hook="mkdir \$1/packages && cp $work/packages/* \$1/packages/" \
-    --customize-hook='chroot "$1" sh /packages/in_the_root.sh' bookworm >"$work/log" 2>&1 \
+    --customize-hook='chroot "$1" sh /packages/in_the_root.sh' "$VERSION_CODENAME" >"$work/log" 2>&1 \
     || { tail -40 "$work/log"; echo "FAILED: see above"; exit 1; }
 grep '^ok ' "$work/log"
 [ "$(grep -c '^ok ' "$work/log")" = 6 ] || { tail -40 "$work/log"; echo "FAILED: not every step was reached"; exit 1; }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <string>
+#include <string_view>
 #include <thread>
 
 namespace axiscal::testing {
@@ -34,8 +36,8 @@ std::vector<std::byte> numbered_packet() {
 
 } // namespace
 
-SeenByDevice& seen_at(std::string port) {
-    return all_seen.at(static_cast<std::size_t>(std::stoi(port.substr(2)) - 1));
+SeenByDevice& seen_at(std::string_view port) {
+    return all_seen.at(static_cast<std::size_t>(port.back() - '1'));
 }
 
 } // namespace axiscal::testing

@@ -4,7 +4,7 @@
 // what the links promise about their threads is what keeps it whole.
 
 #include <set>
-#include <string>
+#include <string_view>
 #include <thread>
 
 namespace axiscal::testing {
@@ -20,7 +20,7 @@ struct SeenByDevice {
 };
 
 /// By USB port: "1-1" the U6, "1-2" and "1-3" the sticks.
-SeenByDevice& seen_at(std::string port);
+SeenByDevice& seen_at(std::string_view port);
 
 /// The U6 gives so many packets, numbered in two bytes, each time a stream begins, then nothing.
 inline constexpr int packets_of_a_stream = 300;
