@@ -90,6 +90,12 @@ class NewStation(Plugged):
             self.assertIn(words, told, changed)
             self.assertFalse(os.path.exists(self.out))
 
+    def test_a_device_is_named_by_its_link_too(self):
+        link = os.path.join(self.dev, "serial", "by-id", "usb-FTDI_A600AXIS-if00-port0")
+        told = self.new(0, "--instrument", link + "=modbus", "--set", "material.profile=tm-th8")
+        self.assertNotIn("Left out", told.stdout)
+        self.assertEqual([one["driver"] for one in tomllib.loads(self.written())["instrument"]].count("modbus"), 1)
+
     def test_a_file_that_is_there_is_kept(self):
         with open(self.out, "w", encoding="utf-8") as file:
             file.write("# mine\n")

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -73,9 +74,11 @@ bool complete(StationAnswers& answers) {
     return missing.empty() && wrong.empty();
 }
 
-/// "PLACE=DRIVER" of the command line, by place, node or link.
+/// "PLACE=DRIVER" of the command line, by place, node or link; the link as a file's name, too.
 std::string driver_stated_for(const PluggedDevice& device, std::vector<std::string>& stated) {
-    for (const std::string& name : {device.place, device.node, device.link}) {
+    const std::string file =
+        device.link.starts_with("serial:") ? device.link.substr(std::strlen("serial:")) : "";
+    for (const std::string& name : {device.place, device.node, device.link, file}) {
         const auto found = std::ranges::find_if(stated, [&](const std::string& one) {
             return !name.empty() && one.starts_with(name + "=");
         });
