@@ -23,7 +23,7 @@ RIG = HERE.parent.parent / "build" / "rig"
 PROGRAMS = ("qemu-system-x86_64", "busybox", "cpio", "modprobe", "depmod", "apt-get", "dpkg")
 SAYS_GOODBYE = 0xF4  # port of isa-debug-exit; a guest that writes n ends qemu with 2 n + 1
 COUNTED = ("-accel", "tcg", "-icount", "shift=1", "-cpu", "qemu64")
-FIRST_MODULES = ("virtio_pci", "9p", "9pnet_virtio", "overlay")
+FIRST_MODULES = ("virtio_pci", "9p", "9pnet_virtio", "overlay", "virtio_blk", "ext4")
 
 
 class CanNotRun(Exception):
@@ -49,8 +49,8 @@ def require_programs(*more):
 
 
 def unpack_kernel():
-    """The package is unpacked, not installed. Its image is an xz archive behind a stub; without the
-    stub it starts 2.5 s earlier (PVH entry)."""
+    """The package is unpacked, not installed. Debian 12's image is an xz archive behind a stub; without the
+    stub it starts 2.5 s earlier (PVH entry). That of Debian 13, packed otherwise, is started as it is."""
     depends = run("apt-cache", "depends", "linux-image-amd64").splitlines()
     package = next(line.split()[1] for line in depends if line.strip().startswith("Depends: linux-image-"))
     work = RIG / "unpacked"
@@ -60,11 +60,13 @@ def unpack_kernel():
     archive = next(RIG.glob(f"{package}_*.deb"))
     run("dpkg", "-x", archive, work)
     archive.unlink()
+    if not (work / "lib").exists():  # Debian 13 has them below /usr alone
+        (work / "lib").symlink_to("usr/lib")
     version = next((work / "lib/modules").iterdir()).name
     run("depmod", "-b", work, version)
     image = (work / f"boot/vmlinuz-{version}").read_bytes()
-    packed = image[image.index(b"\xfd7zXZ\0") :]
-    (RIG / "vmlinux").write_bytes(lzma.LZMADecompressor().decompress(packed))
+    at = image.find(b"\xfd7zXZ\0")
+    (RIG / "kernel").write_bytes(lzma.LZMADecompressor().decompress(image[at:]) if at >= 0 else image)
     return version
 
 
@@ -80,9 +82,10 @@ def build_initrd(version):
     for module in FIRST_MODULES:
         for line in run("modprobe", "-S", version, "-d", RIG / "unpacked", "--show-depends", module).splitlines():
             file = Path(line.removeprefix("insmod ").strip()) if line.startswith("insmod ") else None
-            if file and file.name not in order:
-                order.append(file.name)
-                shutil.copy(file, tree / "modules")
+            if file and file.name.removesuffix(".xz") not in order:
+                order.append(file.name.removesuffix(".xz"))
+                packed = file.read_bytes()  # Debian 13 packs each module
+                (tree / "modules" / order[-1]).write_bytes(lzma.decompress(packed) if file.suffix == ".xz" else packed)
     (tree / "modules/order").write_text("\n".join(order) + "\n")
     run("sh", "-c", 'find . | cpio -o -H newc --quiet | gzip -1 >"$0"', RIG / "initrd.gz", cwd=tree)
 
@@ -94,7 +97,7 @@ def build():
     with open(RIG / "lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         known = RIG / "version"
-        if not known.exists():
+        if not known.exists() or not (RIG / "kernel").exists():
             known.write_text(unpack_kernel())
         initrd = RIG / "initrd.gz"
         if not initrd.exists() or initrd.stat().st_mtime < (HERE / "initrd-init").stat().st_mtime:
@@ -140,7 +143,7 @@ def boot(share, command, limit_s, append="", devices=(), memory_mb=1536, acceler
     )
     words = ["qemu-system-x86_64", *accelerator, "-M", "q35",
              "-m", str(memory_mb), "-nodefaults", "-no-reboot", "-display", "none",
-             "-serial", "chardev:console", "-chardev", f"file,id=console,path={str(share).replace(',', ',,')}/console.log", "-kernel", str(RIG / "vmlinux"), "-initrd", str(RIG / "initrd.gz"),
+             "-serial", "chardev:console", "-chardev", f"file,id=console,path={str(share).replace(',', ',,')}/console.log", "-kernel", str(RIG / "kernel"), "-initrd", str(RIG / "initrd.gz"),
              "-append", f"console=ttyS0 quiet panic=-1 mitigations=off no_timer_check {append}".strip(),
              *folder_words("hostroot", "/", True), *folder_words("share", share, False),
              *folder_words("modules", RIG / "unpacked/lib/modules", True),

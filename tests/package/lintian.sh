@@ -13,7 +13,7 @@ for file in "$source"/tools/package.d/debian/*.lintian-overrides; do
         || fail "$file overrides without a reason in the line above"
 done
 
-# debhelper enables and starts no service that it does not see: it looks into /lib/systemd/system alone.
+# debhelper enables and starts no service that it does not see: that of Debian 12 looks into /lib/systemd/system alone.
 for package in axiscal axiscal-publish; do
     unit=axiscald
     [ "$package" = axiscal ] || unit=$package

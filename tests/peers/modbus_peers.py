@@ -146,15 +146,15 @@ def pymodbus_sequence_block(cnc, host):
     for sequence in range(1, 51):
         claim = [2, sequence, sequence - 1, 1, 0, 1000, 0, 0, 1200]
         assert not cnc.write_registers(1, claim, slave=1).isError()
-        equal(cnc.read_holding_registers(18, 2, slave=1).registers, [sequence, 0], "answer")
-    equal(cnc.read_input_registers(18, 1, slave=1).registers, [50], "FC4")
+        equal(cnc.read_holding_registers(18, count=2, slave=1).registers, [sequence, 0], "answer")
+    equal(cnc.read_input_registers(18, count=1, slave=1).registers, [50], "FC4")
     assert not cnc.write_register(2, 51, slave=1).isError()
     both = cnc.readwrite_registers(read_address=18, read_count=2, write_address=2,
                                    write_registers=[52], unit=1)  # pymodbus 3.0 calls it unit here
     equal(both.registers, [52, 0], "FC23 writes, then reads")
     equal(cnc.write_register(18, 9, slave=1).exception_code, 2, "ACK_SEQ is not the CNC's")
-    equal(cnc.read_coils(0, 1, slave=1).exception_code, 1, "no coils here")
-    equal(cnc.read_holding_registers(30, 9, slave=1).exception_code, 2, "beyond the map")
+    equal(cnc.read_coils(0, count=1, slave=1).exception_code, 1, "no coils here")
+    equal(cnc.read_holding_registers(30, count=9, slave=1).exception_code, 2, "beyond the map")
     until(lambda: host.requests() == list(range(1, 53)), "52 requests in order")
     cnc.close()
 
@@ -167,12 +167,12 @@ def pymodbus_coil(program):
         cnc.write_register(0, 0, slave=1)
         for sequence in range(1, 21):
             cnc.write_coil(0, True, slave=1)  # the coil overtakes its index
-            equal(cnc.read_discrete_inputs(0, 1, slave=1).bits[0], False, "not yet")
+            equal(cnc.read_discrete_inputs(0, count=1, slave=1).bits[0], False, "not yet")
             cnc.write_register(0, sequence, slave=1)
-            equal(cnc.read_discrete_inputs(0, 1, slave=1).bits[0], True, "acknowledge")
-            equal(cnc.read_input_registers(0, 1, slave=1).registers, [sequence], "done")
+            equal(cnc.read_discrete_inputs(0, count=1, slave=1).bits[0], True, "acknowledge")
+            equal(cnc.read_input_registers(0, count=1, slave=1).registers, [sequence], "done")
             cnc.write_coils(0, [False], slave=1)
-            equal(cnc.read_discrete_inputs(0, 1, slave=1).bits[0], False, "released")
+            equal(cnc.read_discrete_inputs(0, count=1, slave=1).bits[0], False, "released")
         cnc.close()
 
 
@@ -205,7 +205,7 @@ def pymodbus_lane(program):
     with SerialCable() as cable, Host(program, "sequence-block", "rtu", cable.ends[0]) as host:
         cnc = ModbusSerialClient(cable.ends[1], baudrate=115200, timeout=1)
         assert cnc.connect()
-        until(lambda: not cnc.read_holding_registers(0, 1, slave=1).isError(),
+        until(lambda: not cnc.read_holding_registers(0, count=1, slave=1).isError(),
               "the first answer: a port forgets what came before silence")
         pymodbus_sequence_block(cnc, host)
     pymodbus_coil(program)

@@ -27,7 +27,8 @@ for package in axiscal axiscal-publish axiscal-doc; do
     dpkg-deb -x "$packages/$package"_*.deb "$root" || fail "no package $package"
 done
 
-units=$(pkg-config --variable=systemdsystemunitdir systemd)
+units=/usr/lib/systemd/system
+[ -d "$root$units" ] || units=/lib/systemd/system # as the debhelper of Debian 12 lays them
 for file in "$units/axiscald.service" "$units/axiscal-publish.service" /usr/lib/sysusers.d/axiscal.conf \
     /usr/lib/tmpfiles.d/axiscal.conf /usr/lib/modules-load.d/axiscal.conf /usr/share/polkit-1/rules.d/axiscal.rules \
     /usr/share/axiscal/station.example.toml; do

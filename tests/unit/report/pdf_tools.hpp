@@ -40,6 +40,15 @@ inline int pages_of(const std::string& pdf) {
     return at == std::string::npos ? 0 : std::stoi(info.substr(at + 6));
 }
 
+/// The day on which the document says it was made, "20260101010000Z"; empty where it says none.
+inline std::string made_on(const std::string& pdf) {
+    const std::string info = output_of("pdfinfo -rawdates '" + pdf + "'");
+    const auto at = info.find("CreationDate:");
+    if (at == std::string::npos) return "";
+    const auto begin = info.find_first_of("0123456789", at);
+    return info.substr(begin, info.find('\n', begin) - begin);
+}
+
 /// A page as grey levels, 1 pixel a point.
 struct PageImage {
     int width = 0, height = 0;
