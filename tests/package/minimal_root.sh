@@ -24,7 +24,7 @@ cp "$packages"/*.deb "$source/tests/reference/fifty_points.axiscal" "$work/packa
 cp "$source/tests/package/in_the_root.sh" "$work/packages/"
 chmod -R a+rX "$work"
 
-"${as_root[@]}" mmdebstrap --quiet --variant=minbase --format=null --include=ca-certificates \
+"${as_root[@]}" mmdebstrap --quiet --aptopt='Acquire::Retries "5"' --variant=minbase --format=null --include=ca-certificates \
     --customize-hook="mkdir \$1/packages && cp $work/packages/* \$1/packages/" \
     --customize-hook='chroot "$1" sh /packages/in_the_root.sh' "$VERSION_CODENAME" >"$work/log" 2>&1 \
     || { tail -40 "$work/log"; echo "FAILED: see above"; exit 1; }

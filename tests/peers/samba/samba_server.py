@@ -53,6 +53,7 @@ SMB_CONF = """[global]
   pid directory = {home}/run
   log file = {home}/smbd.log
   log level = 2
+  max log size = 0
 {more}
 {shares}"""
 SHARE = """[{name}]
