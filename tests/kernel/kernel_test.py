@@ -21,16 +21,11 @@ from pathlib import Path
 
 import machine
 
+sys.path.append(str(machine.HERE.parent / "support"))
+from check_log import missing, never_run, outcome
+
 SOURCE = machine.HERE.parent.parent
 LIMIT_S = int(os.environ.get("AXISCAL_LIMIT_S", "200"))
-SKIPPED = 77
-
-
-def missing(why):
-    print(why)
-    if "kernel" in os.environ.get("AXISCAL_MAY_SKIP", "").split(","):
-        sys.exit(SKIPPED)
-    sys.exit("or AXISCAL_MAY_SKIP=kernel")
 
 
 def tell(share, status):
@@ -65,7 +60,7 @@ def run_boot(name, share, programs, command=None):
                 inside += f"export AXISCAL_CUTS={300 if os.environ.get('AXISCAL_ALL') else 10}; "
             status = machine.boot(share, inside + command, LIMIT_S, append, devices, visible=(SOURCE, programs))
     except machine.CanNotRun as why:
-        missing(str(why))
+        missing(str(why), "kernel")
     tell(share, status)
     print(f"all of it stays in {share}")
     return status
@@ -73,13 +68,6 @@ def run_boot(name, share, programs, command=None):
 
 def sentences_of(name):
     return re.findall(r'^@check\("(.*)"\)$', (machine.HERE / f"boot_{name}.py").read_text(), re.MULTILINE)
-
-
-def never_run(sentences, said):
-    """The checks of which the guest said neither "ok" nor "FAILED"."""
-    lines = said.splitlines()
-    return [sentence for sentence in sentences
-            if f"ok {sentence}" not in lines and not any(line.startswith(f"FAILED {sentence}:") for line in lines)]
 
 
 def whole_boot(name, share, programs):
@@ -105,23 +93,6 @@ def self_test():
     return 0
 
 
-def outcome(share, sentence):
-    """The line of the check in the last boot, and what follows it up to the next check."""
-    said = share / "output.txt"
-    if not said.exists():
-        if "kernel" in os.environ.get("AXISCAL_MAY_SKIP", "").split(","):
-            print(f"{share}: this machine has not booted")
-            sys.exit(SKIPPED)
-        sys.exit(f"{share}: this machine has not booted yet")
-    lines = said.read_text(errors="replace").splitlines()
-    at = next((i for i, line in enumerate(lines) if line in (f"ok {sentence}",) or line.startswith(f"FAILED {sentence}:")), None)
-    if at is None:
-        print("\n".join(lines[-30:]))
-        sys.exit(f"the guest never came to {sentence}")
-    print("\n".join([lines[at], *(line for line in lines[at + 1 : at + 80] if line.startswith("  "))]))
-    return 0 if lines[at].startswith("ok ") else 1
-
-
 def main():
     if sys.argv[1:] == ["--self-test"]:
         return self_test()
@@ -130,7 +101,7 @@ def main():
     if name == "shell":
         return run_boot(name, share, programs, rest[0])
     if rest:
-        return outcome(share, rest[0])
+        return outcome(share, rest[0], "kernel")
     return whole_boot(name, share, programs)
 
 
