@@ -184,7 +184,7 @@ def pymodbus_as_cnc(program):
     from pymodbus.datastore import (ModbusSequentialDataBlock, ModbusServerContext,
                                     ModbusSlaveContext)
     from pymodbus.server import StartTcpServer
-    words = ModbusSlaveContext(hr=ModbusSequentialDataBlock(0, [0] * 64), zero_mode=True)
+    words = ModbusSlaveContext(hr=ModbusSequentialDataBlock(1, [0] * 64))
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
