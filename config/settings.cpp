@@ -18,6 +18,12 @@ std::string joined(const std::vector<std::string>& words) {
         list += (list.empty() ? "" : ", ") + in_quotes(word);
     return list;
 }
+
+/// As the file itself writes it above the table.
+std::string header_of(const std::string& path) {
+    const std::string plain = without_indices(path);
+    return path.ends_with(']') ? "its [[" + plain + "]]" : "[" + plain + "]";
+}
 } // namespace
 
 bool is_calendar_date(std::string_view text) {
@@ -46,7 +52,7 @@ void Settings::Impl::refuse(std::string_view key, std::string reason) {
 }
 
 void Settings::Impl::refuse_missing(std::string_view key, const std::string& example) {
-    const std::string place = path.empty() ? "the file" : "[" + path + "]";
+    const std::string place = path.empty() ? "the file" : header_of(path);
     refuse(key, "is missing: add it to " + place + ", for example " + assignment(key, example));
 }
 

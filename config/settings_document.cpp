@@ -11,18 +11,6 @@ namespace {
 
 constexpr std::size_t largest_file = 4u << 20; ///< bytes; a station file has some ten thousand
 
-/// "instrument[1].channel[0]" without the indices.
-std::string without_indices(std::string_view path) {
-    std::string plain;
-    bool inside = false;
-    for (const char letter : path) {
-        if (letter == '[') inside = true;
-        if (!inside) plain += letter;
-        if (letter == ']') inside = false;
-    }
-    return plain;
-}
-
 /// At most one byte more than `largest_file`. Plain C calls: a stream throws on a folder.
 Result<std::string> read_file(const std::string& path) {
     const auto unreadable = [&] {
@@ -61,6 +49,17 @@ std::string joined_path(std::string_view path, std::string_view key) {
     if (path.empty()) return std::string{key};
     if (key.empty()) return std::string{path};
     return std::string{path} + "." + std::string{key};
+}
+
+std::string without_indices(std::string_view path) {
+    std::string plain;
+    bool inside = false;
+    for (const char letter : path) {
+        if (letter == '[') inside = true;
+        if (!inside) plain += letter;
+        if (letter == ']') inside = false;
+    }
+    return plain;
 }
 
 void SettingsDocument::State::refuse(std::string key, int line, std::string reason) {

@@ -31,6 +31,9 @@ struct SettingsDocument::State {
 /// "axis.material": a key below a path; the root has the empty path.
 std::string joined_path(std::string_view path, std::string_view key);
 
+/// "instrument[1].channel[0]" without the indices.
+std::string without_indices(std::string_view path);
+
 inline std::string in_quotes(std::string_view text) {
     return "\"" + std::string{text} + "\"";
 }

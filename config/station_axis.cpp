@@ -16,6 +16,7 @@ std::string unknown_instrument(const StationConfig& config, const std::string& n
     std::vector<std::string> names;
     std::string list;
     for (const InstrumentConfig& instrument : config.instruments) {
+        if (instrument.name.empty()) continue; // refused already
         names.push_back(instrument.name);
         list += (list.empty() ? "" : ", ") + instrument.name;
     }

@@ -1,3 +1,4 @@
+#include "config/serial_port_name.hpp"
 #include "config/station_readers.hpp"
 
 #include <initializer_list>
@@ -105,6 +106,12 @@ void read_tcp(Settings& trigger, TriggerConfig& config) {
     if (server || client) read_port(trigger, config);
 }
 
+std::string read_serial_port(Settings& trigger) {
+    const std::string path = trigger.text("serial_port");
+    if (is_windows_port(path)) trigger.refuse("serial_port", no_serial_port(path, ""));
+    return trigger.refused("serial_port") ? path : read_absolute_path(trigger, "serial_port");
+}
+
 void read_line_form(Settings& trigger, TriggerConfig& config) {
     config.baud = static_cast<int>(trigger.integer("baud", 1200, 1'000'000, config.baud));
     const std::string parity = trigger.choice("parity", {"none", "even", "odd"}, "none");
@@ -117,7 +124,7 @@ void read_serial(Settings& trigger, TriggerConfig& config) {
     refuse_unused(trigger, rtu, {"serial_port", "baud", "parity", "stop_bits"},
                   "transport \"rtu\"");
     if (!rtu) return;
-    config.serial_path = read_absolute_path(trigger, "serial_port");
+    config.serial_path = read_serial_port(trigger);
     read_line_form(trigger, config);
 }
 
@@ -126,7 +133,7 @@ void judge_wire_keys(Settings& trigger) {
     TriggerConfig unused;
     if (trigger.has("host")) unused.host = trigger.text("host");
     if (trigger.has("port")) read_port(trigger, unused);
-    if (trigger.has("serial_port")) unused.serial_path = read_absolute_path(trigger, "serial_port");
+    if (trigger.has("serial_port")) unused.serial_path = read_serial_port(trigger);
     read_clients(trigger, unused);
     read_polling(trigger, unused);
     read_line_form(trigger, unused);

@@ -34,8 +34,9 @@ tl::unexpected<Error> refuse_statement(const std::string& key) {
     std::string list;
     for (const std::string& word : words)
         list += (list.empty() ? "" : ", ") + word;
+    const std::string near = did_you_mean(key, words);
     return refuse(Fault::bad_request, "statements." + key,
-                  "is not a statement" + did_you_mean(key, words) + " There are " + list);
+                  "is not a statement" + (near.empty() ? "." : near) + " There are: " + list + ".");
 }
 
 Result<void> read_statements(const Json& given, ArmRequest& request) {

@@ -74,6 +74,8 @@ private:
         else if (order_.datum_by_cnc)
             line("(first the axis goes to its datum and waits for 'axiscal arm --datum-by-cnc', "
                  "then request 1 ties the reading there)");
+        else if (!handshake())
+            line("(" + std::string{waits_for_nobody} + ")");
         else
             line("(first the axis goes to its datum and waits there: run 'axiscal arm' then)");
         line("G21 G90 G94 G17 G61 G40 G49 G80");

@@ -7,6 +7,17 @@
 #include <cstdio>
 
 namespace axiscal {
+namespace {
+
+/// Points taken again find the station armed.
+std::string head_of(const ProgramOrder& order) {
+    const std::string arming = order.retakes ? "" : "; " + std::string{waits_for_nobody} + "\n";
+    return "; axiscal " + program_id(order.plan) +
+           "\n; home the machine (G28) and take the heaters off before this program\n" + arming +
+           "G21\nG90\nM84 S0 ; motors stay on while the axis dwells\n";
+}
+
+} // namespace
 
 Result<std::string> write_marlin(const ProgramOrder& order) {
     if (auto fits = check_prepare(order); !fits) return tl::unexpected<Error>(fits.error());
@@ -25,10 +36,8 @@ Result<std::string> write_marlin(const ProgramOrder& order) {
     char feed[32], pause[32];
     std::snprintf(feed, sizeof feed, " F%.1f\n", order.feed.in(mm_per_minute));
     std::snprintf(pause, sizeof pause, "G4 P%ld\n", std::lround(seconds_of(order.dwell) * 1000));
-    std::string text = "; axiscal " + program_id(order.plan) +
-                       "\n; home the machine (G28) and take the heaters off before this program\n"
-                       "G21\nG90\nM84 S0 ; motors stay on while the axis dwells\n";
-    bool at_datum = true; // the first move; the axis halts there while the technician arms
+    std::string text = head_of(order);
+    bool at_datum = true; // the first move
     for (const ProgramMove& move : moves_of(order.plan)) {
         if (move.point)
             text += "; P" + std::to_string(move.point->target_index + 1) +

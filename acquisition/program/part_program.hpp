@@ -69,6 +69,10 @@ std::string program_id(const RunPlan& plan);
 /// Coordinates are written with four decimals (0.1 um) and always a decimal point.
 std::string coordinate_word(const std::string& axis, double coordinate_mm);
 
+/// Says the header of a program of shape "dwell", which no station can hold at the datum.
+constexpr std::string_view waits_for_nobody =
+    "this program waits for nobody: drive the axis to its datum and run 'axiscal arm' before it";
+
 Result<std::string> write_linuxcnc(const ProgramOrder& order);
 Result<std::string> write_marlin(const ProgramOrder& order);
 

@@ -88,14 +88,40 @@ std::string scale_cause(double ratio) {
            " (optics, wavelength, unit or gear of the axis)";
 }
 
+/// What one target alone makes likely: beyond it the axis stood elsewhere, known ratios apart.
+bool is_likely_scale(double ratio) {
+    return std::abs(ratio - 1) < 0.5;
+}
+
 std::string shift_cause(Length shift) {
     return "the datum is shifted by " + in_mm(shift);
 }
 
-/// The readings cannot tell it from a shift of the program, but the way out is the same.
-constexpr std::string_view armed_off_the_datum =
-    " (if the axis stood that far from it when the run was armed: abort, go to the datum and arm "
-    "again)";
+/// The readings cannot tell a run armed elsewhere from a shift of the program.
+std::string off_the_datum(Length shift) {
+    return "the axis stood " + in_mm(abs(shift)) +
+           " from its datum when the run was armed (abort, go to the datum and arm again), or " +
+           shift_cause(shift);
+}
+
+/// With one target a shift cannot be told from a scale: the likelier one comes first.
+void add_causes_of_one(std::vector<std::string>& causes, Length shift, double ratio, Fault fault) {
+    const bool unnamed = causes.empty();
+    // Nothing moved is no shift: a shift would have to equal the move by chance.
+    if (fault != Fault::wrong_target) causes.push_back(off_the_datum(shift));
+    if (unnamed && is_likely_scale(ratio)) causes.push_back(scale_cause(ratio));
+}
+
+void add_causes_of_two(std::vector<std::string>& causes, Length datum, Claims claims) {
+    const auto& last = claims.back();
+    const auto shift = last.measured - last.target;
+    const double ratio = (last.measured - datum) / (last.target - datum);
+    if (shift_fits(claims))
+        causes.push_back(off_the_datum(shift));
+    else if (causes.empty() && ratio_fits(datum, claims, ratio))
+        causes.push_back(scale_cause(ratio));
+    if (shift_is_new(claims)) causes.push_back(shift_cause(shift) + " since the target before");
+}
 
 } // namespace
 
@@ -103,21 +129,12 @@ Error diagnose_first_targets(Length datum, std::span<const ClaimedTarget> claims
     if (claims.empty()) return {Fault::outside_window, "Nothing was measured yet.", {}, {}};
     const auto& last = claims.back();
     const auto claimed = last.target - datum, seen = last.measured - datum;
-    const auto shift = last.measured - last.target;
     auto fault = Fault::outside_window;
     auto causes = named_causes(datum, claims, fault);
-    if (claims.size() > 1) {
-        if (shift_fits(claims))
-            causes.push_back(shift_cause(shift) + std::string{armed_off_the_datum});
-        else if (causes.empty() && ratio_fits(datum, claims, seen / claimed))
-            causes.push_back(scale_cause(seen / claimed));
-        if (shift_is_new(claims)) causes.push_back(shift_cause(shift) + " since the target before");
-    } else {
-        if (causes.empty()) causes.push_back(scale_cause(seen / claimed));
-        // Nothing moved is no shift: a shift would have to equal the move by chance.
-        if (fault != Fault::wrong_target)
-            causes.push_back(shift_cause(shift) + std::string{armed_off_the_datum});
-    }
+    if (claims.size() > 1)
+        add_causes_of_two(causes, datum, claims);
+    else
+        add_causes_of_one(causes, last.measured - last.target, seen / claimed, fault);
     if (causes.empty()) causes.emplace_back("the axis stands at another place than the program");
     return {fault,
             "From the datum at " + in_mm(datum) + " the program claims a move of " +

@@ -2,6 +2,7 @@
 // leave them out. The trigger contract does not change: a retake's points stand behind the plan's
 // own, and their requests count on from the last one.
 #include "acquisition/run/run_machine.hpp"
+#include "analysis/quantity/counted.hpp"
 
 #include <algorithm>
 #include <string>
@@ -70,10 +71,11 @@ Result<std::vector<int>> RunMachine::chosen(const PointSelection& selection,
         if (skipped || last_reading_[place(point.step)] >= 0) steps.push_back(point.step);
     }
     if (!planned)
-        return tl::unexpected<Error>(refused(
-            "The plan has no such point; it has " + std::to_string(setup_.plan.targets.size()) +
-            " targets and " + std::to_string(setup_.plan.approaches) + " cycles" +
-            (setup_.plan.bidirectional ? "." : ", in the positive direction only.")));
+        return tl::unexpected<Error>(
+            refused("The plan has no such point; it has " +
+                    counted(static_cast<long>(setup_.plan.targets.size()), "target") + " and " +
+                    counted(setup_.plan.approaches, "cycle") +
+                    (setup_.plan.bidirectional ? "." : ", in the positive direction only.")));
     if (steps.empty())
         return tl::unexpected<Error>(
             refused("Nothing of that is measured yet: it comes by itself in the plan's order."));

@@ -52,15 +52,19 @@ std::string words_for_scale_mismatch(double mismatch, const WordsContext& contex
 
 namespace {
 
-/// In the unit that leaves a number people read: "21.84 ns", never "2.184e-05 ms".
 std::string time_words(double seconds) {
-    constexpr double a_tenth_of_ms = 1e-4, a_tenth_of_us = 1e-7;
-    const double size = std::fabs(seconds);
-    if (size >= a_tenth_of_ms || size == 0) return digits(size * 1e3) + " ms";
-    return size >= a_tenth_of_us ? digits(size * 1e6) + " us" : digits(size * 1e9) + " ns";
+    const TimeUnit unit = time_unit(seconds);
+    return digits(std::fabs(seconds) * unit.a_second) + " " + unit.word;
 }
 
 } // namespace
+
+TimeUnit time_unit(double seconds) {
+    constexpr double a_tenth_of_ms = 1e-4, a_tenth_of_us = 1e-7;
+    const double size = std::fabs(seconds);
+    if (size >= a_tenth_of_ms || size == 0) return {1e3, "ms"};
+    return size >= a_tenth_of_us ? TimeUnit{1e6, "us"} : TimeUnit{1e9, "ns"};
+}
 
 std::string words_for_servo_lag(double difference_s, const WordsContext& context) {
     const int slower = difference_s > 0 ? 0 : 1;

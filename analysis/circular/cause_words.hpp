@@ -15,6 +15,13 @@ struct WordsContext {
     std::array<bool, 2> whole_travel{true, true};
 };
 
+/// The unit that leaves a number people read: 21.84 ns, never 2.184e-05 ms.
+struct TimeUnit {
+    double a_second = 1e3; ///< how many make a second
+    std::string word = "ms";
+};
+TimeUnit time_unit(double seconds);
+
 std::string words_for_squareness(double beta_rad, const WordsContext& context);
 /// mismatch: scale error of the first axis minus that of the second.
 std::string words_for_scale_mismatch(double mismatch, const WordsContext& context);

@@ -1,5 +1,7 @@
 #include "analysis/circular/circle_cut.hpp"
 
+#include "analysis/quantity/counted.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -248,10 +250,10 @@ Result<std::vector<Stay>> stays_by_order(const Cutter& cutter,
         return std::fabs(cutter.time_error(stay)) > largest_time_error;
     });
     if (stays.size() == circles.size()) return stays;
-    return fail(Fault::incomplete_run, std::to_string(stays.size()) +
-                                           " circles are seen in the "
-                                           "readings, " +
-                                           std::to_string(circles.size()) + " are planned");
+    return fail(Fault::incomplete_run,
+                counted(static_cast<long>(stays.size()), "circle is", "circles are") +
+                    " seen in the readings, " +
+                    counted(static_cast<long>(circles.size()), "is", "are") + " planned");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "analysis/circular/circular_trials.hpp"
 #include "analysis/preflight_remarks.hpp"
+#include "analysis/quantity/counted.hpp"
 
 #include <algorithm>
 #include <array>
@@ -126,17 +127,14 @@ Result<void> evaluate_uncertainty(CircularCertificate& certificate) {
     return {};
 }
 
-std::string plural(std::uint64_t count, const char* single, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? single : many);
-}
-
 void remark_on_run(const CircularRun& run, std::vector<std::string>& remarks) {
     if (run.missing > 0)
-        remarks.push_back(plural(run.missing, "reading is", "readings are") +
-                          " missing in the stream, at " + plural(run.gaps, "place", "places") +
+        remarks.push_back(counted(static_cast<long>(run.missing), "reading is", "readings are") +
+                          " missing in the stream, at " +
+                          counted(static_cast<long>(run.gaps), "place") +
                           "; the figures are those of the readings that are there.");
     if (run.dropped_blocks > 0)
-        remarks.push_back(plural(run.dropped_blocks, "block", "blocks") +
+        remarks.push_back(counted(static_cast<long>(run.dropped_blocks), "block") +
                           " of readings could not be stored: the disk did not keep up.");
     remark_on_preflight(run.preflight, remarks);
     for (const EventRecord& event : run.events) {

@@ -1,6 +1,7 @@
 #include "analysis/drift/run_drift.hpp"
 
 #include "analysis/drift/resting_axis.hpp"
+#include "analysis/quantity/counted.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <algorithm>
@@ -110,12 +111,13 @@ void follow_axis(const RunRecord& run,
 /// Too few readings are left, and why.
 tl::unexpected<Error> too_few(const RunRecord& run, const RunDrift& drift) {
     const std::string watched{drift.of_bar ? "ballbar" : reference_word_of(run)};
-    std::string words = "the drift test has " + std::to_string(drift.axis.times.size()) +
-                        " usable readings of the " + watched + "; it needs two";
+    const long usable = static_cast<long>(drift.axis.times.size());
+    std::string words = "the drift test has " + counted(usable, "usable reading") + " of the " +
+                        watched + "; it needs two";
     if (drift.without_air > 0)
-        words += "; " + std::to_string(drift.without_air) + " have no fresh " +
+        words += "; " + counted(drift.without_air, "has", "have") + " no fresh " +
                  (run.scale ? "temperature of scale and material" : "air or material") +
-                 " beside them";
+                 (drift.without_air == 1 ? " beside it" : " beside them");
     for (const RefusedReadings& refused : drift.refused)
         words += "; " + std::to_string(refused.count) + " cannot be evaluated: " + refused.reason;
     return fail(Fault::incomplete_run, words);

@@ -8,4 +8,9 @@ inline std::string counted(long count, const std::string& thing) {
     return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
+/// The same where more than an s differs: "1 reading is", "3 readings are". Pure.
+inline std::string counted(long count, const std::string& single, const std::string& many) {
+    return std::to_string(count) + " " + (count == 1 ? single : many);
+}
+
 } // namespace axiscal

@@ -14,6 +14,7 @@
 
 #include "drivers/ballbar/ballbar_canopen_406.hpp"
 
+#include "analysis/quantity/counted.hpp"
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
 #include "drivers/ballbar/cia406_position.hpp"
@@ -100,7 +101,9 @@ void CanOpen406::count_losses(SampleSink& sink) {
     if (lost == 0) return;
     counters_.lost_records += lost;
     ++counters_.gaps;
-    sink.note(Fault::samples_lost, std::to_string(lost) + " positions of the stream are missing");
+    sink.note(Fault::samples_lost, counted(static_cast<long>(lost), "position of the stream is",
+                                           "positions of the stream are") +
+                                       " missing");
 }
 
 void CanOpen406::hand_up(const std::vector<PdoStream::Numbered>& settled, SampleSink& sink) {

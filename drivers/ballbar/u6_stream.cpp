@@ -1,5 +1,7 @@
 #include "drivers/ballbar/u6_stream.hpp"
 
+#include "analysis/quantity/counted.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -34,8 +36,9 @@ void U6Stream::skip(std::uint64_t scans, SampleSink& sink, const char* why) {
     ++counters_.gaps;
     counters_.lost_records += scans;
     number_ += scans;
-    sink.note(Fault::samples_lost,
-              std::to_string(scans) + " samples of the stream are lost: " + why);
+    sink.note(Fault::samples_lost, counted(static_cast<long>(scans), "sample of the stream is",
+                                           "samples of the stream are") +
+                                       " lost: " + why);
 }
 
 Result<void>

@@ -1,5 +1,7 @@
 #include "drivers/link/link_settings.hpp"
 
+#include "config/serial_port_name.hpp"
+
 #include <charconv>
 
 namespace axiscal {
@@ -33,21 +35,9 @@ Result<LinkSettings> parse_tcp(std::string_view place, LinkSettings settings) {
     return settings;
 }
 
-bool is_windows_port(std::string_view path) {
-    return path.size() > 3 && (path.starts_with("COM") || path.starts_with("com")) &&
-           path.find_first_not_of("0123456789", 3) == std::string_view::npos;
-}
-
 Result<void> check_serial_path(std::string_view path) {
     if (path.starts_with('/')) return {};
-    const std::string named = "\"" + std::string{path} + "\" ";
-    return fail(Fault::bad_configuration,
-                named +
-                    (is_windows_port(path) ? "is a port's name on Windows; Linux names it by a "
-                                             "file"
-                                           : "is no full path of a serial port") +
-                    ": write \"serial:/dev/serial/by-id/...\" or \"serial:/dev/ttyUSB0\"; "
-                    "axiscal devices lists what is plugged in");
+    return fail(Fault::bad_configuration, no_serial_port(path, serial_prefix));
 }
 
 } // namespace

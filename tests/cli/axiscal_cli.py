@@ -53,6 +53,13 @@ def example_text():
     return text.replace('profile = "tm-th8"', f'profile = "{profile}"')
 
 
+def dwelling_text():
+    """The example as a station without a wire, for Marlin: the axis stands still."""
+    text = example_text().replace('shape = "sequence-block"', 'shape = "dwell"')
+    text = text.replace('transport = "tcp"\n', 'transport = "none"\nwindow = "0.5 mm"\nstability_range = "2 um"\nhysteresis = "0.2 mm"\n')
+    return re.sub(r"^(host = \"127|port = 1502).*$", "", text, flags=re.M)
+
+
 def run(*words, text=None, env=None):
     return subprocess.run([os.path.join(BIN, "axiscal"), *words], input=text, text=True,
                           capture_output=True, timeout=60, env={**os.environ, **(env or {})})
@@ -361,13 +368,9 @@ class StationFile(Scratch):
 class Program(Scratch):
     def test_both_dialects(self):
         for dialect, word in (("linuxcnc", "M66"), ("marlin", "G4 P")):
-            text = example_text()
-            if dialect == "marlin":  # no wire: the axis stands still
-                text = text.replace('shape = "sequence-block"', 'shape = "dwell"')
-                text = text.replace('transport = "tcp"\n', 'transport = "none"\nwindow = "0.5 mm"\nstability_range = "2 um"\nhysteresis = "0.2 mm"\n')
-                text = re.sub(r"^(host = \"127|port = 1502).*$", "", text, flags=re.M)
-            else:
-                text = text.replace('shape = "sequence-block"', 'shape = "single-register"')
+            text = example_text().replace('shape = "sequence-block"', 'shape = "single-register"')
+            if dialect == "marlin":
+                text = dwelling_text()
             config = self.file(dialect + ".toml", text)
             got = run("program", "--config", config, "--dialect", dialect, "--out", self.folder,
                       "--seed", "5", "--json")

@@ -16,7 +16,7 @@ import threading
 import unittest
 
 import run_files
-from axiscal_cli import BIN, CASE, RUN, SOURCE, Daemon, OneAnswer, Scratch, example_text, station_status
+from axiscal_cli import BIN, CASE, RUN, SOURCE, Daemon, OneAnswer, Scratch, dwelling_text, example_text, station_status
 
 AXISCAL = os.path.join(BIN, "axiscal")
 FULL = "No space left on device"
@@ -172,10 +172,7 @@ class Disk(Scratch):
         self.assertFalse(os.path.exists(os.path.join(self.out, name)), "a torn program bears the name")
 
     def dwelling(self):
-        """A station without a wire, for Marlin."""
-        text = example_text().replace('shape = "sequence-block"', 'shape = "dwell"')
-        text = text.replace('transport = "tcp"\n', 'transport = "none"\nwindow = "0.5 mm"\nstability_range = "2 um"\nhysteresis = "0.2 mm"\n')
-        return self.file("dwell.toml", re.sub(r"^(host = \"127|port = 1502).*$", "", text, flags=re.M))
+        return self.file("dwell.toml", dwelling_text())
 
     def test_a_whole_pass_in_each_dialect(self):
         words = ["program", "--out", self.out, "--seed", "7", "--config"]

@@ -17,7 +17,7 @@ import time
 import unicodedata
 import unittest
 
-from axiscal_cli import BIN, CASE, Daemon, OneAnswer, Scratch, example_text, run, station_status
+from axiscal_cli import BIN, CASE, Daemon, OneAnswer, Scratch, dwelling_text, example_text, run, station_status
 
 
 class StationFile(Scratch):
@@ -56,6 +56,15 @@ class StationFile(Scratch):
     def test_an_instrument_is_named_where_it_is_refused(self):
         told = self.told(('\nserial = ', '\nseriall = '))
         self.assertIn('instrument "laser".seriall: is not a key of this table; did you mean "serial"?', told)
+
+    def test_a_missing_key_is_told_with_the_table_as_the_file_writes_it(self):
+        told = self.told((self.link_of("modbus") + "\n", ""))
+        self.assertIn('instrument "material".link: is missing: add it to its [[instrument]], for example link = "..."', told)
+        self.assertNotRegex(told, r"\[[0-9]+\]")
+
+    def test_an_instrument_without_a_name_is_not_counted_among_the_names(self):
+        told = self.told(('name = "material"\n', ""))
+        self.assertIn('no [[instrument]] has the name "material" (there are: laser, air)', told)
 
     def test_a_misspelt_choice_is_judged_as_what_was_meant(self):
         told = self.told(('kind = "linear"', 'kind = "linaer"')).splitlines()
@@ -116,6 +125,17 @@ class StationFile(Scratch):
         told = self.told((self.link_of("modbus"), f'link = "serial:{port}"'),
                          (self.link_of("dracal-vcp"), f'link = "serial:{other}"'))
         self.assertIn("cannot share it", told)
+
+
+    def test_a_recorded_modbus_line_is_tried_on_a_wire_and_not_in_the_driver(self):
+        near, far = os.openpty()
+        self.addCleanup(lambda: (os.close(near), os.close(far)))
+        text = example_text().replace(self.link_of("modbus"), f'link = "serial:{os.ttyname(far)}"')
+        tape = os.path.join(self.folder, "material.tape")
+        told = self.expect(0, "record", "--config", self.file("station.toml", text), "--instrument", "material", "--out", tape,
+                           "--for", "2").stdout
+        self.assertIn(f'axiscal replay {tape} --link /tmp/wire, with link = "serial:/tmp/wire" in a station file', told)
+        self.assertNotIn("--print", told)
 
 
 class Files(Scratch):
@@ -195,6 +215,15 @@ class Words(Scratch):
         told = self.expect(3, "analyze", self.file("case.json", json.dumps(CASE | {"analysis": "postioning"}))).stderr
         self.assertIn('did you mean "positioning"?', told)
 
+    def test_a_program_that_waits_for_nobody_says_to_arm_before(self):
+        waiting = self.expect(0, "program", "--config", self.file("station.toml", example_text()), "--out", self.folder).stdout
+        self.assertIn("when the axis waits at its datum: axiscal arm --program", waiting)
+        self.assertRegex(waiting, r"datum at -?[0-9.]+ mm\n")
+        shown = self.expect(0, "program", "--config", self.file("dwell.toml", dwelling_text()), "--out", self.folder,
+                            "--dialect", "marlin").stdout
+        self.assertIn("it waits for nobody: drive the axis to its datum, then axiscal arm --program", shown)
+        self.assertNotIn("when the axis waits at its datum", shown)
+
     def test_one_point_is_told_in_the_singular(self):
         text = example_text().replace("approaches = 5", "approaches = 1")
         shown = self.expect(0, "check-config", self.file("station.toml", text)).stdout
@@ -210,6 +239,14 @@ class Answered(OneAnswer):
         self.assertIn("The part program that waits at its datum goes on by itself", shown)
         self.assertNotIn("Start the part program", shown)
 
+    def test_one_restart_of_an_alignment_is_told_in_the_singular(self):
+        record = {"instrument": "laser", "serial": "7", "reached_mm": 500, "travel_mm": 998, "began": "2026-11-26T08:00:00Z",
+                  "far": None, "cosine": None, "cosine_by_spot": None, "places": []}
+        for restarts, words in ((1, "begun anew once: the counter lost its zero"),
+                                (3, "begun anew 3 times: the counter lost its zero")):
+            view = {"running": False, "record": record | {"restarts": restarts}}
+            self.assertIn(words, self.shown(view, "align", "show")[1])
+
     def test_one_reading_is_told_in_the_singular(self):
         words = ["exclude", "--target", "1", "--reason", "a chip"]
         self.assertIn("1 reading is left out of every figure; it stays", self.shown({"excluded": 1}, *words)[1])
@@ -224,7 +261,11 @@ class Asked(Daemon):
     def test_a_misspelt_statement_is_told_with_the_nearest(self):
         told = self.expect(4, "arm", "--state-that", "oparator=Shift 2", "--socket", self.socket).stderr
         self.assertIn("[statements.oparator]", told)
-        self.assertIn('is not a statement; did you mean "operator"?', told)
+        self.assertIn('is not a statement; did you mean "operator"? There are: certificate_number', told)
+
+    def test_a_statement_that_resembles_none_is_told_in_sentences(self):
+        told = self.expect(4, "arm", "--state-that", "zzzz=x", "--socket", self.socket).stderr
+        self.assertIn("is not a statement. There are: certificate_number", told)
 
     def test_a_misspelt_check_is_told_with_the_nearest(self):
         told = self.expect(4, "preflight", "--override", "soack=the customer waits", "--socket", self.socket).stderr

@@ -335,6 +335,9 @@ class Verify(unittest.TestCase):
             json.dump(document, out)
         told = self.verify(self.whole, 8)
         self.assertEqual([f["place"] for f in told["certificate_findings"]], ["/parameters/A/value"])
+        words = subprocess.run([AXISCAL, "verify", self.whole], capture_output=True, text=True, timeout=60, check=False).stdout
+        self.assertIn(f"{path} does NOT say what the run file gives.", words)
+        self.assertNotIn("is NOT what was written", words)
 
     def test_what_is_no_run_file_is_refused(self):
         for content in (b"", b"SQLite format 3\0", b"x" * 5000):

@@ -155,7 +155,7 @@ def suffers(station, names, begin, end, reasons, own={}):
         lines = [line for line in station.logged()[since:] if f" {name}:" in line or f" {name} is " in line]
         print("\n".join(lines))
         changes = [line for line in lines if f" {name} is " in line]
-        losses = [line for line in lines if line.endswith("positions of the stream are missing")]
+        losses = [line for line in lines if line.endswith(("position of the stream is missing", "positions of the stream are missing"))]
         told = [line for line in lines if line not in changes and line not in losses]
         expect(changes[-1].endswith("is available.") and 2 <= len(changes) <= 3, f"{name} changed: {changes}")
         expect(len(losses) <= 1, f"{name} tells its loss {len(losses)} times: {losses}")

@@ -1,5 +1,7 @@
 #include "tools/axiscal/align_command.hpp"
 
+#include "analysis/quantity/counted.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -27,6 +29,12 @@ std::string now_text(const Json& view) {
     return "Distance   " + number(view.at("distance_mm"), "%.4f") + " mm   " +
            (view.at("at_rest") == true ? "at rest" : "moving ") + "   strength " +
            number(view.at("strength_percent"), "%.0f") + " %";
+}
+
+std::string restarts_text(int restarts) {
+    if (restarts == 0) return {};
+    return "           begun anew " + (restarts == 1 ? "once" : counted(restarts, "time")) +
+           ": the counter lost its zero\n";
 }
 
 std::string far_text(const Json& far) {
@@ -87,9 +95,7 @@ std::string alignment_text(const Json& view) {
             number(record.at("reached_mm"), "%.1f") + " mm of " +
             number(record.at("travel_mm"), "%.1f") + " mm since " +
             record.at("began").get<std::string>() + "\n";
-    if (record.at("restarts") != 0)
-        text += "           begun anew " + std::to_string(record.at("restarts").get<int>()) +
-                " times: the counter lost its zero\n";
+    text += restarts_text(record.at("restarts").get<int>());
     text += far_text(record.at("far"));
     text += cosine_text(record.at("cosine"), "by the reading");
     text += cosine_text(record.at("cosine_by_spot"), "by the return spot");

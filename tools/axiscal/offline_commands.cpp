@@ -181,6 +181,25 @@ Json plan_json(const RunPlan& plan, const std::string& path) {
             {"targets_mm", std::move(targets)}};
 }
 
+void tell_program(const RunPlan& plan, const std::string& path) {
+    const char* unit = plan.axis_kind == AxisKind::rotary ? " deg" : " mm";
+    std::cout << path << ": " << counted(static_cast<long>(plan.points.size()), "point") << " on "
+              << counted(static_cast<long>(plan.targets.size()), "target") << ", datum at "
+              << plan.datum.in(mm) << unit << "\n";
+    if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
+}
+
+/// Where to arm stands in the order in which the program needs it.
+std::string way_to_arm(TriggerShape shape, bool datum_by_cnc, const std::string& path) {
+    const std::string program = "--program " + path;
+    if (shape == TriggerShape::dwell)
+        return "it waits for nobody: drive the axis to its datum, then axiscal arm " + program +
+               ", then load and start it";
+    if (datum_by_cnc)
+        return "load and start it; before or after: axiscal arm --datum-by-cnc " + program;
+    return "load and start it; when the axis waits at its datum: axiscal arm " + program;
+}
+
 } // namespace
 
 int command_analyze(const std::string& path) {
@@ -228,14 +247,8 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!path) return complain(path.error());
         list.push_back(plan_json(plan, *path));
         if (json) continue;
-        std::cout << *path << ": " << counted(static_cast<long>(plan.points.size()), "point")
-                  << " on " << counted(static_cast<long>(plan.targets.size()), "target")
-                  << ", datum at " << plan.datum.in(mm) << "\n";
-        if (!plan.remark.empty()) std::cout << "  " << plan.remark << "\n";
-        std::cout << (request.datum_by_cnc
-                          ? "  load and start it; before or after: axiscal arm --datum-by-cnc "
-                          : "  load and start it; when the axis waits at its datum: axiscal arm ")
-                  << "--program " << *path << "\n";
+        tell_program(plan, *path);
+        std::cout << "  " << way_to_arm(config.trigger.shape, request.datum_by_cnc, *path) << "\n";
     }
     if (config.circular && dialect->name == "linuxcnc") {
         const auto path = write_circles(config, request.out_directory);

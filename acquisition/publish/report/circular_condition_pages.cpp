@@ -45,6 +45,13 @@ std::string senses_in_order(const CircularTest& test) {
     return words;
 }
 
+/// A record without a filter does not tell whether there was none: nobody stated it.
+std::string filter_on_paper(const CircularCertificate& certificate) {
+    const auto& effect = certificate.capture_effect;
+    if (effect && !is_changed(effect->capture)) return "not stated";
+    return stated(certificate.measured.conditions.filter);
+}
+
 void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
     const CircularConditions& told = measured.conditions;
@@ -67,7 +74,7 @@ void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
                               ? "feedback signals of the machine"
                               : "an instrument outside the machine"},
         {"Sampling rate", or_not_stated(told.sample_rate_hz, " Hz")},
-        {"Filter, averaging", stated(told.filter)},
+        {"Filter, averaging", filter_on_paper(certificate)},
         {"Angle of a reading", stated(told.angle_origin)},
         {"Control compensation used", stated(said.control_compensation)},
         {"Warm-up", stated(said.warm_up)}};

@@ -4,6 +4,7 @@
 #include "acquisition/publish/report/circular_units.hpp"
 #include "acquisition/publish/report/circular_wording.hpp"
 #include "analysis/circular/cause_advice.hpp"
+#include "analysis/circular/cause_words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,10 @@ using circular::Cause;
 
 std::string um_of(double mm) {
     return fixed(mm * um_per_mm, 2);
+}
+
+std::string sign_of_unit(const circular::TimeUnit& unit) {
+    return unit.word == "us" ? "µs" : unit.word;
 }
 
 void draw_ranking(Sheet& sheet, const CircularCertificate& certificate) {
@@ -40,13 +45,22 @@ void draw_ranking(Sheet& sheet, const CircularCertificate& certificate) {
                 rows, 7);
 }
 
+/// The larger of a lag and its uncertainty tells the unit of both.
+TableRow row_of_lag(const circular::CauseOnPaper& paper, double lag_s, double u_s) {
+    const circular::TimeUnit unit = circular::time_unit(std::max(std::fabs(lag_s), u_s));
+    const int decimals = unit.word == "ms" ? 4 : 2;
+    return {paper.name, fixed(lag_s * unit.a_second, decimals),
+            fixed(u_s * unit.a_second, decimals), sign_of_unit(unit), paper.sign};
+}
+
 TableRow row_of(const CircularCertificate& certificate, Cause cause) {
     const circular::CauseOnPaper paper = circular::on_paper(cause, certificate.measured.axes);
     const CauseEstimate& estimate = certificate.diagnosis.of(cause);
-    const int decimals = cause == Cause::servo_lag_difference ? 4 : 2; // of a millisecond
     if (!estimate.value) return {paper.name, "not told apart", "–", paper.unit, paper.sign};
-    return {paper.name, fixed(*estimate.value * paper.factor, decimals),
-            fixed(estimate.standard_uncertainty * paper.factor, decimals), paper.unit, paper.sign};
+    if (cause == Cause::servo_lag_difference)
+        return row_of_lag(paper, *estimate.value, estimate.standard_uncertainty);
+    return {paper.name, fixed(*estimate.value * paper.factor, 2),
+            fixed(estimate.standard_uncertainty * paper.factor, 2), paper.unit, paper.sign};
 }
 
 /// A sense that was not driven has no centre.
@@ -91,9 +105,11 @@ void draw_common_lag(Sheet& sheet, const CircularCertificate& certificate) {
     std::string words = "Mean radius change by both scales: " + um_of(lag->radius_change_mm) +
                         " µm. One feed does not tell a lag common to both axes from a scale error "
                         "of both";
-    if (lag->longest_s)
-        words +=
-            "; were all of it lag, the lag would be " + fixed(*lag->longest_s * 1e3, 2) + " ms";
+    if (lag->longest_s) {
+        const circular::TimeUnit unit = circular::time_unit(*lag->longest_s);
+        words += "; were all of it lag, the lag would be " +
+                 fixed(*lag->longest_s * unit.a_second, 2) + " " + sign_of_unit(unit);
+    }
     sheet.text(words + ".", note_style);
 }
 

@@ -92,8 +92,8 @@ void draw_circular_uncertainty(Sheet& sheet, const CircularCertificate& certific
     draw_terms(sheet, certificate);
     draw_figure_uncertainties(sheet, certificate);
     std::string words = "The terms above hold 1/√n already. Full widths are those of rectangular "
-                        "distributions (JCGM 100, 4.3.7). U is rounded up on page 1. " +
-                        std::string{footnote_of_derived};
+                        "distributions (JCGM 100, 4.3.7). U is rounded up on page 1.";
+    if (has_footnote_sign(budget->contributions)) words += " " + std::string{footnote_of_derived};
     if (budget->trials > 0)
         words += " u simulated: " + std::to_string(budget->trials) +
                  " trials that disturb every reading and evaluate anew (JCGM 101); drift runs "

@@ -178,8 +178,9 @@ std::string temperature_words(const CircularTemperature& temperature) {
 }
 
 std::string sentence_on_paper(std::string words) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> units{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> units{
         {{" um", " µm"},
+         {" us", " µs"},
          {" urad", " µrad"},
          {" deg", "°"},
          {"in sense ccw", "counter-clockwise"},

@@ -3,6 +3,7 @@
 #include "acquisition/publish/report/certificate_pages.hpp"
 #include "acquisition/publish/report/drift_plot.hpp"
 #include "analysis/certificate_expiry.hpp"
+#include "analysis/quantity/counted.hpp"
 
 #include <algorithm>
 
@@ -61,6 +62,16 @@ const char* surroundings_words(const RunRecord& run) {
     return run.scale ? "temperature of scale and material" : "air or material";
 }
 
+std::string refused_words(const RefusedReadings& refused) {
+    const bool one = refused.count == 1;
+    const std::string from = fixed(refused.first_min, 2) + " min";
+    return counted(refused.count, "reading") +
+           (one ? " at " + from : " from " + from + " to " + fixed(refused.last_min, 2) + " min") +
+           " cannot be evaluated and " +
+           (one ? "is left out. The reason: " : "are left out. The first: ") + refused.reason +
+           (refused.reason.ends_with('.') ? " " : ". ");
+}
+
 /// Intervals that the figures do not know.
 std::string gaps_words(const DriftDocument& document) {
     const RunDrift& drift = document.drift;
@@ -70,13 +81,12 @@ std::string gaps_words(const DriftDocument& document) {
                 std::to_string(drift.setup.duration / drift.setup.interval) +
                 " intervals have no good reading of the length. ";
     if (drift.without_air > 0)
-        words += std::to_string(drift.without_air) + " readings without fresh " +
-                 surroundings_words(document.run) + " beside them are left out. ";
+        words +=
+            counted(drift.without_air, "reading") + " without fresh " +
+            surroundings_words(document.run) +
+            (drift.without_air == 1 ? " beside it is left out. " : " beside them are left out. ");
     for (const RefusedReadings& refused : drift.refused)
-        words += std::to_string(refused.count) + " readings from " + fixed(refused.first_min, 2) +
-                 " min to " + fixed(refused.last_min, 2) +
-                 " min cannot be evaluated and are left out. The first: " + refused.reason +
-                 (refused.reason.ends_with('.') ? " " : ". ");
+        words += refused_words(refused);
     if (!drift.refused.empty())
         words += "They may have been the extremes: E_VE and ETVE may be too small, and no budget "
                  "takes E_VE of this test.";

@@ -173,8 +173,7 @@ std::string distances_of(const ProbingRecord& record) {
 ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingDocument& document) {
     const RunRecord& run = document.run;
     draw_front_title(sheet, {"Probing test", run.statements.state,
-                             "Variation of the time delay of a touch probe, ISO 230-10, 6.9 "
-                             "(counts, steps and symbols reconstructed)"});
+                             "Variation of the time delay of a touch probe, by ISO 230-10, 6.9¹"});
     ProbingFront front;
     front.shortened = draw_identity(sheet, document);
     draw_figures(sheet, document.results);
@@ -222,8 +221,9 @@ void draw_probing_conditions(Sheet& sheet,
                   {"Station", stated(run.station)}},
                  2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    sheet.text("Of ISO 230-10, 6.9, purpose and set-up are known; counts, steps and symbols are "
-               "reconstructed. The constant part of the delay is absorbed where the stylus is "
+    sheet.text("¹ Purpose and set-up are those of ISO 230-10, 6.9; the operator states counts and "
+               "steps, and this station names the symbols. They were not compared with the printed "
+               "clause. The constant part of the delay is absorbed where the stylus is "
                "calibrated at the same feed, and is not seen here. The figures hold for this feed.",
                note_style);
     std::vector<std::string> remarks;

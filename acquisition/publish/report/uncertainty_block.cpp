@@ -193,8 +193,9 @@ void draw_legend(Sheet& sheet, const Certificate& certificate) {
     std::string words =
         "u: standard uncertainty; a full width R(…) and E_VE are those of rectangular "
         "distributions (JCGM 100, 4.3.7), combined as the root of the sum of squares (JCGM 100, "
-        "5.1.2). U is rounded up on page 1. " +
-        std::string{footnote_of_derived};
+        "5.1.2). U is rounded up on page 1.";
+    if (has_footnote_sign(budget.contributions) || has_footnote_sign(budget.parameters))
+        words += " " + std::string{footnote_of_derived};
     if (both && both->strict_u)
         words +=
             " u(R) of the source counts the repeatability of both directions as common; strict "

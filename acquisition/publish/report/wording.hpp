@@ -3,6 +3,7 @@
 
 #include "analysis/certificate.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,6 +56,11 @@ std::vector<std::string> reasons_not_evaluated(const PositioningResult& result);
 /// Behind a formula of a budget that stands in no source document (status "R"): a sign that
 /// `footnote_of_derived` explains; empty for one that does.
 std::string footnote_sign(const std::string& status);
+/// Whether one of the lines of a budget has that sign.
+template <class Lines> bool has_footnote_sign(const Lines& lines) {
+    return std::ranges::any_of(
+        lines, [](const auto& line) { return !footnote_sign(line.status).empty(); });
+}
 constexpr std::string_view footnote_of_derived = "¹ Derived by these rules from the terms that the "
                                                  "standard names; not compared with its printed "
                                                  "example.";

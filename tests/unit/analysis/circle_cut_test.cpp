@@ -257,6 +257,19 @@ TEST(CircleCut, AMissingCircleIsToldWithAndWithoutMarks) {
     EXPECT_NE(by_marks.error().detail.find("circle 3 (ccw) was never begun"), std::string::npos);
 }
 
+TEST(CircleCut, OneCircleIsToldInTheSingular) {
+    DrivenBar bar = usual_bar();
+    bar.setup.plan.senses = {Sense::ccw};
+    const StreamSamples stream = bar.drive();
+    CircularSetup more = bar.setup;
+    more.plan.senses = {Sense::ccw, Sense::cw};
+    const auto circles = cut_circles(more, stream, {});
+    ASSERT_FALSE(circles);
+    EXPECT_NE(circles.error().detail.find("1 circle is seen in the readings, 2 are planned"),
+              std::string::npos)
+        << circles.error().detail;
+}
+
 TEST(CircleCut, TheCalibratedLengthTakesTheReadingToTheNominalRadius) {
     CircularSetup setup;
     setup.plan.nominal_radius_mm = 150;

@@ -167,7 +167,7 @@ TEST(RunDrift, OfABallbarNeedsNeitherAirNorMaterialBesideIt) {
     run.environment.resize(1);
     const auto too_few = evaluate_drift(run, setup);
     ASSERT_FALSE(too_few);
-    EXPECT_NE(too_few.error().detail.find("1 usable readings of the ballbar"), std::string::npos)
+    EXPECT_NE(too_few.error().detail.find("1 usable reading of the ballbar"), std::string::npos)
         << too_few.error().detail;
     run.channels.clear();
     EXPECT_EQ(evaluate_drift(run, setup).error().fault, Fault::bad_run_file);

@@ -55,6 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
         TriggerCase{"shape = \"single-register\"\ntransport = \"rtu\"\n"
                     "serial_port = \"/dev/ttyS0\"\nparity = \"even\"\nunit_id = 3\n",
                     ""},
+        TriggerCase{"shape = \"single-register\"\ntransport = \"rtu\"\nserial_port = \"COM5\"\n",
+                    "trigger.serial_port: \"COM5\" is a port's name on Windows; Linux names it by "
+                    "a file: write \"/dev/serial/by-id/...\" or \"/dev/ttyUSB0\""},
         TriggerCase{"shape = \"coil-and-index\"\ntransport = \"tcp\"\nport = 1502\n"
                     "index_grace = \"20 ms\"\n",
                     ""},

@@ -361,6 +361,16 @@ TEST_F(CanOpen, BallbarCanGrowTheOtherWayByAStepOfTheStationFile) {
     EXPECT_NEAR(other.sink.samples.back().value().value(), -2 * metres(now_s()), 5e-6);
 }
 
+TEST_F(CanOpen, BallbarTellsOneLostPositionInTheSingular) {
+    ballbar.start();
+    scheduler.run_for(3s);
+    bus.drop = 1;
+    scheduler.run_for(1s);
+    EXPECT_EQ(ballbar.counters().lost_records, 1U);
+    EXPECT_NE(ballbar.sink.text().find("1 position of the stream is missing"), std::string::npos)
+        << ballbar.sink.text();
+}
+
 TEST_F(CanOpen, BallbarCountsWhatIsMissing) {
     ballbar.start();
     scheduler.run_for(3s);

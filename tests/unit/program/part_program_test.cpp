@@ -127,6 +127,20 @@ TEST(PartProgram, MarlinDwellsInMilliseconds) {
     EXPECT_NE(text->find("G4 P4000\n"), std::string::npos);
 }
 
+TEST(PartProgram, WithoutAWireTheHeaderSaysToArmBefore) {
+    for (auto* writer : {write_marlin, write_linuxcnc}) {
+        auto order = order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::dwell);
+        const std::string text = writer(order).value();
+        EXPECT_NE(text.find("run 'axiscal arm' before it"), std::string::npos) << text;
+        EXPECT_EQ(text.find("waits there"), std::string::npos) << text;
+        order.retakes = true; // of a run that is armed
+        EXPECT_EQ(writer(order).value().find("axiscal arm"), std::string::npos);
+    }
+    const auto waiting = write_linuxcnc(
+        order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::single_register));
+    EXPECT_NE(waiting.value().find("waits there: run 'axiscal arm' then"), std::string::npos);
+}
+
 TEST(PartProgram, MarlinRefusesToWaitOnInputs) {
     const auto text =
         write_marlin(order_of(plan_of({10, 60, 110, 160, 210}, 1), TriggerShape::single_register));

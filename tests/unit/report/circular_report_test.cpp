@@ -121,7 +121,7 @@ TEST_F(CircularReport, HoldsWhatTheStandardWantsTold) {
                               "into quadrant 4",
                               "901",
                               "1000 Hz",
-                              "none",
+                              "not stated", // a filter
                               "pitch and backlash on",
                               "Z 300 mm",
                               "22.40 °C (22.30 to 22.50; bar)",
@@ -163,6 +163,9 @@ TEST_F(CircularReport, SaysOfWhichReadingsGIsWhereNeitherAveragingNorFilterIsSta
         EXPECT_THAT(words, HasSubstr("The station file states neither averaging nor a filter of "
                                      "the bar's electronics."));
         EXPECT_THAT(words, Not(HasSubstr("othing was averaged")));
+        const auto filter = words.find("Filter, averaging ");
+        ASSERT_NE(filter, std::string::npos);
+        EXPECT_THAT(words.substr(filter, 70), HasSubstr("not stated"));
     }
     EXPECT_THAT(of_two, HasSubstr("G is that of the mean circle of 2 of each sense"));
     EXPECT_THAT(of_one, HasSubstr("G is that of the readings."));
@@ -209,10 +212,22 @@ TEST_F(CircularReport, WithoutABudgetIsPreliminaryOnEachPage) {
     EXPECT_GE(pages, 4);
     EXPECT_EQ(occurrences(page, "PRELIMINARY: no uncertainty budget"), pages);
     EXPECT_EQ(occurrences(page, "U not evaluated"), 8);
+    EXPECT_THAT(page, Not(HasSubstr("Derived by these rules")));
     for (int number = 1; number <= pages; ++number)
         EXPECT_EQ(
             occurrences(page, "page " + std::to_string(number) + " of " + std::to_string(pages)),
             1);
+}
+
+TEST_F(CircularReport, ExplainsTheFootnoteWhereATermHasItsSign) {
+    const auto explains = [this](CircularRun run) {
+        const std::string page = text(circular_certificate(std::move(run)));
+        return std::regex_search(page, std::regex{R"(Derived\s+by\s+these\s+rules)"});
+    };
+    CircularRun run = circular_run();
+    EXPECT_TRUE(explains(run));
+    run.uncertainty = {}; // what the repeats tell stands in the source
+    EXPECT_FALSE(explains(std::move(run)));
 }
 
 TEST_F(CircularReport, LeavesUOfThoseFiguresOutWhoseTermsAreMissing) {
@@ -238,6 +253,15 @@ TEST_F(CircularReport, TellsEachCauseWithItsSignInWordsAndWhatToDo) {
         EXPECT_THAT(page, HasSubstr(words));
     EXPECT_THAT(page, Not(HasSubstr(" um "))) << "paper writes µm";
     EXPECT_THAT(text(certificate_of(test::one_sense(1, Sense::ccw))), HasSubstr("not told apart"));
+}
+
+TEST_F(CircularReport, PrintsALagInTheUnitThatLeavesANumber) {
+    const test::CircleTruth small{{"servo", 2.184e-8}};
+    const std::string page =
+        text(certificate_of(bare_measurement(circular_test(small, 1, 0, 360, 0))));
+    EXPECT_TRUE(std::regex_search(page, std::regex{R"(Lag difference\s+21\.8\d\s+\d+\.\d\d\s+ns)"}))
+        << page;
+    EXPECT_FALSE(std::regex_search(page, std::regex{R"(\d us\b)"})) << page;
 }
 
 TEST_F(CircularReport, OfOneSenseGivesReasonsForTheRest) {
@@ -334,6 +358,7 @@ TEST(CircularWording, WritesSentencesInTheSignsOfPaper) {
               "enclose 22 µrad (4.5″) more than 90°: at 135/315°,");
     EXPECT_EQ(sentence_on_paper("loses 3.2 um when; 20 um/m; 0.5 per degree; toward -X"),
               "loses 3.2 µm when; 20 µm/m; 0.5 per degree; toward −X");
+    EXPECT_EQ(sentence_on_paper("X lags Y by 25 us: an"), "X lags Y by 25 µs: an");
     EXPECT_EQ(sentence_on_paper("at 180 deg in sense cw the trace"), "at 180° clockwise the trace");
 }
 

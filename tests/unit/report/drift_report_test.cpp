@@ -309,6 +309,16 @@ TEST_F(DriftReport, ByAScaleSaysThatItsTemperatureWasMissing) {
     EXPECT_THAT(text, Not(HasSubstr("fresh air")));
 }
 
+TEST_F(DriftReport, TellsOneReadingInTheSingular) {
+    DriftDocument document = document_of(creeping(steady_creep_um));
+    document.drift.without_air = 1;
+    document.drift.refused = {{Fault::refused, "It lies beyond the range.", 1, 3, 3}};
+    const std::string text = in_one_line(test::text_of(render(document)));
+    EXPECT_THAT(text, HasSubstr("1 reading without fresh air or material beside it is left out."));
+    EXPECT_THAT(text, HasSubstr("1 reading at 3.00 min cannot be evaluated and is left out. The "
+                                "reason: It lies beyond the range."));
+}
+
 TEST_F(DriftReport, GivesTheSameBytesAgain) {
     const DriftDocument document = document_of(creeping(steady_creep_um));
     EXPECT_TRUE(render_drift_pdf(document).value() == render_drift_pdf(document).value());

@@ -143,6 +143,9 @@ TEST_F(ProbingReport, TellsWhoProbedWhatAndMarksEachPagePreliminary) {
     EXPECT_EQ(occurrences(text, "PRELIMINARY: no uncertainty budget"), test::pages_of(pdf));
     EXPECT_THAT(text, Not(HasSubstr(page_of_panels))) << "three directions have room on page 1";
     EXPECT_THAT(text, Not(HasSubstr("not stated")));
+    EXPECT_THAT(text, HasSubstr("by ISO 230-10, 6.9¹"));
+    EXPECT_THAT(in_one_line(text), HasSubstr("They were not compared with the printed clause."));
+    EXPECT_THAT(text, Not(HasSubstr("reconstructed")));
 }
 
 TEST_F(ProbingReport, ListsEveryTouchAndMarksTheTwoThatMakeTheVariation) {

@@ -471,6 +471,19 @@ TEST_F(Report, PrintsLongTextsInFullAndEveryTarget) {
     EXPECT_THAT(text, HasSubstr("20 more events"));
 }
 
+TEST_F(Report, NamesWhatAnInstrumentSaidOnceAndWithoutItsPath) {
+    RunRecord run = test::synthetic_run();
+    EventRecord silent{EventKind::instrument, run.opened.before, 0, "", Fault::link_timeout, 0};
+    const std::string sentence{fault_sentence(silent.fault)};
+    silent.text = "air: " + sentence + " no reading from serial /dev/ttyUSB0 9600 8N1";
+    run.events = {silent, silent};
+    const std::string page =
+        std::regex_replace(test::text_of(render(std::move(run))), std::regex{"\\s+"}, " ");
+    EXPECT_EQ(count(page, "The instrument does not answer"), 1) << page;
+    EXPECT_THAT(page, HasSubstr("its line"));
+    EXPECT_THAT(page, Not(HasSubstr("/dev/")));
+}
+
 TEST_F(Report, ReducesTheListOfASingleApproach) {
     const std::string text = test::text_of(render(run_of(1, true)));
     EXPECT_EQ(count(text, "U not evaluated"), 6) << "E, M, B, B̄, E↑, E↓";

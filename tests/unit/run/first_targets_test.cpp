@@ -80,6 +80,17 @@ TEST(FirstTargets, OneTargetCannotTellAScaleFromAShift) {
     EXPECT_TRUE(names(error, "factor 1.1")) << error.detail;
     EXPECT_TRUE(names(error, "datum is shifted by 2 mm")) << error.detail;
     EXPECT_TRUE(names(error, "abort, go to the datum and arm again")) << error.detail;
+    EXPECT_LT(error.detail.find("shifted"), error.detail.find("factor")) << error.detail;
+}
+
+TEST(FirstTargets, ARunArmedOffItsDatumIsNotToldAnImpossibleFactor) {
+    for (const Length shift : {24.7_mm, -24.7_mm}) {
+        const auto error = diagnose(1, shift, {30.0_mm});
+        EXPECT_TRUE(names(error, "the axis stood 24.7 mm from its datum when the run was armed "
+                                 "(abort, go to the datum and arm again)"))
+            << error.detail;
+        EXPECT_FALSE(names(error, "factor")) << error.detail;
+    }
 }
 
 TEST(FirstTargets, TwoTargetsCan) {
