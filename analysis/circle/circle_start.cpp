@@ -1,5 +1,7 @@
 #include "analysis/circle/circle_start.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +33,7 @@ double taubin_root(const Moments& m) {
 
 double spread_across(const Moments& m) {
     const double half_trace = (m.xx + m.yy) / 2;
-    const double half_width = std::hypot((m.xx - m.yy) / 2, m.xy);
+    const double half_width = length_in_plane((m.xx - m.yy) / 2, m.xy);
     return (m.xx * m.yy - m.xy * m.xy) / (half_trace + half_width);
 }
 
@@ -59,7 +61,7 @@ bool is_line(Values x, Values y, const CheckedPoints& points, const Moments& m) 
 SeenCircle
 circle_through(std::array<double, 3> x, std::array<double, 3> y, const CheckedPoints& points) {
     const auto side = [&](std::size_t i) { // the one that faces corner i
-        return std::hypot(x[(i + 1) % 3] - x[(i + 2) % 3], y[(i + 1) % 3] - y[(i + 2) % 3]);
+        return length_in_plane(x[(i + 1) % 3] - x[(i + 2) % 3], y[(i + 1) % 3] - y[(i + 2) % 3]);
     };
     const std::size_t corner = side(0) >= side(1) && side(0) >= side(2) ? 0
                                : side(1) >= side(2)                     ? 1

@@ -8,6 +8,7 @@
 #include "analysis/circle/circle_fit.hpp"
 #include "analysis/circle/circle_start.hpp"
 #include "analysis/circle/point_check.hpp"
+#include "analysis/linear/length.hpp"
 
 #include <cmath>
 #include <limits>
@@ -29,11 +30,11 @@ struct Around {
 };
 
 double distance(const PlainCircle& c, const Place& p) {
-    return std::hypot(p.x - c.x, p.y - c.y);
+    return length_in_plane(p.x - c.x, p.y - c.y);
 }
 
 PlainCircle through(const Place& p, const Place& q) {
-    return {(p.x + q.x) / 2, (p.y + q.y) / 2, std::hypot(q.x - p.x, q.y - p.y) / 2};
+    return {(p.x + q.x) / 2, (p.y + q.y) / 2, length_in_plane(q.x - p.x, q.y - p.y) / 2};
 }
 
 /// Not finite for three on a line.
@@ -41,7 +42,7 @@ PlainCircle through(const Place& p, const Place& q, const Place& r) {
     const double bx = q.x - p.x, by = q.y - p.y, cx = r.x - p.x, cy = r.y - p.y;
     const double twice = 2 * (bx * cy - by * cx), b = bx * bx + by * by, c = cx * cx + cy * cy;
     const double x = (cy * b - by * c) / twice, y = (bx * c - cx * b) / twice;
-    return {p.x + x, p.y + y, std::hypot(x, y)};
+    return {p.x + x, p.y + y, length_in_plane(x, y)};
 }
 
 bool holds(const PlainCircle& circle, const std::vector<Place>& support) {

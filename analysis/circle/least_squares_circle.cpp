@@ -11,6 +11,7 @@
 #include "analysis/circle/circle_start.hpp"
 #include "analysis/circle/point_check.hpp"
 #include "analysis/circle/seen_circle.hpp"
+#include "analysis/linear/length.hpp"
 
 #include <algorithm>
 #include <array>
@@ -105,7 +106,7 @@ double change_by(const CircleStep& step, const Residuals& r) {
     const Covariance v = directions_of(r);
     const double squared =
         v.xx * step.x * step.x + 2 * v.xy * step.x * step.y + v.yy * step.y * step.y;
-    return std::hypot(std::sqrt(std::max(squared, 0.0)), r.e);
+    return length_in_plane(std::sqrt(std::max(squared, 0.0)), r.e);
 }
 
 /// The steps shrink by about the same factor each: what is left after the last is below rounding.

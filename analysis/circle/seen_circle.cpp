@@ -12,6 +12,8 @@
 
 #include "analysis/circle/seen_circle.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +41,7 @@ SeenCircle moved_straight(const SeenCircle& c, const CircleStep& step) {
 }
 
 SeenCircle moved_by_curvature(const SeenCircle& c, const CircleStep& step, double longest_radius) {
-    const double far = std::hypot(c.a, c.b);
+    const double far = length_in_plane(c.a, c.b);
     const double mx = -c.a / far, my = -c.b / far;
     const double along = step.x * mx + step.y * my, across = step.y * mx - step.x * my;
     const double s = c.k / (far + c.radius);
@@ -51,7 +53,7 @@ SeenCircle moved_by_curvature(const SeenCircle& c, const CircleStep& step, doubl
     const double foot = s - step.inward + s / c.radius * along;
     // the centre moves by q across m, so m turns the other way
     const double turn_x = -(c.a - across * my), turn_y = -(c.b + across * mx);
-    const double length = std::hypot(turn_x, turn_y);
+    const double length = length_in_plane(turn_x, turn_y);
     const double new_far = radius + foot;
     SeenCircle out = c;
     out.a = -turn_x / length * new_far;
@@ -64,7 +66,7 @@ SeenCircle moved_by_curvature(const SeenCircle& c, const CircleStep& step, doubl
 } // namespace
 
 SeenCircle seen_from(double origin_x, double origin_y, double a, double b, double radius) {
-    const double far = std::hypot(a, b);
+    const double far = length_in_plane(a, b);
     return {origin_x, origin_y, a, b, (far - radius) * (far + radius), radius};
 }
 
@@ -76,7 +78,7 @@ SeenCircle swollen(const SeenCircle& circle, double by) {
 }
 
 bool is_far(const SeenCircle& circle) {
-    return std::hypot(circle.a, circle.b) > far_centre * circle.radius;
+    return length_in_plane(circle.a, circle.b) > far_centre * circle.radius;
 }
 
 SeenCircle moved(const SeenCircle& circle, const CircleStep& step, double longest_radius) {

@@ -1,5 +1,7 @@
 #include "analysis/circle/zone_balance.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,7 +67,9 @@ FourPlaces spread_out(const WorkingSet& set) {
     const auto& all = set.bearings();
     FourPlaces places{};
     const auto from = [&all](std::size_t place) {
-        return [a = all[place]](const Bearing& p) { return std::hypot(p.vx - a.vx, p.vy - a.vy); };
+        return [a = all[place]](const Bearing& p) {
+            return length_in_plane(p.vx - a.vx, p.vy - a.vy);
+        };
     };
     places[0] = largest(set, from(0));
     places[1] = largest(set, from(places[0]));

@@ -1,6 +1,7 @@
 #include "analysis/circular/capture_effect.hpp"
 
 #include "analysis/circular/circular_parameters.hpp"
+#include "analysis/linear/length.hpp"
 
 #include <algorithm>
 #include <array>
@@ -155,7 +156,7 @@ double capture_gain(const CircularCapture& capture, double frequency_hz) {
         const double below = n * std::sin(phase / n);
         if (std::fabs(below) > 1e-12) gain = std::fabs(std::sin(phase) / below);
     }
-    if (capture.low_pass_hz) gain /= std::hypot(1.0, frequency_hz / *capture.low_pass_hz);
+    if (capture.low_pass_hz) gain /= length_in_plane(1.0, frequency_hz / *capture.low_pass_hz);
     return gain;
 }
 

@@ -9,6 +9,7 @@
 #include "analysis/circular/circular_parameters.hpp"
 
 #include "analysis/circle/circle_fit.hpp"
+#include "analysis/linear/length.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,8 @@ struct Extremes {
 /// it (short arcs alone) as it stands.
 double radial_distance(const Path& path, std::size_t i, double a, double b) {
     const double radius = path.radius, dr = path.deviation[i];
-    if (a * a + b * b > radius * radius) return std::hypot(path.x[i] - a, path.y[i] - b) - radius;
+    if (a * a + b * b > radius * radius)
+        return length_in_plane(path.x[i] - a, path.y[i] - b) - radius;
     const double projected = a * path.cosine[i] + b * path.sine[i];
     const double excess = dr * (2 * radius + dr) - 2 * (radius + dr) * projected + (a * a + b * b);
     return excess / (radius + std::sqrt(std::max(radius * radius + excess, 0.0)));
@@ -97,7 +99,7 @@ bool same_reading(const RingPoint& a, const RingPoint& b) {
 /// more that need not touch: they are left out.
 ZoneRing ring_of(const Path& path, const MinimumZoneCircle& zone, const Extremes& about_center) {
     ZoneRing ring{zone.x, zone.y, about_center.high, about_center.low, {}, false};
-    ring.beyond_set_up = std::hypot(zone.x, zone.y) > path.radius;
+    ring.beyond_set_up = length_in_plane(zone.x, zone.y) > path.radius;
     const double touching = 1e-6 * about_center.range() + 1e-12 * path.radius;
     for (const ControlPoint& point : zone.control_points) {
         const double side = point.side == ZoneSide::outer ? ring.outer_mm : ring.inner_mm;

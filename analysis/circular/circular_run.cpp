@@ -1,5 +1,7 @@
 #include "analysis/circular/circular_run.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -118,7 +120,7 @@ centred(const CircularTrace& trace, double nominal_radius_mm, double a_mm, doubl
         const double radius = nominal_radius_mm + trace.radial_deviation_mm[i];
         const double cosine = std::cos(trace.angle_rad[i]), sine = std::sin(trace.angle_rad[i]);
         moved.radial_deviation_mm[i] =
-            std::hypot(radius * cosine - a_mm, radius * sine - b_mm) - nominal_radius_mm;
+            length_in_plane(radius * cosine - a_mm, radius * sine - b_mm) - nominal_radius_mm;
     }
     return moved;
 }

@@ -5,6 +5,8 @@
 
 #include "analysis/circular/residual_features.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -150,7 +152,7 @@ std::optional<CyclicError> search_cyclic(const std::vector<ResidualTrace>& trace
     CyclicError found;
     found.axis = axis;
     found.pitch_mm = 1 / frequency;
-    found.amplitude_mm = std::hypot(seen.best.cosine, seen.best.sine);
+    found.amplitude_mm = length_in_plane(seen.best.cosine, seen.best.sine);
     found.phase_rad = std::atan2(-seen.best.sine, seen.best.cosine);
     return found;
 }
@@ -160,7 +162,7 @@ std::optional<Lobes> find_lobes(const std::vector<ResidualTrace>& traces,
     const Search seen = search_lobes(traces, scale);
     if (!seen.significant) return {};
     return Lobes{static_cast<int>(seen.step + fewest_lobes),
-                 std::hypot(seen.best.cosine, seen.best.sine)};
+                 length_in_plane(seen.best.cosine, seen.best.sine)};
 }
 
 } // namespace axiscal::circular

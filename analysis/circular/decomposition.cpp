@@ -1,5 +1,7 @@
 #include "analysis/circular/decomposition.hpp"
 
+#include "analysis/linear/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -124,7 +126,7 @@ double take_cyclic(Decomposition& model, const Circle& circle) {
     std::size_t column = model.causes.size();
     for (CyclicError& cyclic : model.cyclic) {
         const double a = model.solution.value[column], b = model.solution.value[column + 1];
-        const double amplitude = std::hypot(a, b);
+        const double amplitude = length_in_plane(a, b);
         const double resolution = std::numbers::pi / (2 * circle.R);
         const double turn =
             std::clamp(model.solution.value[column + 2], -resolution / 2, resolution / 2);

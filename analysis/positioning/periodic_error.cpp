@@ -1,5 +1,6 @@
 #include "analysis/positioning/periodic_error.hpp"
 
+#include "analysis/linear/length.hpp"
 #include "analysis/positioning/harmonic_columns.hpp"
 #include "analysis/positioning/sums.hpp"
 
@@ -166,7 +167,7 @@ double peak_to_valley_of(const std::vector<Harmonic>& harmonics) {
 Harmonic harmonic_of(double cosine, double sine, int order, double turns_to_middle) {
     const double shift = turn * std::remainder(order * turns_to_middle, 1.0);
     const double phase = std::remainder(std::atan2(sine, cosine) + shift, turn);
-    return {order, std::hypot(cosine, sine), phase == -std::numbers::pi ? -phase : phase};
+    return {order, length_in_plane(cosine, sine), phase == -std::numbers::pi ? -phase : phase};
 }
 
 void add_residuals(const ColumnFit& fit, bool found, PeriodicError& result) {
