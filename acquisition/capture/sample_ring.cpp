@@ -20,6 +20,26 @@ std::size_t places_of(std::size_t capacity) {
     return capacity;
 }
 
+/// Without a file: memory must not depend on how long a file may be, as a full disk is tried with.
+bool map_memory_twice(std::byte* place, std::size_t bytes) {
+    constexpr int shared = MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED;
+    // mremap(2): of a length of 0, pages that are shared are seen at the new place as well.
+    return ::mmap(place, bytes, PROT_READ | PROT_WRITE, shared, -1, 0) != MAP_FAILED &&
+           ::mremap(place, 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, place + bytes) != MAP_FAILED;
+}
+
+/// Where the kernel's calls are emulated (qemu-user), mremap refuses a length of 0.
+bool map_file_twice(std::byte* place, std::size_t bytes) {
+    const int file = ::memfd_create("axiscal-samples", MFD_CLOEXEC);
+    if (file < 0) return false;
+    bool mapped = ::ftruncate(file, static_cast<off_t>(bytes)) == 0;
+    for (std::byte* const copy : {place, place + bytes})
+        mapped = mapped && ::mmap(copy, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, file,
+                                  0) != MAP_FAILED;
+    ::close(file);
+    return mapped;
+}
+
 } // namespace
 
 void SampleRing::Unmap::operator()(Sample* places) const {
@@ -27,16 +47,11 @@ void SampleRing::Unmap::operator()(Sample* places) const {
 }
 
 std::unique_ptr<Sample[], SampleRing::Unmap> SampleRing::mapped_twice(std::size_t bytes) {
-    // No file: memory must not depend on how long a file may be, as a full disk is tried with.
     void* const place = ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (place == MAP_FAILED) throw std::bad_alloc{};
     std::unique_ptr<Sample[], Unmap> places{static_cast<Sample*>(place), Unmap{bytes}};
-    constexpr int shared = MAP_SHARED | MAP_ANONYMOUS | MAP_FIXED;
-    // mremap(2): of a length of 0, pages that are shared are seen at the new place as well.
-    const bool mapped = ::mmap(place, bytes, PROT_READ | PROT_WRITE, shared, -1, 0) != MAP_FAILED &&
-                        ::mremap(place, 0, bytes, MREMAP_MAYMOVE | MREMAP_FIXED,
-                                 static_cast<std::byte*>(place) + bytes) != MAP_FAILED;
-    if (!mapped) throw std::bad_alloc{};
+    auto* const first = static_cast<std::byte*>(place);
+    if (!map_memory_twice(first, bytes) && !map_file_twice(first, bytes)) throw std::bad_alloc{};
     return places;
 }
 
