@@ -2,6 +2,7 @@
 
 #include <new>
 #include <sys/mman.h>
+#include <sys/shm.h>
 #include <type_traits>
 #include <unistd.h>
 
@@ -29,14 +30,13 @@ bool map_memory_twice(std::byte* place, std::size_t bytes) {
 }
 
 /// Where the kernel's calls are emulated (qemu-user), mremap refuses a length of 0.
-bool map_file_twice(std::byte* place, std::size_t bytes) {
-    const int file = ::memfd_create("axiscal-samples", MFD_CLOEXEC);
-    if (file < 0) return false;
-    bool mapped = ::ftruncate(file, static_cast<off_t>(bytes)) == 0;
+bool map_segment_twice(std::byte* place, std::size_t bytes) {
+    const int segment = ::shmget(IPC_PRIVATE, bytes, IPC_CREAT | 0600);
+    if (segment < 0) return false;
+    bool mapped = true;
     for (std::byte* const copy : {place, place + bytes})
-        mapped = mapped && ::mmap(copy, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, file,
-                                  0) != MAP_FAILED;
-    ::close(file);
+        mapped = mapped && ::shmat(segment, copy, SHM_REMAP) == copy;
+    ::shmctl(segment, IPC_RMID, nullptr); // gone with its last mapping
     return mapped;
 }
 
@@ -51,7 +51,7 @@ std::unique_ptr<Sample[], SampleRing::Unmap> SampleRing::mapped_twice(std::size_
     if (place == MAP_FAILED) throw std::bad_alloc{};
     std::unique_ptr<Sample[], Unmap> places{static_cast<Sample*>(place), Unmap{bytes}};
     auto* const first = static_cast<std::byte*>(place);
-    if (!map_memory_twice(first, bytes) && !map_file_twice(first, bytes)) throw std::bad_alloc{};
+    if (!map_memory_twice(first, bytes) && !map_segment_twice(first, bytes)) throw std::bad_alloc{};
     return places;
 }
 
