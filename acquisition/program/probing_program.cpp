@@ -1,5 +1,5 @@
 // Source: LinuxCNC 2.9 G-code reference: G38.2 (stops with an error when nothing is touched, #5061
-// to #5063 hold the touched point in the current coordinate system), G10 L2, (LOGOPEN,), (LOG,).
+// to #5063 hold the touched point in the current coordinate system, #5070 is 1 where it touched), G10 L2, (LOGOPEN,), (LOG,).
 // (PROBEOPEN) will not do: it leaves out a touch that was latched where the one before was.
 #include "acquisition/program/probing_program.hpp"
 
@@ -75,8 +75,20 @@ private:
         line("(axiscal probing " + probing_id(plan_) + ")");
         line("(rough zero of G54 first: X0 Y0 Z0 at the corner where the three faces meet, tip of "
              "the probe)");
+        touched();
         line("G21 G90 G94 G17 G61 G40 G49 G80 G54");
         above();
+    }
+    /// LinuxCNC up to 2.9 may read on while the probe still moves (its issue 3650): what stands in
+    /// #5061 to #5063 is then of an earlier touch, and a zero set by it drives into the block.
+    /// #5070 is cleared before each G38.2 and 1 once the probe has spoken.
+    void touched() {
+        line("o<touched> sub");
+        line("o<early> if [#5070 EQ 0]");
+        line("(MSG,LinuxCNC read on before the probe had spoken, its issue 3650. Start again)");
+        line("M2");
+        line("o<early> endif");
+        line("o<touched> endsub");
     }
     void above() { go(2, plan_.clear_mm); }
     /// Opposite the point of its face, `distance_mm` from it; round the block's upper side.
@@ -91,6 +103,7 @@ private:
         line("G4 P" + decimal(settle_s, 1));
         line("G38.2 " + coordinate_word(axes[axis], -plan_.clear_mm / 2) + " F" +
              decimal(plan_.feed_mm_per_min, 4));
+        line("o<touched> call");
     }
     void logged_touch(std::size_t axis, const char* kind, double from_mm) {
         touch(axis, from_mm);

@@ -19,6 +19,8 @@ TICK_MS = 1  # SERVO_PERIOD of probe.ini.in
 TICK_MM = FEED_MM_PER_MIN / 60000 * TICK_MS
 TOUCHES = 14
 DELAYS = 16  # of the probe of probe.hal
+STARTS = 4
+READ_ON = ("Queue is not empty after probing", "LinuxCNC read on before the probe had spoken")
 
 
 def pattern(shape):
@@ -44,7 +46,7 @@ def choose_delays(program):
     lines = program.read_text().splitlines()
     for i, line in enumerate(lines):
         if line.startswith("G38.2"):
-            logged = lines[i + 1] if i + 1 < len(lines) else ""
+            logged = next(after for after in lines[i + 1:] if not after.startswith("o<touched>"))
             number = number + 1 if " touch " in logged else 0
             text.append(f"M68 E0 Q{max(number - 1, 0)}")
         text.append(line)
@@ -52,11 +54,25 @@ def choose_delays(program):
 
 
 def run_cnc(bench, program, block):
+    """Its exit and its words (events)."""
     cnc = bench.start(bench.source / "tools/linuxcnc/run_linuxcnc.sh", "--program", program,
                       "--block", block, "--scratch", bench.scratch)
     code = cnc.wait(OTHERS_LIMIT_S + RUN_LIMIT_S)
     bench.running.remove(cnc)
-    assert code == 0, f"LinuxCNC ended with {code}"
+    return code, (bench.scratch / "cnc.events").read_text()
+
+
+def run_until_it_waits_for_its_probe(bench, program, block):
+    """LinuxCNC up to 2.9 may read on while its probe still moves (its issue 3650; a thread that is
+    held up for a moment is enough). It either stops by itself or our program stops it: both say so,
+    and the technician starts the program again, as docs/probing.md says. So do we, and for nothing else."""
+    for _ in range(STARTS):
+        code, words = run_cnc(bench, program, block)
+        if not any(early in words for early in READ_ON):
+            break
+        print("LinuxCNC read on before its probe had spoken; started again", flush=True)
+    assert code == 0 and "ended" in words, f"LinuxCNC ended with {code}: {words}"
+    assert not any(early in words for early in READ_ON), f"{STARTS} times: {words}"
 
 
 def probing(bench):
@@ -66,7 +82,7 @@ def probing(bench):
     bench.axiscal("probing", "program", "--program", program, "--log", log.name, "--feed", FEED_MM_PER_MIN,
                   "--touches", TOUCHES, "--references", "3")
     choose_delays(program)
-    run_cnc(bench, program, write_block(bench, delays))
+    run_until_it_waits_for_its_probe(bench, program, write_block(bench, delays))
     shown = json.loads(bench.axiscal(
         "probing", "record", "--program", program, "--log", log, "--config", bench.write_station(),
         "--out", bench.scratch, "--probe", "simulated", "--json"))

@@ -50,6 +50,22 @@ TEST(ProbingProgram, TouchesFromGrowingDistances) {
     EXPECT_EQ(starts[16], "G1 X2.0160 F1000.0");
 }
 
+// LinuxCNC, issue 3650: its read-ahead may take the values of an earlier touch.
+TEST(ProbingProgram, TakesNoValueBeforeTheProbeHasSpoken) {
+    const auto lines = lines_of(write_probing_linuxcnc({}, "probe.txt").value());
+    int touches = 0;
+    for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+        if (!lines[i].starts_with("G38.2")) continue;
+        ++touches;
+        EXPECT_EQ(lines[i + 1], "o<touched> call") << lines[i];
+    }
+    EXPECT_EQ(touches, 3 + 3 * 16);
+    const auto asked = std::find(lines.begin(), lines.end(), "o<early> if [#5070 EQ 0]");
+    ASSERT_NE(asked, lines.end());
+    EXPECT_EQ(*(asked - 1), "o<touched> sub");
+    EXPECT_EQ(*(asked + 2), "M2");
+}
+
 TEST(ProbingProgram, IsReadBackFromItsFirstLine) {
     ProbingPlan plan;
     plan.feed_mm_per_min = 123.5, plan.first_mm = 1.25, plan.step_mm = 0.0031;
