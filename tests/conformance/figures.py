@@ -2,8 +2,11 @@
 """Every figure that must be the same, bit by bit, wherever the program was compiled: of the conformance kit, of run files of
 each kind, and the truth of the demo's machine.
 
-figures.py PROGRAMS SOURCE OUT.json    PROGRAMS: folder of axiscal and axiscal-simulate
+figures.py PROGRAMS SOURCE OUT.json              PROGRAMS: folder of axiscal and axiscal-simulate
+figures.py PROGRAMS SOURCE --baseline KEPT.json  a hash of each part, to be kept
+figures.py PROGRAMS SOURCE --against KEPT.json   exit 1, and each part named, where a bit is another
 """
+import hashlib
 import json
 import os
 import subprocess
@@ -11,7 +14,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-PROGRAMS, SOURCE, OUT = (Path(word).resolve() for word in sys.argv[1:4])
+ORDER = sys.argv[3] if len(sys.argv) == 5 else ""
+if ORDER not in ("", "--baseline", "--against") or len(sys.argv) not in (4, 5):
+    sys.exit(__doc__)
+PROGRAMS, SOURCE, OUT = (Path(word).resolve() for word in (*sys.argv[1:3], sys.argv[-1]))
 sys.argv[1:] = [str(PROGRAMS / "axiscal"), str(SOURCE)]
 sys.path.append(str(SOURCE / "tests/cli"))
 import measured_files
@@ -36,6 +42,22 @@ def runs():
     yield "circular", measured_files.circular(RUN)
 
 
+def hashes(figures):
+    """Of each case of the kit and of each section of a run's result, by its name."""
+    parts = {f"kit: {case['id']}": case["figures"] for case in figures["conformance"]}
+    for name, result in figures.items():
+        if name != "conformance":
+            parts |= {f"{name}: {section}": value for section, value in result.items()}
+    return {name: hashlib.sha256(json.dumps(part, sort_keys=True).encode()).hexdigest()[:16] for name, part in parts.items()}
+
+
+def compared(found, kept):
+    """What is another than what was kept, a line each."""
+    changed = [name for name in kept if name in found and found[name] != kept[name]]
+    return ([f"another bit in '{name}'" for name in changed] + [f"'{name}' is missing" for name in kept if name not in found]
+            + [f"'{name}' is new" for name in found if name not in kept])
+
+
 def main():
     kit = run("axiscal", "conformance", "--json", "--cases", SOURCE / "tests/reference/conformance")
     figures = {"conformance": kit["cases"], "fifty points": run("axiscal", "analyze", RUN)}
@@ -44,12 +66,21 @@ def main():
             path = os.path.join(folder, "run.axiscal")
             run_files.write(path, str(SOURCE), rows)
             figures[name] = run("axiscal", "analyze", path)
-            del figures[name]["run"]["run_file_sha256"]  # SQLite's own bytes differ from version to version
             os.unlink(path)
     figures["truth of the demo"] = run("axiscal-simulate", "truth", "--scenario",
                                        SOURCE / "tools/axiscal-simulate/scenarios/demo.toml", "--targets", "34,130,226,514,994",
                                        "--approaches", "5")
-    OUT.write_text(json.dumps(figures, indent=1, sort_keys=True) + "\n")
+    for name in figures.keys() - {"conformance", "truth of the demo"}:
+        # SQLite's own bytes differ from version to version, and a release changes no figure.
+        figures[name]["run"].pop("run_file_sha256", None)
+        figures[name]["run"].pop("software_version")
+    if ORDER == "--against":
+        found = compared(hashes(figures), json.loads(OUT.read_text()))
+        if found:
+            sys.exit("\n".join(found) + f"\nWhere that is meant, say why and keep the new ones: figures.py … --baseline {OUT}")
+    else:
+        kept = hashes(figures) if ORDER else figures
+        OUT.write_text(json.dumps(kept, indent=1, sort_keys=True) + "\n")
     print(f"{sum(len(case['figures']) for case in kit['cases'])} figures of the kit, {len(figures) - 2} run files, {OUT}")
 
 
