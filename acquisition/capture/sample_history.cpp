@@ -11,9 +11,8 @@ void SampleHistory::push(const Sample& sample) {
             ++disordered_;
             return;
         }
-        if (sample.epoch != last.epoch)
-            epoch_changed_at_ = sample.at;
-        else if (last.device_count != 0 && sample.device_count > last.device_count + 1)
+        if (sample.epoch == last.epoch && last.device_count != 0 &&
+            sample.device_count > last.device_count + 1)
             ++gaps_;
     }
     if (!began_at_) began_at_ = sample.at;

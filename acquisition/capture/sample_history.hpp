@@ -46,10 +46,6 @@ public:
     [[nodiscard]] std::uint64_t disordered() const { return disordered_; }
     /// Places where the instrument's own numbering left out samples.
     [[nodiscard]] std::uint64_t gaps() const { return gaps_; }
-    /// The first sample of the newest epoch, if the epoch ever changed.
-    [[nodiscard]] std::optional<MonotonicTime> epoch_changed_at() const {
-        return epoch_changed_at_;
-    }
 
 private:
     void forget_old(MonotonicTime oldest_wanted);
@@ -60,7 +56,7 @@ private:
     SummaryLevels summaries_;
     std::size_t forgotten_ = 0; ///< samples before the first of all()
     std::uint64_t disordered_ = 0, gaps_ = 0;
-    std::optional<MonotonicTime> epoch_changed_at_, newest_forgotten_, began_at_;
+    std::optional<MonotonicTime> newest_forgotten_, began_at_;
 };
 
 /// Longest time without a sample inside [begin, end], its ends included. Empty: the whole span.

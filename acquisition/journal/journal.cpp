@@ -244,15 +244,6 @@ Task<Result<void>> Journal::close(bool complete, std::string reason) {
     co_return co_await perform<Worker, void>(worker, std::move(work));
 }
 
-Task<Result<void>> Journal::store(std::string path, StoredResult result) {
-    auto shared = std::make_shared<const StoredResult>(std::move(result));
-    Worker* worker = worker_.get();
-    std::function<Result<void>()> work = [worker, path, shared] {
-        return store_result(path, *shared, worker->key.get());
-    };
-    co_return co_await perform<Worker, void>(worker, std::move(work));
-}
-
 std::optional<Error> Journal::failure() const {
     return worker_->known_failure();
 }

@@ -24,7 +24,6 @@ class RunFileWriter;
 struct RunFileContents;
 struct RunSummary;
 struct StoredDrift;
-struct StoredResult;
 struct StoredRuns;
 struct WantedDrift;
 
@@ -122,8 +121,6 @@ public:
 
     /// Ends the run: one single file, synced. The journal can then open another.
     Task<Result<void>> close(bool complete, std::string reason);
-    /// Adds a result to a closed run file, off the loop.
-    Task<Result<void>> store(std::string path, StoredResult result);
 
     /// Why nothing can be made durable any more, if so.
     [[nodiscard]] std::optional<Error> failure() const;

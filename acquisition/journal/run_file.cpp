@@ -268,32 +268,10 @@ Result<void> RunFileWriter::write(const RunBatch& batch) {
     return transact(rows);
 }
 
-Result<void> RunFileWriter::append_point(PointRecord point) {
-    RunBatch batch;
-    batch.point = std::move(point);
-    return write(batch);
-}
-
-Result<void> RunFileWriter::append_datum(DatumRecord datum) {
-    RunBatch batch;
-    batch.datum = std::move(datum);
-    return write(batch);
-}
-
-Result<void> RunFileWriter::append_event(EventRecord event) {
-    RunBatch batch;
-    batch.events.push_back(std::move(event));
-    return write(batch);
-}
-
-Result<void> RunFileWriter::append_environment(std::span<const EnvironmentReading> readings) {
-    RunBatch batch;
-    batch.environment.assign(readings.begin(), readings.end());
-    return write(batch);
-}
-
 Result<void> RunFileWriter::append_note(std::string text, MonotonicTime at, std::int64_t utc_ns) {
-    return append_event({EventKind::note, at, utc_ns, std::move(text), Fault::none, 0});
+    RunBatch batch;
+    batch.events.push_back({EventKind::note, at, utc_ns, std::move(text), Fault::none, 0});
+    return write(batch);
 }
 
 namespace {

@@ -75,10 +75,6 @@ public:
     /// environment, events, datum, point; the last two with their synchronisation. @errors
     /// Fault::refused, unwritten, for the first three in a file of a format before 3.
     Result<void> write(const RunBatch& batch);
-    Result<void> append_point(PointRecord point);
-    Result<void> append_datum(DatumRecord datum);
-    Result<void> append_event(EventRecord event);
-    Result<void> append_environment(std::span<const EnvironmentReading> readings);
     /// A sentence that a person should find in the file.
     Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);
 
@@ -206,8 +202,6 @@ struct WantedDrift {
 Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wanted);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
 std::vector<RunSummary> list_run_files(const std::string& folder);
-/// Paths of those that are still open, to be resumed or closed.
-std::vector<std::string> open_run_files(const std::string& folder);
 /// Brings back to one file what a power cut left between closing row and tidying; sweeps files
 /// that were never finished. For the station's start, before any run is open.
 Result<void> tidy_run_files(const std::string& folder);

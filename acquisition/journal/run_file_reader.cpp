@@ -438,11 +438,4 @@ Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wan
                        metre(*place_m)};
 }
 
-std::vector<std::string> open_run_files(const std::string& folder) {
-    std::vector<std::string> paths;
-    for (const auto& summary : list_run_files(folder))
-        if (!summary.closed) paths.push_back(summary.path);
-    return paths;
-}
-
 } // namespace axiscal

@@ -126,9 +126,4 @@ Result<CircularRun> circular_run_of(const RunFileContents& contents) {
     return circular;
 }
 
-Result<CircularRun> read_circular_run(const std::string& run_file) {
-    AXISCAL_TRY(const RunFileContents contents, read_run_file_contents(run_file));
-    return circular_run_of(contents);
-}
-
 } // namespace axiscal

@@ -12,12 +12,9 @@ namespace axiscal {
 /// The run file holds a circular test; its chain is not looked at. @errors as summarize_run_file.
 Result<bool> is_circular_run(const std::string& run_file);
 
-/// Reads and verifies the file and cuts its circles. Temperatures are means over the time from the
+/// Cuts the circles of a run file that was read. Temperatures are means over the time from the
 /// first evaluated circle to the last.
-/// @errors Fault::bad_run_file, Fault::not_found; Fault::refused for a run that is no circular
-/// test; Fault::incomplete_run as cut_circles.
-Result<CircularRun> read_circular_run(const std::string& run_file);
-/// The same from what was read already.
+/// @errors Fault::refused for a run that is no circular test; Fault::incomplete_run as cut_circles.
 Result<CircularRun> circular_run_of(const RunFileContents& contents);
 
 } // namespace axiscal

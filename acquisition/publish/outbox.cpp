@@ -210,15 +210,6 @@ Result<std::string> finish_entry(const std::string& outbox, const std::string& r
     return folder;
 }
 
-Result<std::string> stage_entry(const std::string& outbox,
-                                const std::string& run_id,
-                                const std::vector<OutboxFile>& files) {
-    AXISCAL_TRY(const auto staging, begin_entry(outbox, run_id));
-    for (const auto& [name, content] : files)
-        AXISCAL_CHECK(write_synced((fs::path{staging} / name).string(), content));
-    return finish_entry(outbox, run_id);
-}
-
 Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run_id) {
     OutboxEntry entry{run_id, outbox + "/" + run_id, {}, false};
     std::error_code error;
@@ -242,16 +233,6 @@ std::vector<std::string> entry_names(const std::string& outbox) {
     }
     std::ranges::sort(names);
     return names;
-}
-
-std::vector<OutboxEntry> list_entries(const std::string& outbox) {
-    std::vector<OutboxEntry> entries;
-    for (const auto& name : entry_names(outbox)) {
-        auto entry = read_entry(outbox, name);
-        entries.push_back(entry ? *std::move(entry)
-                                : OutboxEntry{name, (fs::path{outbox} / name).string(), {}, false});
-    }
-    return entries;
 }
 
 Result<std::string> archive_entry(const OutboxEntry& entry,

@@ -30,18 +30,8 @@ Result<std::string> begin_entry(const std::string& outbox, const std::string& ru
 /// @errors Fault::refused when an entry of that name waits already; Fault::io.
 Result<std::string> finish_entry(const std::string& outbox, const std::string& run_id);
 
-struct OutboxFile {
-    std::string name, content;
-};
-/// Both in one for results that are in memory.
-Result<std::string> stage_entry(const std::string& outbox,
-                                const std::string& run_id,
-                                const std::vector<OutboxFile>& files);
-
 /// Names of the waiting entries, sorted. Empty when there is no outbox yet.
 std::vector<std::string> entry_names(const std::string& outbox);
-/// Waiting entries by name, each read; what cannot be read has no files.
-std::vector<OutboxEntry> list_entries(const std::string& outbox);
 /// @errors Fault::not_found when that entry is gone; Fault::refused for what is no plain file.
 Result<OutboxEntry> read_entry(const std::string& outbox, const std::string& run_id);
 

@@ -24,7 +24,7 @@ struct Issue {
 Result<Certificate> certificate_of_run_file(const std::string& run_file);
 
 /// The same of a circular test: its circles are cut out of the stream anew.
-/// @errors as above; those of read_circular_run() and evaluate_measurement().
+/// @errors as above; those of read_run_file_contents(), circular_run_of() and evaluate_measurement().
 Result<CircularCertificate> circular_certificate_of_run_file(const std::string& run_file);
 
 /// The first evaluation: stores digest and result document in the closed run file, once.

@@ -75,10 +75,6 @@ Parsed parse_read_write(std::span<const std::uint8_t> pdu) {
 bool ModbusRequest::writes_coils() const {
     return function == write_coil || function == write_coils;
 }
-bool ModbusRequest::writes_registers() const {
-    return function == write_register || function == write_registers ||
-           function == read_write_registers;
-}
 
 Parsed parse_modbus_request(std::span<const std::uint8_t> pdu) {
     if (pdu.empty()) return wrong_value();

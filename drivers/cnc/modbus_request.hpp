@@ -32,7 +32,6 @@ struct ModbusRequest {
         values; ///< registers, or coils as 0 and 1; empty: nothing is written
 
     [[nodiscard]] bool writes_coils() const;
-    [[nodiscard]] bool writes_registers() const;
 };
 
 /// @param pdu  function code and data, without address, header or checksum

@@ -21,10 +21,4 @@ std::unique_ptr<TriggerPort> make_trigger_port(const TriggerConfig& config) {
     return std::make_unique<ModbusTcpPort>(std::move(map), config, ClientPatience{});
 }
 
-std::optional<int> bound_tcp_port(const TriggerPort& port) {
-    const auto* listening = dynamic_cast<const ModbusTcpPort*>(&port);
-    if (!listening || listening->bound_port() == 0) return std::nullopt;
-    return listening->bound_port();
-}
-
 } // namespace axiscal

@@ -5,6 +5,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/journal/run_file_verify.hpp"
 #include "tests/fuzz/judge.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <algorithm>
@@ -27,9 +28,9 @@ public:
         testing::RandomRun random{20};
         auto writer = RunFileWriter::create(path, random.header());
         fuzz::require(writer.has_value(), "the good file can be made");
-        fuzz::require(writer->append_datum(random.datum()).has_value(), "a datum is written");
+        fuzz::require(testing::append(*writer, random.datum()).has_value(), "a datum is written");
         for (int step = 0; step < 3; ++step)
-            fuzz::require(writer->append_point(random.point(step)).has_value(), "a point, too");
+            fuzz::require(testing::append(*writer, random.point(step)).has_value(), "a point, too");
         fuzz::require(writer->close(true, "done", random.tie()).has_value(), "it can be closed");
         std::ifstream file{path, std::ios::binary};
         good_.assign(std::istreambuf_iterator<char>{file}, {});

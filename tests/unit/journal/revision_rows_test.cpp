@@ -5,12 +5,15 @@
 #include "acquisition/journal/run_file_verify.hpp"
 #include "acquisition/journal/statement.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/one_row.hpp"
 
 #include <gtest/gtest.h>
 
 namespace axiscal::revision_rows_test {
 namespace {
 
+using testing::append;
+using testing::open_run_files;
 using testing::RandomRun;
 using testing::ScratchFolder;
 
@@ -30,7 +33,7 @@ std::vector<PointRecord> closed_run(const std::string& path, RandomRun& random) 
     std::vector<PointRecord> points;
     for (int step = 0; step < 4; ++step) {
         points.push_back(random.point(step));
-        EXPECT_TRUE(writer.append_point(points.back()));
+        EXPECT_TRUE(append(writer, points.back()));
     }
     EXPECT_TRUE(writer.close(true, "done", random.tie()));
     return points;
@@ -52,7 +55,7 @@ TEST(RevisionRows, AReplacedReadingStaysInTheFileBesideTheNewOne) {
     EXPECT_FALSE(summarize_run_file(path)->closed);
     EXPECT_EQ(open_run_files(scratch.path()).size(), 1U);
     const auto fresh = again(random, points[2], 4);
-    ASSERT_TRUE(writer->append_point(fresh));
+    ASSERT_TRUE(append(*writer, fresh));
     ASSERT_TRUE(writer->close(true, "again", random.tie()));
     const auto read = read_run_file_contents(path);
     ASSERT_TRUE(read) << describe(read.error());
@@ -112,8 +115,8 @@ TEST(RevisionRows, AReadingThatNobodyOrderedIsRefused) {
     RandomRun random{34};
     auto writer = RunFileWriter::create(path, random.header()).value();
     const auto first = random.point(0);
-    ASSERT_TRUE(writer.append_point(first));
-    ASSERT_TRUE(writer.append_point(again(random, first, 7)));
+    ASSERT_TRUE(append(writer, first));
+    ASSERT_TRUE(append(writer, again(random, first, 7)));
     const auto read = read_run_file(path);
     ASSERT_FALSE(read);
     EXPECT_NE(read.error().detail.find("no retake asked for it"), std::string::npos);

@@ -3,6 +3,7 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
 #include "tests/unit/journal/older_format.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"
 #include "tests/unit/journal/written_run.hpp"
 
@@ -13,6 +14,7 @@
 namespace axiscal::run_file_formats_test {
 namespace {
 
+using testing::append;
 using testing::drop_format_4;
 using testing::drop_format_5;
 using testing::RandomRun;
@@ -77,7 +79,7 @@ TEST(RunFile, OfFormat1GoesOnAndIsClosedAsFormat1) {
     auto writer = RunFileWriter::reopen(path);
     ASSERT_TRUE(writer) << describe(writer.error());
     run.points.push_back(random.point(0));
-    ASSERT_TRUE(writer->append_point(run.points.back()));
+    ASSERT_TRUE(append(*writer, run.points.back()));
     run.complete = true, run.closing_reason = "done", run.closed = random.tie();
     ASSERT_TRUE(writer->close(true, "done", run.closed));
     EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\1", 4}));
@@ -112,7 +114,7 @@ TEST(RunFile, OfFormat5KeepsTheSamplesOfItsPointsAsTheyAre) {
     auto writer = RunFileWriter::reopen(path);
     ASSERT_TRUE(writer) << describe(writer.error());
     run.points.push_back(random.point(0));
-    ASSERT_TRUE(writer->append_point(run.points.back()));
+    ASSERT_TRUE(append(*writer, run.points.back()));
     run.complete = true, run.closing_reason = "done", run.closed = random.tie();
     ASSERT_TRUE(writer->close(true, "done", run.closed));
     EXPECT_EQ(read_bytes(path).substr(60, 4), (std::string{"\0\0\0\5", 4}));

@@ -5,6 +5,7 @@
 #include "acquisition/journal/run_store.hpp"
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>
@@ -24,6 +25,7 @@
 namespace axiscal::run_file_readers_test {
 namespace {
 
+using testing::append;
 using testing::RandomRun;
 using testing::ScratchFolder;
 
@@ -71,7 +73,7 @@ class RunFileThatIsRead : public ::testing::Test {
 protected:
     RunFileWriter begin() {
         RunFileWriter writer = RunFileWriter::create(path, random.header()).value();
-        EXPECT_TRUE(writer.append_point(random.point(0)));
+        EXPECT_TRUE(append(writer, random.point(0)));
         return writer;
     }
     Result<void> close(RunFileWriter& writer) { return writer.close(true, "done", random.tie()); }

@@ -1,6 +1,7 @@
 #include "acquisition/journal/run_file.hpp"
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"
 #include "tests/unit/journal/written_run.hpp"
 
@@ -16,6 +17,8 @@
 namespace axiscal::run_file_test {
 namespace {
 
+using testing::append;
+using testing::open_run_files;
 using testing::RandomRun;
 using testing::read_bytes;
 using testing::run_sql;
@@ -100,7 +103,7 @@ TEST(RunFile, CanBeReadWhileItIsOpen) {
     RandomRun random{3};
     const auto path = scratch.file("r.axiscal");
     auto writer = RunFileWriter::create(path, random.header()).value();
-    ASSERT_TRUE(writer.append_point(random.point(0)));
+    ASSERT_TRUE(append(writer, random.point(0)));
     const auto read = read_run_file_contents(path);
     ASSERT_TRUE(read) << describe(read.error());
     EXPECT_FALSE(read->closed);
@@ -117,7 +120,7 @@ TEST(RunFile, GoesOnAfterReopening) {
     EXPECT_EQ(writer->sequence_of_point(3).value(), written.points[3].sequence);
     EXPECT_EQ(writer->sequence_of_point(4).value(), std::nullopt);
     written.points.push_back(random.point(4));
-    ASSERT_TRUE(writer->append_point(written.points.back()));
+    ASSERT_TRUE(append(*writer, written.points.back()));
     EXPECT_TRUE(same_bits(written, read_run_file(path).value()));
 }
 
@@ -127,7 +130,7 @@ TEST(RunFile, TakesNothingAfterClosing) {
     const auto path = scratch.file("r.axiscal");
     auto writer = RunFileWriter::create(path, random.header()).value();
     ASSERT_TRUE(writer.close(false, "aborted", random.tie()));
-    EXPECT_EQ(writer.append_point(random.point(0)).error().fault, Fault::refused);
+    EXPECT_EQ(append(writer, random.point(0)).error().fault, Fault::refused);
     EXPECT_EQ(RunFileWriter::reopen(path).error().fault, Fault::refused);
 }
 
@@ -138,18 +141,18 @@ TEST(RunFile, RefusesANumberThatIsNone) {
     auto in_field = random.point(0), in_sample = random.point(0);
     in_field.reading = metre(std::numeric_limits<double>::quiet_NaN());
     in_sample.samples = {{MonotonicTime{}, std::numeric_limits<double>::infinity(), 0}};
-    EXPECT_EQ(writer.append_point(in_field).error().fault, Fault::internal);
-    EXPECT_EQ(writer.append_point(in_sample).error().fault, Fault::internal);
-    EXPECT_TRUE(writer.append_point(random.point(0)));
+    EXPECT_EQ(append(writer, in_field).error().fault, Fault::internal);
+    EXPECT_EQ(append(writer, in_sample).error().fault, Fault::internal);
+    EXPECT_TRUE(append(writer, random.point(0)));
 }
 
 TEST(RunFile, TakesEachStepOnce) {
     const ScratchFolder scratch;
     RandomRun random{8};
     auto writer = RunFileWriter::create(scratch.file("r.axiscal"), random.header()).value();
-    ASSERT_TRUE(writer.append_point(random.point(0)));
-    EXPECT_EQ(writer.append_point(random.point(0)).error().fault, Fault::not_durable);
-    EXPECT_EQ(writer.append_point(random.point(1)).error().fault, Fault::not_durable);
+    ASSERT_TRUE(append(writer, random.point(0)));
+    EXPECT_EQ(append(writer, random.point(0)).error().fault, Fault::not_durable);
+    EXPECT_EQ(append(writer, random.point(1)).error().fault, Fault::not_durable);
 }
 
 TEST(RunFile, BringsBackWhatStandsBesideTheRun) {

@@ -4,6 +4,7 @@
 
 #include "tests/support/opening_count.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,8 @@
 namespace axiscal::run_store_test {
 namespace {
 
+using testing::append;
+using testing::open_run_files;
 using testing::OpeningCount;
 using testing::RandomRun;
 using testing::read_bytes;
@@ -37,7 +40,7 @@ protected:
     }
     void store(const std::string& name, std::int64_t opened_utc_ns = noon_utc_ns) {
         RunFileWriter writer = begin(name, opened_utc_ns);
-        EXPECT_TRUE(writer.append_point(random.point(0)));
+        EXPECT_TRUE(append(writer, random.point(0)));
         EXPECT_TRUE(writer.close(true, "done", random.tie()));
     }
     /// Opened in this boot so many seconds after its start, when the clock said that many after
@@ -103,7 +106,7 @@ TEST_F(RunStore, OfAThousandClosedRunsOnlyTheNewestIsOpened) {
 TEST_F(RunStore, ARunIsFoundOpenWhileItIsWritten) {
     RunFileWriter writer = begin("r.axiscal");
     expect_found_open("r.axiscal");
-    ASSERT_TRUE(writer.append_point(random.point(0)));
+    ASSERT_TRUE(append(writer, random.point(0)));
     expect_found_open("r.axiscal");
 }
 
@@ -111,7 +114,7 @@ TEST_F(RunStore, ARunIsFoundOpenWhileItIsWritten) {
 TEST_F(RunStore, ARunIsFoundOpenAfterADaemonThatEndedInOrder) {
     {
         RunFileWriter writer = begin("r.axiscal");
-        ASSERT_TRUE(writer.append_point(random.point(0)));
+        ASSERT_TRUE(append(writer, random.point(0)));
     }
     EXPECT_FALSE(std::filesystem::exists(scratch.file("r.axiscal-wal")));
     EXPECT_EQ(head("r.axiscal", 18), 2);

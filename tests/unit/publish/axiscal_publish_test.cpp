@@ -3,6 +3,7 @@
 #include "acquisition/publish/outbox.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/source_dir.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ namespace {
 
 using testing::read_bytes;
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 class Program {
@@ -118,7 +120,7 @@ TEST(AxiscalPublish, TellsWithOnceThatSomethingStillWaits) {
     std::filesystem::create_directory(site.destination);
     Program there{site.words({"--once"})};
     EXPECT_EQ(there.exit_code(), 0);
-    EXPECT_TRUE(list_entries(site.outbox).empty());
+    EXPECT_TRUE(entry_names(site.outbox).empty());
 }
 
 TEST(AxiscalPublish, KeepsTheEntryWhileTheDestinationIsReadOnly) {
@@ -133,7 +135,7 @@ TEST(AxiscalPublish, KeepsTheEntryWhileTheDestinationIsReadOnly) {
     EXPECT_EQ(line["event"], "waiting");
     EXPECT_NE(line["reason"].get<std::string>().find(site.destination), std::string::npos);
     EXPECT_EQ(program.exit_code(), 1);
-    EXPECT_EQ(list_entries(site.outbox).size(), 1U);
+    EXPECT_EQ(entry_names(site.outbox).size(), 1U);
 }
 
 TEST(AxiscalPublish, ReadsDestinationAndStateFromTheStationFile) {

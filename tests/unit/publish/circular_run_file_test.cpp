@@ -19,7 +19,7 @@ TEST(CircularRunFile, TheInjectedErrorsComeBackOfTheFile) {
     const StreamSamples stream = bar.drive();
     const std::string path = write_circles(scratch, bar, stream);
     EXPECT_TRUE(is_circular_run(path).value());
-    const auto run = read_circular_run(path);
+    const auto run = circular_run_of(read_run_file_contents(path).value());
     ASSERT_TRUE(run) << run.error().detail;
     EXPECT_TRUE(run->complete);
     EXPECT_EQ(run->bar.instrument.serial, "QB-7");
@@ -50,7 +50,7 @@ TEST(CircularRunFile, ARunWithoutCirclesIsRefused) {
     header.plan.pass = "whole";
     ASSERT_TRUE(RunFileWriter::create(path, header));
     EXPECT_FALSE(is_circular_run(path).value());
-    const auto run = read_circular_run(path);
+    const auto run = circular_run_of(read_run_file_contents(path).value());
     ASSERT_FALSE(run);
     EXPECT_EQ(run.error().fault, Fault::refused);
 }

@@ -6,6 +6,7 @@
 #include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/run_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/journal/one_row.hpp"
 
 #include <gtest/gtest.h>
 
@@ -186,7 +187,7 @@ TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
     RunAttachments beside;
     beside.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}};
     auto writer = RunFileWriter::create(path, run, beside).value();
-    ASSERT_TRUE(writer.append_environment(run.environment));
+    ASSERT_TRUE(testing::append(writer, run.environment));
     ASSERT_TRUE(writer.close(true, "The test is over.", {}));
     EXPECT_EQ(summarize_run_file(path)->bar, "gauge/gauge \"A\"");
     ASSERT_TRUE(seal_drift(path));

@@ -3,6 +3,7 @@
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@ namespace axiscal::mount_points_test {
 namespace {
 
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 /// A PC whose files of the system say what a test writes. Its disk is device 8:1, mounted at "/".

@@ -5,6 +5,7 @@
 #include "acquisition/publish/publisher.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/publish/denied_calls.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 using testing::DeniedCalls;
 using testing::read_bytes;
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 using Names = std::vector<std::string>;

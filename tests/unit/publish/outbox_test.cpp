@@ -2,6 +2,7 @@
 
 #include "acquisition/journal/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@ namespace {
 
 using testing::read_bytes;
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 std::string outbox_in(const ScratchFolder& scratch) {
@@ -25,13 +27,13 @@ TEST(Outbox, ShowsAnEntryOnlyOnceItIsFinished) {
     const auto staging = begin_entry(outbox_in(scratch), "run-1").value();
     write_bytes(staging + "/certificate.json", "{}");
     write_bytes(staging + "/certificate.csv", "a;b");
-    EXPECT_TRUE(list_entries(outbox_in(scratch)).empty());
+    EXPECT_TRUE(entry_names(outbox_in(scratch)).empty());
     const auto folder = finish_entry(outbox_in(scratch), "run-1").value();
-    const auto entries = list_entries(outbox_in(scratch));
-    ASSERT_EQ(entries.size(), 1U);
-    EXPECT_EQ(entries[0].run_id, "run-1");
-    EXPECT_EQ(entries[0].folder, folder);
-    EXPECT_EQ(entries[0].files, (std::vector<std::string>{"certificate.csv", "certificate.json"}));
+    ASSERT_EQ(entry_names(outbox_in(scratch)), std::vector<std::string>{"run-1"});
+    const auto entry = read_entry(outbox_in(scratch), "run-1").value();
+    EXPECT_EQ(entry.run_id, "run-1");
+    EXPECT_EQ(entry.folder, folder);
+    EXPECT_EQ(entry.files, (std::vector<std::string>{"certificate.csv", "certificate.json"}));
     EXPECT_EQ(read_bytes(folder + "/certificate.json"), "{}");
 }
 
@@ -123,7 +125,7 @@ TEST(Outbox, LetsNothingGoWithoutAReceipt) {
     EXPECT_TRUE(after.has_receipt);
     EXPECT_EQ(after.files, std::vector<std::string>{"a"});
     EXPECT_EQ(archive_entry(after).value(), scratch.file("published/run-1"));
-    EXPECT_TRUE(list_entries(outbox_in(scratch)).empty());
+    EXPECT_TRUE(entry_names(outbox_in(scratch)).empty());
 }
 
 TEST(Outbox, ArchivesASecondEntryOfTheSameNameBesideTheFirst) {

@@ -2,6 +2,7 @@
 #include "acquisition/publish/publisher.hpp"
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace axiscal::publisher_test {
 namespace {
 
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 struct Heard final : PublisherListener {
@@ -128,7 +130,7 @@ TEST(Publisher, SaysOnceThatTheDestinationIsGoneAndOnceThatItIsBack) {
         post.pass_at(second); // 16 s at most
     EXPECT_EQ(post.heard.lines, (Lines{"waiting ", "back", "published run-1"}));
     EXPECT_TRUE(std::filesystem::exists(post.scratch.file("published/run-1/receipt.json")));
-    EXPECT_TRUE(list_entries(post.outbox).empty());
+    EXPECT_TRUE(entry_names(post.outbox).empty());
 }
 
 TEST(Publisher, AsksALostShareOnceAPassHoweverManyResultsWait) {

@@ -3,6 +3,7 @@
 #include "acquisition/journal/digest.hpp"
 #include "acquisition/publish/folder_destination.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/unit/publish/staged_entry.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,8 +17,10 @@
 namespace axiscal::share_test {
 namespace {
 
+using testing::OutboxFile;
 using testing::read_bytes;
 using testing::ScratchFolder;
+using testing::stage_entry;
 using testing::write_bytes;
 
 constexpr std::int64_t published_at = 1'795'255'200'000'000'000; // 2026-11-21T10:00:00Z

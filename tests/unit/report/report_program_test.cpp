@@ -4,6 +4,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/publish/probed_block.hpp"
 
 #include <filesystem>
@@ -14,6 +15,7 @@
 namespace axiscal::report_program_test {
 namespace {
 
+using testing::append;
 using testing::read_bytes;
 using testing::ScratchFolder;
 
@@ -23,11 +25,11 @@ protected:
     write_run(RunRecord run, bool complete = true, const RunAttachments& attachments = {}) {
         const std::string path = folder_.file(run.run_id + ".axiscal");
         auto writer = RunFileWriter::create(path, run, attachments).value();
-        EXPECT_TRUE(writer.append_environment(run.environment));
+        EXPECT_TRUE(append(writer, run.environment));
         for (const DatumRecord& datum : run.datums)
-            EXPECT_TRUE(writer.append_datum(datum));
+            EXPECT_TRUE(append(writer, datum));
         for (const PointRecord& point : run.points)
-            EXPECT_TRUE(writer.append_point(point));
+            EXPECT_TRUE(append(writer, point));
         EXPECT_TRUE(writer.close(complete, complete ? "" : "aborted by the operator", run.closed));
         return path;
     }

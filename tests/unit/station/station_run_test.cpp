@@ -2,6 +2,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
+#include "tests/unit/journal/one_row.hpp"
 
 namespace axiscal::testing::station_run_test {
 namespace {
@@ -581,7 +582,7 @@ TEST_F(StationRuns, StoppingEndsThePortFirstAndLeavesTheRunOpen) {
         EXPECT_TRUE(life.port->ended);
         EXPECT_EQ(life.port->runs, 1);
     }
-    EXPECT_EQ(open_run_files(shop.scratch.file("runs")).size(), 1U);
+    EXPECT_EQ(testing::open_run_files(shop.scratch.file("runs")).size(), 1U);
     const auto run = read_run_file(shop.run_files().at(0));
     ASSERT_TRUE(run);
     EXPECT_EQ(run->events.back().kind, EventKind::interrupted);
