@@ -1,9 +1,9 @@
 #pragma once
 // Files of the kernel (sysfs) as a link: a write names the file below a folder, the next read gives
-// its text. Loop-bound; the files are read on threads of their own.
+// its text. Loop-bound; reading one may block for a second, so it is done on a thread.
 
-#include "drivers/link/blocking_files.hpp"
 #include "drivers/link/byte_link.hpp"
+#include "drivers/link/work_thread.hpp"
 
 #include <memory>
 #include <string>
@@ -18,6 +18,9 @@ class FileLinks {
 public:
     explicit FileLinks(boost::asio::any_io_executor loop)
         : loop_{std::move(loop)} {}
+    ~FileLinks();
+    FileLinks(const FileLinks&) = delete;
+    FileLinks& operator=(const FileLinks&) = delete;
 
     /// Opens nothing yet: whether a file is there is told by its reading. A text may be empty, and
     /// has 4096 bytes at most. The kernel cannot be hurried: a deadline does not end a reading.
@@ -26,7 +29,7 @@ public:
 
 private:
     struct Reader {
-        std::unique_ptr<BlockingFiles> files;
+        std::shared_ptr<WorkThread> thread;
         std::shared_ptr<bool> taken; ///< by a link, which gives it back
     };
     boost::asio::any_io_executor loop_;

@@ -7,7 +7,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
-#include <thread>
 #include <unistd.h>
 
 namespace axiscal {
@@ -38,30 +37,8 @@ void TtyPorter::forget_loop() {
     loop_ = {};
 }
 
-/// The thread lives while there is work, so that an idle line costs none.
-void TtyPorter::enqueue(std::function<void()> job) {
-    const std::lock_guard lock{mutex_};
-    jobs_.push_back(std::move(job));
-    if (working_) return;
-    working_ = true;
-    std::thread{[self = shared_from_this()] { self->work(); }}.detach();
-}
-
-void TtyPorter::work() {
-    std::unique_lock lock{mutex_};
-    while (!jobs_.empty()) {
-        auto job = std::move(jobs_.front());
-        jobs_.pop_front();
-        lock.unlock();
-        job();
-        job = {}; // what it holds goes before the next is done
-        lock.lock();
-    }
-    working_ = false;
-}
-
 void TtyPorter::close(int descriptor) {
-    enqueue([descriptor] { ::close(descriptor); });
+    thread_.post([descriptor] { ::close(descriptor); });
 }
 
 void TtyPorter::hand_over(const std::weak_ptr<Request>& request, Result<int> opened) {
@@ -89,8 +66,8 @@ Task<bool> TtyPorter::answered(std::shared_ptr<Request> request) {
 
 Task<Result<int>> TtyPorter::open(Scheduler& scheduler, TtyOpener opener, MonotonicTime deadline) {
     const auto request = std::make_shared<Request>(scheduler.executor(), shared_from_this());
-    enqueue([self = shared_from_this(), asked = std::weak_ptr{request},
-             opener = std::move(opener)] { self->hand_over(asked, opener()); });
+    thread_.post([self = shared_from_this(), asked = std::weak_ptr{request},
+                  opener = std::move(opener)] { self->hand_over(asked, opener()); });
     const auto in_time = co_await before(scheduler, answered(request), deadline);
     if (!in_time || !*in_time)
         co_return fail(Fault::link_timeout,

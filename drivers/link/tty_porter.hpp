@@ -5,9 +5,8 @@
 // fail.
 
 #include "drivers/link/byte_link.hpp"
+#include "drivers/link/work_thread.hpp"
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <mutex>
 
@@ -16,10 +15,9 @@ namespace axiscal {
 /// A descriptor, or the error of opening it. Made by whoever opens; closed where it is not wanted.
 using TtyOpener = std::function<Result<int>()>;
 
-/// One job after the other, on a thread of its own that is made with the first: what is closed is
-/// closed before the same path is opened again, so that a replugged adapter gets its old node.
-/// open() and forget_loop() are loop-bound, close() is thread-safe. The thread is detached and
-/// holds the porter: a job that hangs in the kernel must not hold up the end of the program.
+/// One job after the other on a thread of its own: what is closed is closed before the same path is
+/// opened again, so that a replugged adapter gets its old node. open() and forget_loop() are
+/// loop-bound, close() is thread-safe. A job that hangs in the kernel is left behind.
 class TtyPorter : public std::enable_shared_from_this<TtyPorter> {
 public:
     TtyPorter(std::string name, boost::asio::any_io_executor loop);
@@ -34,16 +32,12 @@ public:
 private:
     struct Request;
     Task<bool> answered(std::shared_ptr<Request> request);
-    void enqueue(std::function<void()> job);
     void hand_over(const std::weak_ptr<Request>& request, Result<int> opened);
-    void work();
 
     std::string name_;
-    std::mutex mutex_; ///< guards all below
-    std::condition_variable wake_;
-    std::deque<std::function<void()>> jobs_;
+    std::mutex mutex_;                  ///< guards loop_
     boost::asio::any_io_executor loop_; ///< empty once forgotten
-    bool working_ = false;
+    WorkThread thread_{WorkThread::End::left_behind};
 };
 
 } // namespace axiscal

@@ -1,6 +1,8 @@
 #pragma once
 // Threads for what can block: each owns one handle and runs its jobs in order. Results go back to
-// the loop by `on_thread`. Architecture: "what can block has a thread that owns its handle".
+// the loop by `on_thread`. Architecture: "what can block has a thread that owns its handle". Apart
+// stay the journal (timed notes, a clock that tests turn), the log writer (bounded bytes, drops the
+// oldest) and the RTU trigger line (two loops meet).
 
 #include "drivers/link/deadline.hpp"
 
@@ -9,11 +11,9 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
-#include <condition_variable>
-#include <deque>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -25,8 +25,13 @@ namespace axiscal {
 class WorkThread {
 public:
     using Job = std::function<void()>;
-    WorkThread();
-    ~WorkThread(); ///< finishes and joins
+    /// joined: begins at once; the destructor finishes and joins.
+    /// left_behind: lives while there are jobs, so that an idle one costs nothing, and outlives this
+    /// object until it has done them all. For jobs that may hang in the kernel, where neither the
+    /// loop nor the end of the program may wait for them.
+    enum class End : std::uint8_t { joined, left_behind };
+    explicit WorkThread(End end = End::joined);
+    ~WorkThread();
     WorkThread(const WorkThread&) = delete;
     WorkThread& operator=(const WorkThread&) = delete;
 
@@ -37,17 +42,15 @@ public:
     [[nodiscard]] bool wanted() const;    ///< another job waits, or the thread is to end
     [[nodiscard]] bool finishing() const; ///< and perhaps ended
     [[nodiscard]] bool ended() const;
-    /// Waits for the end. Loop only.
+    /// Waits for the end of one that is joined. Loop only.
     void join();
 
 private:
-    void serve();
-    std::optional<Job> next();
+    struct State;
+    void wake();
+    static void serve(const std::shared_ptr<State>& state);
 
-    mutable std::mutex mutex_; ///< guards all but thread_
-    std::condition_variable wake_;
-    std::deque<Job> jobs_;
-    bool finishing_ = false, ended_ = false;
+    std::shared_ptr<State> state_; ///< shared with the thread, which may outlive this object
     std::thread thread_;
 };
 
@@ -93,16 +96,12 @@ inline constexpr const char* device_hangs = "the device does not answer";
 /// A job bounds itself by its deadline; beyond that and this it hangs in the kernel.
 inline constexpr Duration work_grace = std::chrono::milliseconds{500};
 
-/// Runs `job` on the thread and hands its result to the loop.
-/// @errors those of the job; Fault::link_timeout when it still runs after `deadline` and a grace.
+/// Runs `job` on the thread and hands its result to the loop, however long that takes. Loop only.
 template <class T>
-Task<Result<T>> on_thread(std::shared_ptr<WorkThread> thread,
-                          Scheduler& scheduler,
-                          std::function<Result<T>()> job,
-                          MonotonicTime deadline) {
-    using Pending = work_thread_detail::Pending<T>;
-    const auto loop = scheduler.executor();
-    auto pending = std::make_shared<Pending>(loop);
+Task<Result<T>> on_thread(const std::shared_ptr<WorkThread>& thread,
+                          const boost::asio::any_io_executor& loop,
+                          std::function<Result<T>()> job) {
+    auto pending = std::make_shared<work_thread_detail::Pending<T>>(loop);
     thread->post([pending, loop, job = std::move(job)]() mutable {
         auto reply = job();
         // The job's last reference goes with the handler: timers die on the loop.
@@ -111,7 +110,17 @@ Task<Result<T>> on_thread(std::shared_ptr<WorkThread> thread,
             pending->done.cancel();
         });
     });
-    Task<Result<T>> waiting = work_thread_detail::reply_of<T>(pending);
+    return work_thread_detail::reply_of<T>(pending);
+}
+
+/// The same within `deadline` and a grace.
+/// @errors those of the job; Fault::link_timeout when it still runs then.
+template <class T>
+Task<Result<T>> on_thread(std::shared_ptr<WorkThread> thread,
+                          Scheduler& scheduler,
+                          std::function<Result<T>()> job,
+                          MonotonicTime deadline) {
+    Task<Result<T>> waiting = on_thread<T>(thread, scheduler.executor(), std::move(job));
     auto reply = co_await before(scheduler, std::move(waiting), deadline + work_grace);
     if (!reply) co_return fail(Fault::link_timeout, device_hangs);
     co_return *std::move(reply);

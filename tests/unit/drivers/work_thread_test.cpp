@@ -7,7 +7,10 @@
 #include <boost/asio/detached.hpp>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <future>
+#include <iterator>
+#include <vector>
 
 namespace axiscal::work_thread_test {
 namespace {
@@ -75,6 +78,41 @@ TEST_F(WorkThreadTest, RunsTheLastJobAndDropsTheOthers) {
     thread->join();
     EXPECT_EQ(dropped, 0);
     EXPECT_EQ(last, 1);
+}
+
+TEST(WorkThreadThatIsLeftBehind, DoesAllItsJobsInOrderAfterItsOwnerIsGone) {
+    std::promise<void> release, done;
+    std::vector<int> order; // of the thread alone until `done`
+    auto thread = std::make_unique<WorkThread>(WorkThread::End::left_behind);
+    thread->post([&, released = release.get_future().share()] {
+        released.wait();
+        order.push_back(1);
+    });
+    thread->post([&] { order.push_back(2); });
+    thread->post([&] { done.set_value(); });
+    thread.reset(); // the first job still hangs
+    release.set_value();
+    done.get_future().wait();
+    EXPECT_EQ(order, (std::vector<int>{1, 2}));
+}
+
+/// Threads of this process, from the kernel.
+std::size_t threads_now() {
+    const std::filesystem::directory_iterator tasks{"/proc/self/task"};
+    return static_cast<std::size_t>(std::distance(begin(tasks), end(tasks)));
+}
+
+TEST(WorkThreadThatIsLeftBehind, CostsNoThreadWhileItIsIdle) {
+    const std::size_t before = threads_now();
+    WorkThread thread{WorkThread::End::left_behind};
+    EXPECT_EQ(threads_now(), before);
+    for (int again = 0; again < 2; ++again) {
+        std::promise<std::size_t> during;
+        thread.post([&] { during.set_value(threads_now()); });
+        EXPECT_EQ(during.get_future().get(), before + 1);
+        boost::asio::io_context loop;
+        EXPECT_TRUE(testing::loop_until(loop, [&] { return threads_now() == before; }));
+    }
 }
 
 } // namespace
