@@ -272,9 +272,9 @@ private:
     /// Once a second: told when it leaves them and when it is back.
     void judge_environment();
     [[nodiscard]] std::vector<SensorFacts> environment_facts() const;
-    /// For the run machine: live_scale_now(), unless the environment is outside and the run was not
-    /// armed in spite of that.
-    [[nodiscard]] Result<double> scale_within_limits() const;
+    /// For the run machine: `scale` of live_scale_now(), unless the environment is outside and the
+    /// run was not armed in spite of that.
+    [[nodiscard]] Result<double> within_limits(Result<double> scale) const;
 
     // station_closed_run.cpp: the set-up is watched, the newest run of an earlier daemon taken over
     void watch_set_up(const Sample& sample);

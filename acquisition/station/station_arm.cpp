@@ -400,7 +400,7 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " +
                              taken_up_in_words(run) + proof, Fault::none, 0}});
-    feed(EnvironmentNow{scale_within_limits()});
+    feed(EnvironmentNow{within_limits(live_scale_now())});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
          " durable points.");

@@ -36,10 +36,10 @@ void Station::judge_environment() {
                       was_outside ? Fault::none : Fault::environment_outside);
 }
 
-Result<double> Station::scale_within_limits() const {
-    AXISCAL_TRY(const double scale, live_scale_now());
+Result<double> Station::within_limits(Result<double> scale) const {
     const bool held_to_limits = !run_ || !run_->limits_waived;
-    if (environment_outside_ && held_to_limits) return tl::unexpected<Error>(*environment_outside_);
+    if (scale && environment_outside_ && held_to_limits)
+        return tl::unexpected<Error>(*environment_outside_);
     return scale;
 }
 

@@ -45,8 +45,9 @@ Station::Answer Station::ask(RunInput input) {
 }
 
 void Station::refresh_air() {
-    if (const auto scale = live_scale_now()) live_scale_ = *scale; // also while nothing is captured
-    feed(EnvironmentNow{scale_within_limits()});
+    const Result<double> scale = live_scale_now();
+    if (scale) live_scale_ = *scale; // also while nothing is captured
+    feed(EnvironmentNow{within_limits(scale)});
 }
 
 void Station::feed_with_air(RunInput input) {
