@@ -66,11 +66,11 @@ def run_until_it_waits_for_its_probe(bench, program, block):
     """LinuxCNC up to 2.9 may read on while its probe still moves (its issue 3650; a thread that is
     held up for a moment is enough). It either stops by itself or our program stops it: both say so,
     and the technician starts the program again, as docs/probing.md says. So do we, and for nothing else."""
-    for _ in range(STARTS):
+    for start in range(1, STARTS + 1):
         code, words = run_cnc(bench, program, block)
         if not any(early in words for early in READ_ON):
             break
-        print("LinuxCNC read on before its probe had spoken; started again", flush=True)
+        print(f"LinuxCNC read on before its probe had spoken, in start {start}: {words}", flush=True)
     assert code == 0 and "ended" in words, f"LinuxCNC ended with {code}: {words}"
     assert not any(early in words for early in READ_ON), f"{STARTS} times: {words}"
 
