@@ -286,6 +286,32 @@ def update(hall):
     expect_the_truth(hall, certificate)
 
 
+@long_check("CncSpeaksModbusTcpOnceItsCableWasChanged")
+def tcp(hall):
+    """The evening: PC and machine are switched off. In the morning the CNC has a network card."""
+    hall.pc.run("systemctl poweroff")
+    hall.pc.wait_for_end()
+    hall.end("axiscal-simulate")
+    hall.trigger("sequence-block", "tcp")
+    port = hall.station["trigger"]["port"]
+    hall.start_simulator()
+    hall.pc.com, hall.pc.ports = None, hall.pc.ports | {port: port}
+    hall.pc.start()
+    text = hall.pc.run(f"cat {STATION}")
+    wire = f'transport = "tcp"\nport = {port}\nallowed_clients = ["10.0.2.2"]\n'
+    text, changed = re.subn(r'transport = "rtu"\nserial_port = "/dev/ttyS1"\n', wire, text)
+    expect(changed == 1, text)
+    hall.pc.run(f"cat >{STATION}", given=text)
+    hall.pc.run(line_of(README, "sudo axiscal check-config"))
+    hall.pc.run("systemctl restart axiscald")
+    wait_until("every sensor gives a value", lambda: readings_are_there(hall), PATIENCE_S)
+    hall.write_program()
+    hall.go_to_datum()
+    hall.arm()
+    certificate, _ = hall.published(hall.run()["id"])
+    expect_the_truth(hall, certificate)
+
+
 @long_check("SuspendInMidRunIsRefusedAndWhereRootForcesItTheRunIsClosedWithItsReason")
 def suspend(hall):
     """The PC's USB controller loses its power meanwhile, and the laser's adapter comes back as one that was unplugged."""
@@ -308,7 +334,7 @@ def suspend(hall):
 @check("PurgeKeepsTheRunsAndSaysWhere")
 def purge(hall):
     runs = hall.pc.run("cd /var/lib/axiscal/runs && sha256sum *.axiscal")
-    expect(len(runs.splitlines()) == (4 if os.environ.get("AXISCAL_ALL") else 3), runs)
+    expect(len(runs.splitlines()) == (5 if os.environ.get("AXISCAL_ALL") else 3), runs)
     said = hall.pc.run(line_of(PAGE, "sudo apt purge").replace("apt purge", "apt-get purge -y") + " axiscal-doc")
     expect("/var/lib/axiscal/runs is kept" in said, said)
     expect(hall.pc.run("cd /var/lib/axiscal/runs && sha256sum *.axiscal") == runs, "a run file changed")
