@@ -1,6 +1,5 @@
 #include "acquisition/journal/run_file_verify.hpp"
 
-#include "acquisition/journal/missing_rows.hpp"
 #include "acquisition/journal/run_file_open.hpp"
 
 #include <algorithm>
@@ -110,7 +109,6 @@ public:
     /// @param last_closing the highest number of a closing row; 0: there is none.
     Walk(ChainReport& report, std::int64_t last_closing)
         : report_{report}
-        , missing_{report.format}
         , last_closing_{last_closing} {}
 
     /// All rows that bear the same number; one of them is the row that was written.
@@ -134,12 +132,6 @@ public:
                   "row " + std::to_string(report_.links + 1) +
                       " (table closing) is missing: the file is folded as a closed one, but the "
                       "end of the run is gone"});
-        }
-        for (const MissingRow& row : missing_.result()) {
-            const std::string known = row.about.empty() ? "" : ", " + row.about;
-            find({RowDamage::missing, row.table, row.link, row.about,
-                  "row " + std::to_string(row.link) + " (table " + row.table + known +
-                      ") is missing"});
         }
         std::ranges::stable_sort(report_.findings, {}, &RowFinding::link);
         if (report_.findings.size() > ChainReport::most_findings) {
@@ -170,10 +162,19 @@ private:
         return after_hole && (row.link <= last_closing_ || row.table->name == "retake_point");
     }
 
-    void follow(const StoredRow& row) {
+    void name_missing_before(const StoredRow& row) {
+        const std::string after = " table " + std::string{row.table->name};
+        const std::string place =
+            previous_ ? "between table " + std::string{previous_->table->name} + " and" + after
+                      : "before" + after;
         for (std::int64_t link = report_.links + 1;
              link < row.link && link <= report_.links + most_holes; ++link)
-            missing_.hole(link);
+            find({RowDamage::missing, {}, link, {},
+                  "row " + std::to_string(link) + ", " + place + ", is missing"});
+    }
+
+    void follow(const StoredRow& row) {
+        name_missing_before(row);
         const Fit fit = fits(row);
         const bool doubtful = suspect_.has_value();
         settle_suspect(fit == Fit::computed ? "its hash was changed" : "");
@@ -187,7 +188,6 @@ private:
         computed_ = fit == Fit::unknown || !anchor ? std::optional<Digest>{}
                                                    : std::optional{sha256_link(*anchor, bytes)};
         stored_ = digest_of(row.hash);
-        missing_.see(*row.table, row.row);
         report_.links = row.link;
         previous_ = StoredRow{row.table, row.link, {row.row.begin(), row.row.begin() + 1}, {}, {}};
         if (row.table->since <= 1 && row.table->name == "datum") ran_ = true;
@@ -218,7 +218,6 @@ private:
     }
 
     ChainReport& report_;
-    MissingRows missing_;
     std::int64_t last_closing_;
     std::optional<Digest> stored_ = Digest{}, computed_; ///< hash of the last row; empty: unknown
     std::optional<StoredRow> suspect_, previous_;

@@ -17,7 +17,7 @@ std::string_view name_of(RowDamage damage); ///< "changed", "missing", "added"
 
 struct RowFinding {
     RowDamage damage = RowDamage::changed;
-    std::string table;     ///< "point"; of a missing row perhaps "environment, event or exclusion"
+    std::string table;     ///< "point"; empty where a row is gone, but for the closing row
     std::int64_t link = 0; ///< place in the chain; in `result` the row's id
     std::string row;       ///< its first column, "step=7"; empty when the row is gone
     std::string sentence;  ///< for people, all of the above included

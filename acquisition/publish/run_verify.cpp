@@ -117,7 +117,7 @@ Json marks_of(const VerifyReport& report, const Json& printed) {
 Json findings_json(const ChainReport& chain) {
     Json list = Json::array();
     for (const RowFinding& finding : chain.findings)
-        list.push_back({{"table", finding.table},
+        list.push_back({{"table", finding.table.empty() ? Json{} : Json(finding.table)},
                         {"row", finding.link},
                         {"what", name_of(finding.damage)},
                         {"about", finding.row.empty() ? Json{} : Json(finding.row)},
