@@ -7,7 +7,7 @@
 
 namespace axiscal {
 
-/// In the order of the chain; `since` is the format in which a table came.
+/// In the order of the chain.
 inline constexpr std::array tables{
     Table{"run",
           "run_id, software_version, station, station_config, config_hash, boot_id, "
@@ -28,18 +28,18 @@ inline constexpr std::array tables{
     Table{"rotary",
           "method, step_deg, arm_m, range_deg, turn_time_ns, by_hand, certificate_with_axis, "
           "run_out",
-          "trrriiit", 4},
-    Table{"rotary_deviation", "deviation_arcsec", "r", 4},
+          "trrriiit"},
+    Table{"rotary_deviation", "deviation_arcsec", "r"},
     Table{"linear_scale",
           "resolution_m, coefficient_per_K, standard_uncertainty_per_K, temperature_width_K",
-          "rrRR", 5},
-    Table{"linear_scale_sensor", "channel", "i", 5},
+          "rrRR"},
+    Table{"linear_scale_sensor", "channel", "i"},
     Table{"uncertainty",
           "device_U_m, device_U_per_m, device_k, device_width_m, device_width_per_m, "
           "misalignment_m, misalignment_rad, temperature_width_K, expansion_width_per_K, eve_m, "
           "eve_model",
-          "RRrRRRRRRRt", 2},
-    Table{"uncertainty_target", "parameter, limit_m", "tr", 2},
+          "RRrRRRRRRRt"},
+    Table{"uncertainty_target", "parameter, limit_m", "tr"},
     Table{"statement", "name, value", "tt"},
     Table{"instrument",
           "name, driver, maker, model, serial, firmware, certificate_number, calibrated_on, due_on",
@@ -48,21 +48,20 @@ inline constexpr std::array tables{
     Table{"channel_calibration",
           "channel, certificate_number, calibrated_on, due_on, expanded_uncertainty, "
           "expanded_uncertainty_per_m, coverage",
-          "itttRRr", 4},
-    Table{"channel_correction", "channel, reading, correction", "irr", 4},
+          "itttRRr"},
+    Table{"channel_correction", "channel, reading, correction", "irr"},
     Table{"alignment",
           "began_utc_ns, ended_utc_ns, instrument, serial, travel_m, reached_m, readings, lost, "
           "restarts, far_distance_m, far_highest_m, far_last_m, far_scatter_m, far_blocks, "
           "far_passed_maximum, spot_offset_m",
-          "iittrriiiRRRRIIR", 3},
+          "iittrriiiRRRRIIR"},
     Table{"alignment_place",
-          "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr", 3},
-    Table{"drift", "duration_ns, interval_ns, place_m", "iir", 3},
-    Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt", 4},
+          "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr"},
+    Table{"drift", "duration_ns, interval_ns, place_m", "iir"},
+    Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt"},
     Table{"probing_touch",
-          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m", "rrrirrrr",
-          4},
-    Table{"eve_source", "run_id", "t", 3},
+          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m", "rrrirrrr"},
+    Table{"eve_source", "run_id", "t"},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
           "device_count",
@@ -78,32 +77,29 @@ inline constexpr std::array tables{
           "plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg, "
           "overshoot_deg, feed_in_mm, feed_in_outside, centre_x_mm, centre_y_mm, centre_z_mm, "
           "tool_offset, work_offset, sample_rate_hz, low_pass_hz, averaged",
-          "trrtiirrrrirrrttrRi", 3},
+          "trrtiirrrrirrrttrRi"},
     Table{"circular_bar",
           "instrument, sign, length_mm, bar_alpha_per_K, machine_alpha_per_K, temperature_channel",
-          "tirRRI", 3},
+          "tirRRI"},
     Table{"circular_uncertainty",
           "device_width_um, calibration_U_um, calibration_k, repeatability_um, eve_um, "
           "centre_width_um, machine_temperature_width_K, bar_temperature_width_K, "
           "machine_alpha_width_per_K, bar_alpha_width_per_K, runs",
-          "RRRRRRRRRRi", 3},
-    Table{"circular_start", "start_from, trigger_delay_s", "tr", 4},
-    Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr", 3},
+          "RRRRRRRRRRi"},
+    Table{"circular_start", "start_from, trigger_delay_s", "tr"},
+    Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr"},
     Table{"stream_block",
           "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
-          "iiiiitiirrb", 3},
-    Table{"stream_block_time", "stream, block, u_t_ns", "iiI", 4},
-    Table{"preflight", "name, passed, warning, verdict, override_reason", "tiitt", 3},
-    Table{"retake", "number, at_ns, utc_ns, reason", "iiit", 3},
-    Table{"retake_point", "step, planned_step", "ii", 3},
-    Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit", 3},
-    Table{"synchronisation", "step, datum_id, u_t_ns, error_um", "itIR", 4},
-    Table{"ordered", "kind, about, at_ns, utc_ns, door, uid, user, name", "ttiitItt", 7},
+          "iiiiitiirrb"},
+    Table{"stream_block_time", "stream, block, u_t_ns", "iiI"},
+    Table{"preflight", "name, passed, warning, verdict, override_reason", "tiitt"},
+    Table{"retake", "number, at_ns, utc_ns, reason", "iiit"},
+    Table{"retake_point", "step, planned_step", "ii"},
+    Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit"},
+    Table{"synchronisation", "step, datum_id, u_t_ns, error_um", "itIR"},
+    Table{"ordered", "kind, about, at_ns, utc_ns, door, uid, user, name", "ttiitItt"},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };
-
-inline constexpr std::size_t sample_bytes = 24; // at_ns, reading_m, device_count: as they are
-inline constexpr int windows_packed_since = 6;  // format of the file
 
 // Statements are stored by name, so that a new one needs no new column.
 struct NamedStatement {

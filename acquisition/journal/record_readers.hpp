@@ -9,7 +9,7 @@
 namespace axiscal::record_readers {
 
 using ReadRow = void(RecordedRun& run, RowReader& in);
-/// Of what knows nothing of what came with later formats.
+/// Of what was measured point by point.
 using ReadMeasuredRow = void(RunRecord& run, RowReader& in);
 
 // record_rows_read_setup.cpp
@@ -26,8 +26,8 @@ ReadRow read_alignment, read_alignment_place, read_drift, read_probing, read_pro
     read_circular_start;
 
 // record_rows_read_course.cpp
-ReadMeasuredRow read_datum, read_environment, read_event;
-ReadRow read_point, read_stream, read_stream_block, read_stream_block_time, read_preflight,
+ReadMeasuredRow read_datum, read_point, read_environment, read_event;
+ReadRow read_stream, read_stream_block, read_stream_block_time, read_preflight,
     read_retake, read_retake_point, read_exclusion, read_synchronisation, read_ordered,
     read_closing;
 

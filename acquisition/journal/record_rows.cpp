@@ -20,16 +20,6 @@ Value text(std::string_view words) {
     return std::string{words};
 }
 
-Blob as_they_are(const WindowSamples& samples) {
-    Blob blob;
-    blob.bytes.reserve(samples.size() * sample_bytes);
-    for (const auto& [at, reading_m, device_count] : samples) {
-        put_u64(blob.bytes, static_cast<std::uint64_t>(nanoseconds_of(at)));
-        put_u64(blob.bytes, std::bit_cast<std::uint64_t>(reading_m));
-        put_u64(blob.bytes, device_count);
-    }
-    return blob;
-}
 ChainedRow chained(std::string_view table, Row row) {
     return {&table_named(table), std::move(row)};
 }
@@ -221,7 +211,7 @@ ChainedRow row_of(const DatumRecord& datum) {
                     slope_um_per_s, whole(n), whole(sequence), whole(device_count)});
 }
 
-ChainedRow row_of(const PointRecord& point, int format) {
+ChainedRow row_of(const PointRecord& point) {
     const auto& [step, sequence, planned, origin, triggered_at, window_begin, window_end, reading,
                  spread, slope_um_per_s, n, approach_travel, datum_id, live_deviation, samples] =
         point;
@@ -243,8 +233,7 @@ ChainedRow row_of(const PointRecord& point, int format) {
             datum_id,
             live_deviation.si()};
     // A list in braces would copy all samples once more.
-    row.push_back(format < windows_packed_since ? as_they_are(samples)
-                                                : Blob{packed_window(samples)});
+    row.push_back(Blob{packed_window(samples)});
     return chained("point", std::move(row));
 }
 
@@ -267,7 +256,7 @@ ChainedRow row_of(const Closing& closing) {
 
 namespace {
 
-/// Begin and end of the arcs stand in a row of their own: format 3 did not have them.
+/// Begin and end of the arcs stand in a row of their own.
 ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capture) {
     const auto& [plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg,
                  overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset,

@@ -23,7 +23,6 @@ struct Closing {
 
 /// Everything that rows are placed into.
 struct RecordedRun : RunRecord {
-    int format = run_file_version;         ///< of the file that the rows stand in
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
@@ -45,15 +44,14 @@ const Table& table_named(std::string_view name);
 std::vector<ChainedRow> header_rows(const RunRecord& header,
                                     const RunAttachments& attachments = {});
 ChainedRow row_of(const DatumRecord& datum);
-/// Its samples packed, or as they are where `format` is before 6.
-ChainedRow row_of(const PointRecord& point, int format);
+ChainedRow row_of(const PointRecord& point);
 ChainedRow row_of(const EnvironmentReading& reading);
 ChainedRow row_of(const EventRecord& event);
 ChainedRow row_of(const Closing& closing);
 std::vector<ChainedRow> rows_of(const CircularSetup& setup);
 ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
-/// Its u(t), a row of its own: format 3 did not have it.
+/// Its u(t), a row of its own.
 ChainedRow time_row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);
 ChainedRow row_of(const ExclusionRecord& exclusion);

@@ -5,7 +5,7 @@ namespace axiscal {
 namespace record_readers {
 namespace {
 
-/// What was measured point by point knows nothing of what came with later formats.
+/// What was measured point by point needs the run alone.
 template <auto read> void measured(RecordedRun& run, RowReader& in) {
     read(run, in);
 }
@@ -36,7 +36,7 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_probing_touch,
     read_eve_source,
     measured<read_datum>,
-    read_point,
+    measured<read_point>,
     measured<read_environment>,
     measured<read_event>,
     read_circular,

@@ -11,29 +11,12 @@
 namespace axiscal::record_readers {
 namespace {
 
-std::vector<WindowSample> as_they_are(RowReader& in, std::string_view rest) {
-    if (rest.size() % sample_bytes != 0) in.reject("is not a whole number of samples");
-    std::vector<WindowSample> samples;
-    samples.reserve(rest.size() / sample_bytes);
-    for (; rest.size() >= sample_bytes; rest.remove_prefix(sample_bytes))
-        samples.push_back({monotonic_from_ns(static_cast<std::int64_t>(get_u64(rest))),
-                           std::bit_cast<double>(get_u64(rest.substr(8))),
-                           get_u64(rest.substr(16))});
-    return samples;
-}
-
-std::vector<WindowSample> samples_of(RowReader& in, int format) {
-    const std::string bytes = in.blob();
-    std::vector<WindowSample> samples;
-    if (format < windows_packed_since)
-        samples = as_they_are(in, bytes);
-    else if (auto unpacked = unpacked_window(bytes))
-        samples = std::move(*unpacked);
-    else
-        in.reject("does not hold packed samples");
-    if (!std::ranges::all_of(samples, [](const auto& s) { return std::isfinite(s.reading_m); }))
+WindowSamples samples_of(RowReader& in) {
+    auto samples = unpacked_window(in.blob());
+    if (!samples) return in.reject("does not hold packed samples"), WindowSamples{};
+    if (!std::ranges::all_of(*samples, [](const auto& s) { return std::isfinite(s.reading_m); }))
         in.reject("holds a reading that is not a number");
-    return samples;
+    return *std::move(samples);
 }
 
 } // namespace
@@ -53,7 +36,7 @@ void read_datum(RunRecord& run, RowReader& in) {
     run.datums.push_back(std::move(datum));
 }
 
-void read_point(RecordedRun& run, RowReader& in) {
+void read_point(RunRecord& run, RowReader& in) {
     PointRecord point;
     point.step = in.number<int>();
     point.sequence = in.number<std::uint16_t>();
@@ -69,7 +52,7 @@ void read_point(RecordedRun& run, RowReader& in) {
     point.approach_travel = in.length();
     point.datum_id = in.text();
     point.live_deviation = in.length();
-    point.samples = samples_of(in, run.format);
+    point.samples = samples_of(in);
     run.points.push_back(std::move(point));
 }
 

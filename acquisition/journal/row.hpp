@@ -33,7 +33,6 @@ struct Table {
     std::string_view columns; ///< "step, target_index, ..."
     /// One letter a column: i integer, r double, t text, b blob; upper case may be NULL.
     std::string_view types;
-    int since = 1; ///< format (user_version) in which it came
 };
 
 /// Column count and types are those of the table and every double is finite.

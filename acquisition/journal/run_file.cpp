@@ -17,8 +17,6 @@
 namespace axiscal {
 namespace {
 
-constexpr int orders_since = 7; // format of the file
-
 std::string insert_sql(const Table& table) {
     std::string marks = "?";
     for (std::size_t i = 0; i < table.types.size() + 1; ++i)
@@ -54,9 +52,8 @@ Result<void> sync_with_folder(const std::string& path) {
 }
 
 // What could not be read back is not written: a program error, not one of the disk.
-Result<void> check_before_writing(const ChainedRow& row, int format) {
+Result<void> check_before_writing(const ChainedRow& row) {
     RecordedRun scratch;
-    scratch.format = format;
     auto readable = check_row(*row.table, row.row);
     if (readable) readable = place_row(scratch, *row.table, row.row);
     if (!readable) return fail(Fault::internal, "not written: " + readable.error().detail);
@@ -64,7 +61,7 @@ Result<void> check_before_writing(const ChainedRow& row, int format) {
 }
 
 /// What a circular test adds; the chunks are compressed here, on the journal's own thread.
-std::vector<ChainedRow> circular_rows(const RunBatch& batch, int format) {
+std::vector<ChainedRow> circular_rows(const RunBatch& batch) {
     std::vector<ChainedRow> rows;
     if (batch.circular) rows = rows_of(*batch.circular);
     for (const auto& stream : batch.streams)
@@ -72,26 +69,24 @@ std::vector<ChainedRow> circular_rows(const RunBatch& batch, int format) {
     for (const auto& chunk : batch.chunks) {
         const StreamBlock block = packed(chunk);
         rows.push_back(row_of(block));
-        if (format >= 4) rows.push_back(time_row_of(block));
+        rows.push_back(time_row_of(block));
     }
     return rows;
 }
 
-/// Each with what is known of its time, in the same transaction, from format 4 on.
-std::vector<ChainedRow> rows_of_captures(const RunBatch& batch, int format) {
+/// Each with what is known of its time, in the same transaction.
+std::vector<ChainedRow> rows_of_captures(const RunBatch& batch) {
     std::vector<ChainedRow> rows;
-    const bool known = format >= 4;
     if (batch.datum) {
         rows.push_back(row_of(*batch.datum));
         const auto stated = batch.point ? std::nullopt : batch.synchronisation;
-        if (known) rows.push_back(row_of(SynchronisationRecord{-1, batch.datum->id, stated}));
+        rows.push_back(row_of(SynchronisationRecord{-1, batch.datum->id, stated}));
     }
     if (batch.point) {
         const PointRecord& point = *batch.point;
-        rows.push_back(row_of(point, format));
-        if (known)
-            rows.push_back(
-                row_of(SynchronisationRecord{point.step, point.datum_id, batch.synchronisation}));
+        rows.push_back(row_of(point));
+        rows.push_back(
+            row_of(SynchronisationRecord{point.step, point.datum_id, batch.synchronisation}));
     }
     return rows;
 }
@@ -138,7 +133,7 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path,
             "; PRAGMA user_version=" + std::to_string(run_file_version) + ";";
         // One transaction: a disk that takes 10 ms for a sync is not asked for it table by table.
         AXISCAL_CHECK(writer.transact(header_rows(header, attachments),
-                                      mark + run_file_schema(run_file_version)));
+                                      mark + run_file_schema));
         return writer.head_;
     }();
     if (!head) return tl::unexpected<Error>(head.error());
@@ -160,9 +155,6 @@ Result<RunFileWriter> RunFileWriter::reopen_closed(const std::string& path, cons
         return fail(Fault::internal, path + " may be reopened by a retake or an exclusion only");
     AXISCAL_TRY(const auto contents, read_run_file_contents(path));
     if (!contents.closed) return fail(Fault::refused, path + " is open already");
-    if (contents.format < 3)
-        return fail(Fault::refused, path + " has format " + std::to_string(contents.format) +
-                                        ", which ends with its closing: arm a new run");
     AXISCAL_TRY(auto writer, go_on(path, contents));
     AXISCAL_CHECK(writer.write(first));
     return writer;
@@ -183,7 +175,6 @@ Result<RunFileWriter> RunFileWriter::go_on(const std::string& path,
     AXISCAL_CHECK(writer.database_->execute("PRAGMA wal_checkpoint(TRUNCATE)"));
     writer.links_ = contents.links;
     writer.head_ = contents.chain_head;
-    writer.format_ = contents.format;
     return writer;
 }
 
@@ -221,13 +212,13 @@ Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
                                      const SecretKey* key) {
     if (broken_) return tl::unexpected<Error>(*broken_);
     for (const auto& row : rows)
-        AXISCAL_CHECK(check_before_writing(row, format_));
+        AXISCAL_CHECK(check_before_writing(row));
     return keep([&]() -> Result<void> {
         AXISCAL_CHECK(database_->execute("BEGIN IMMEDIATE"));
         if (!before.empty()) AXISCAL_CHECK(database_->execute(before));
         for (const auto& row : rows)
             AXISCAL_CHECK(append(row));
-        if (key != nullptr && format_ >= signed_since)
+        if (key != nullptr)
             AXISCAL_CHECK(append_signature(*database_, *key, std::nullopt));
         return database_->execute("COMMIT");
     }());
@@ -243,11 +234,6 @@ Result<void> RunFileWriter::keep(Result<void> outcome) {
 }
 
 Result<void> RunFileWriter::write(const RunBatch& batch) {
-    const bool decided =
-        !batch.preflight.empty() || !batch.retakes.empty() || !batch.exclusions.empty();
-    if (decided && format_ < 3)
-        return fail(Fault::refused, path_ + " has format " + std::to_string(format_) +
-                                        ", which keeps no retakes, exclusions or checks");
     std::vector<ChainedRow> rows;
     for (const auto& check : batch.preflight)
         rows.push_back(row_of(check));
@@ -255,15 +241,14 @@ Result<void> RunFileWriter::write(const RunBatch& batch) {
         std::ranges::move(rows_of(retake), std::back_inserter(rows));
     for (const auto& exclusion : batch.exclusions)
         rows.push_back(row_of(exclusion));
-    if (format_ >= orders_since)
-        for (const auto& order : batch.orders)
-            rows.push_back(row_of(order));
-    std::ranges::move(circular_rows(batch, format_), std::back_inserter(rows));
+    for (const auto& order : batch.orders)
+        rows.push_back(row_of(order));
+    std::ranges::move(circular_rows(batch), std::back_inserter(rows));
     for (const auto& reading : batch.environment)
         rows.push_back(row_of(reading));
     for (const auto& event : batch.events)
         rows.push_back(row_of(event));
-    std::ranges::move(rows_of_captures(batch, format_), std::back_inserter(rows));
+    std::ranges::move(rows_of_captures(batch), std::back_inserter(rows));
     if (rows.empty() && !broken_) return {};
     return transact(rows);
 }
@@ -342,8 +327,7 @@ store_result(const std::string& path, const StoredResult& result, const SecretKe
     if (signed_closing && key == nullptr)
         return fail(Fault::refused, path + " was closed with a signature, and the key for that of "
                                            "its result is gone: start axiscald anew");
-    AXISCAL_TRY(const auto format, database->integer_of("PRAGMA user_version"));
-    return insert_result(*database, result, format >= signed_since ? key : nullptr);
+    return insert_result(*database, result, key);
 }
 
 Result<void> tidy_run_files(const std::string& folder) {

@@ -31,7 +31,7 @@ struct RunBatch {
     std::vector<PreflightRecord> preflight;
     std::vector<RetakeRecord> retakes;
     std::vector<ExclusionRecord> exclusions;
-    std::vector<OrderRecord> orders; ///< in a file of a format before 7 they are not kept
+    std::vector<OrderRecord> orders;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
     std::optional<Synchronisation> synchronisation; ///< of the point, else of the datum
@@ -58,8 +58,7 @@ public:
     static Result<RunFileWriter> reopen(const std::string& path);
     /// Goes on with a closed file, for points that are taken again or readings that are left out;
     /// `first` must hold one of these, and no checks; it is written at once.
-    /// @errors Fault::refused for an open file, or one of a format before 3; Fault::internal for
-    /// another `first`.
+    /// @errors Fault::refused for an open file; Fault::internal for another `first`.
     static Result<RunFileWriter> reopen_closed(const std::string& path, const RunBatch& first);
     RunFileWriter(const RunFileWriter&) = delete;
     RunFileWriter& operator=(const RunFileWriter&) = delete;
@@ -72,8 +71,7 @@ public:
     void reserve_log() const;
 
     /// One transaction, in the order preflight, retakes, exclusions, orders, circular, streams, chunks,
-    /// environment, events, datum, point; the last two with their synchronisation. @errors
-    /// Fault::refused, unwritten, for the first three in a file of a format before 3.
+    /// environment, events, datum, point; the last two with their synchronisation.
     Result<void> write(const RunBatch& batch);
     /// A sentence that a person should find in the file.
     Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);
@@ -85,7 +83,7 @@ public:
     sequence_of_skip(std::uint16_t sequence) const;
 
     /// Writes the closing row and leaves one single file without WAL, synced with its folder.
-    /// @param key  signs it, in the same transaction; null, or a file of a format before 7: nobody
+    /// @param key  signs it, in the same transaction; null: nobody
     /// @errors Fault::busy while another program reads the file: the closing row is durable then,
     /// and a further call only tries the rest.
     Result<void>
@@ -111,7 +109,6 @@ private:
     std::map<std::string_view, Statement> insertions_; ///< by table
     std::int64_t links_ = 0;                           ///< in the chain so far
     Digest head_{};  ///< hash of the last link; zeros before the first
-    int format_ = 0; ///< set by create and reopen
     bool closed_ = false;
     std::optional<Error> broken_;
 };
@@ -125,7 +122,7 @@ struct StoredResult {
 struct RunFileContents {
     RunRecord run; ///< of points that were taken again, the last ones
     RunRevisions revisions;
-    int format = 0, results = 0;           ///< results stored so far
+    int results = 0;                       ///< stored so far
     std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written

@@ -8,13 +8,9 @@
 
 namespace axiscal {
 
-struct CheckedFile {
-    std::unique_ptr<Database> database; ///< in a read transaction: one state while a run goes on
-    int format = 1;
-};
-
-/// @errors Fault::not_found; Fault::bad_run_file when it is none, newer, or of another schema.
-Result<CheckedFile> open_run_file(const std::string& path);
+/// In a read transaction: one state while a run goes on.
+/// @errors Fault::not_found; Fault::bad_run_file when it is none, or of another format or schema.
+Result<std::unique_ptr<Database>> open_run_file(const std::string& path);
 /// A file without WAL is as long as its page count says. @errors Fault::bad_run_file.
 Result<void> check_run_file_size(const Database& database, const std::string& path);
 /// SQLite's own check of every page. @errors Fault::bad_run_file.

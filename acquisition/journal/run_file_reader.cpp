@@ -17,17 +17,15 @@ tl::unexpected<Error> bad(const std::string& path, const std::string& reason) {
     return fail(Fault::bad_run_file, path + ": " + reason);
 }
 
-/// @returns the format of the file.
-Result<int> check_identity(const Database& database, const std::string& path) {
+Result<void> check_identity(const Database& database, const std::string& path) {
     AXISCAL_TRY(const auto id, database.integer_of("PRAGMA application_id"));
     if (id != run_file_application_id) return bad(path, "this is not an axiscal run file");
     AXISCAL_TRY(const auto version, database.integer_of("PRAGMA user_version"));
-    if (version > run_file_version)
+    if (version != run_file_version)
         return bad(path, "written in format " + std::to_string(version) +
-                             " by a newer axiscal; this one reads up to format " +
+                             " by another axiscal; this one reads format " +
                              std::to_string(run_file_version));
-    if (version < 1) return bad(path, "format " + std::to_string(version) + " does not exist");
-    return static_cast<int>(version);
+    return {};
 }
 
 Result<std::vector<Row>> rows_of(const Database& database, const std::string& sql) {
@@ -43,11 +41,11 @@ Result<std::vector<Row>> rows_of(const Database& database, const std::string& sq
     }
 }
 
-// Word for word the schema of its format: no view, trigger, index or generated column can slip in.
-Result<void> check_schema(const Database& database, const std::string& path, int format) {
+// Word for word our schema: no view, trigger, index or generated column can slip in.
+Result<void> check_schema(const Database& database, const std::string& path) {
     const std::string all = "SELECT type, name, tbl_name, sql FROM sqlite_schema ORDER BY name";
     AXISCAL_TRY(const auto ours, Database::in_memory());
-    AXISCAL_CHECK(ours->execute(run_file_schema(format)));
+    AXISCAL_CHECK(ours->execute(run_file_schema));
     AXISCAL_TRY(const auto expected, rows_of(*ours, all));
     AXISCAL_TRY(const auto found, rows_of(database, all + " LIMIT 100"));
     if (found != expected) return bad(path, "the tables are not those of a run file");
@@ -93,7 +91,7 @@ Result<void> take_back_unfinished(const std::string& path) {
 
 } // namespace
 
-Result<CheckedFile> open_run_file(const std::string& path) {
+Result<std::unique_ptr<Database>> open_run_file(const std::string& path) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return fail(Fault::not_found, path + " is not a file");
@@ -101,17 +99,12 @@ Result<CheckedFile> open_run_file(const std::string& path) {
     AXISCAL_TRY(auto database,
                 Database::open(path, Database::Access::read_only, Fault::bad_run_file));
     AXISCAL_CHECK(database->execute("BEGIN")); // one state, even while the run goes on
-    AXISCAL_TRY(const int format, check_identity(*database, path));
-    AXISCAL_CHECK(check_schema(*database, path, format));
-    return CheckedFile{std::move(database), format};
+    AXISCAL_CHECK(check_identity(*database, path));
+    AXISCAL_CHECK(check_schema(*database, path));
+    return database;
 }
 
 namespace {
-
-Result<std::unique_ptr<Database>> open_checked(const std::string& path) {
-    AXISCAL_TRY(CheckedFile file, open_run_file(path));
-    return std::move(file.database);
-}
 
 /// Rows of one table in chain order, read as the chain reaches them.
 struct TableCursor {
@@ -139,11 +132,9 @@ struct TableCursor {
     }
 };
 
-Result<std::vector<TableCursor>>
-open_cursors(const Database& database, const std::string& path, int format) {
+Result<std::vector<TableCursor>> open_cursors(const Database& database, const std::string& path) {
     std::vector<TableCursor> cursors;
     for (const auto& table : chained_tables()) {
-        if (table.since > format) continue;
         const std::string name{table.name};
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         if (count > most_rows) return bad(path, name + " has more rows than any run");
@@ -244,15 +235,13 @@ void put_in_order(RunRecord& run) {
 } // namespace
 
 Result<RunFileContents> read_run_file_contents(const std::string& path) {
-    AXISCAL_TRY(const auto file, open_run_file(path));
-    const auto& [database, format] = file;
+    AXISCAL_TRY(const auto database, open_run_file(path));
     AXISCAL_CHECK(check_run_file_size(*database, path));
     AXISCAL_CHECK(check_run_file_pages(*database, path));
     AXISCAL_CHECK(check_header(*database, path));
-    AXISCAL_TRY(auto cursors, open_cursors(*database, path, format));
+    AXISCAL_TRY(auto cursors, open_cursors(*database, path));
     RunFileContents contents;
     RecordedRun recorded;
-    recorded.format = format;
     while (TableCursor* next = next_of(cursors)) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
@@ -260,7 +249,6 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
     AXISCAL_CHECK(check_synchronisation(recorded, path));
     AXISCAL_CHECK(set_superseded_aside(recorded, path));
     put_in_order(recorded);
-    contents.format = format;
     AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));
     contents.results = static_cast<int>(results);
     contents.revisions = std::move(recorded.revisions);
@@ -280,8 +268,6 @@ Result<RunRecord> read_run_file(const std::string& path) {
 Result<bool> is_run_closed(const Database& database) {
     AXISCAL_TRY(const auto closed, database.integer_of("SELECT max(link) FROM closing"));
     if (closed == 0) return false;
-    AXISCAL_TRY(const auto format, database.integer_of("PRAGMA user_version"));
-    if (format < 3) return true;
     AXISCAL_TRY(const auto reopened,
                 database.integer_of("SELECT max(link) FROM (SELECT link FROM retake UNION ALL "
                                     "SELECT link FROM exclusion)"));
@@ -289,7 +275,7 @@ Result<bool> is_run_closed(const Database& database) {
 }
 
 Result<StoredResult> read_stored_result(const std::string& path) {
-    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto database, open_run_file(path));
     AXISCAL_TRY(const auto rows, rows_of(*database, "SELECT digest, document, hash FROM result "
                                                     "ORDER BY id DESC LIMIT 1"));
     if (rows.empty()) return fail(Fault::not_found, path + " holds no result yet");
@@ -327,7 +313,7 @@ constexpr const char* bar_of_drift =
 } // namespace
 
 Result<RunSummary> summarize_run_file(const std::string& path) {
-    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto database, open_run_file(path));
     const auto text_of = [&](const std::string& sql) -> Result<std::string> {
         AXISCAL_TRY(auto value, database->value_of(sql));
         auto* text = std::get_if<std::string>(&value);
@@ -355,23 +341,18 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(const auto closings, database->integer_of("SELECT count(*) FROM closing"));
     summary.evaluated = results != 0 && results >= closings;
     summary.closings = static_cast<int>(closings);
-    AXISCAL_TRY(const auto format, database->integer_of("PRAGMA user_version"));
-    if (format >= 3) {
-        AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
-        summary.drift = drifts != 0;
-        if (summary.drift && pass == bar_drift_pass) {
-            AXISCAL_TRY(summary.bar, text_of(bar_of_drift));
-        }
+    AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
+    summary.drift = drifts != 0;
+    if (summary.drift && pass == bar_drift_pass) {
+        AXISCAL_TRY(summary.bar, text_of(bar_of_drift));
     }
-    if (format >= 4) {
-        AXISCAL_TRY(const auto probings, database->integer_of("SELECT count(*) FROM probing"));
-        summary.probing = probings != 0;
-    }
+    AXISCAL_TRY(const auto probings, database->integer_of("SELECT count(*) FROM probing"));
+    summary.probing = probings != 0;
     return summary;
 }
 
 Result<std::optional<LastRequest>> last_request_of_closed(const std::string& path) {
-    AXISCAL_TRY(const auto database, open_checked(path));
+    AXISCAL_TRY(const auto database, open_run_file(path));
     AXISCAL_TRY(const bool closed, is_run_closed(*database));
     if (!closed) return fail(Fault::refused, path + " is still open");
     AXISCAL_TRY(const auto rows,
@@ -428,7 +409,7 @@ Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wan
                                           (wanted.of_bar ? "ballbar " : "axis ") + wanted.of +
                                           " in " + folder + "; " + wanted.order() + " makes one");
     AXISCAL_TRY(StoredResult stored, read_stored_result(found->path));
-    AXISCAL_TRY(const auto database, open_checked(found->path));
+    AXISCAL_TRY(const auto database, open_run_file(found->path));
     AXISCAL_TRY(const auto rows, rows_of(*database, "SELECT duration_ns, place_m FROM drift"));
     const auto* duration_ns = rows.empty() ? nullptr : std::get_if<std::int64_t>(&rows[0][0]);
     const auto* place_m = rows.empty() ? nullptr : std::get_if<double>(&rows[0][1]);

@@ -55,11 +55,11 @@ std::string place_in_words(const StoredRow& row) {
 /// Rows of one table in the order of their numbers.
 class TableRows {
 public:
-    static Result<TableRows> open(const Database& database, const Table& table, int format) {
+    static Result<TableRows> open(const Database& database, const Table& table) {
         AXISCAL_TRY(auto select,
                     database.prepare("SELECT link, " + std::string{table.columns} + ", hash FROM " +
                                      std::string{table.name} + " ORDER BY link"));
-        TableRows rows{table, std::move(select), format};
+        TableRows rows{table, std::move(select)};
         AXISCAL_CHECK(rows.advance());
         return rows;
     }
@@ -72,10 +72,9 @@ public:
     }
 
 private:
-    TableRows(const Table& table, Statement select, int format)
+    TableRows(const Table& table, Statement select)
         : table_{&table}
-        , select_{std::move(select)}
-        , format_{format} {}
+        , select_{std::move(select)} {}
     Result<void> advance() {
         next_.reset();
         AXISCAL_TRY(const bool more, select_.step());
@@ -89,7 +88,6 @@ private:
         if (const auto* number = std::get_if<std::int64_t>(&link)) row.link = *number;
         if (const auto* bytes = std::get_if<Blob>(&hash)) row.hash = bytes->bytes;
         RecordedRun scratch;
-        scratch.format = format_;
         auto readable = check_row(*table_, row.row);
         if (readable) readable = place_row(scratch, *table_, row.row);
         if (!readable) row.misfit = readable.error().detail;
@@ -99,7 +97,6 @@ private:
 
     const Table* table_;
     Statement select_;
-    int format_;
     std::optional<StoredRow> next_;
 };
 
@@ -190,8 +187,8 @@ private:
         stored_ = digest_of(row.hash);
         report_.links = row.link;
         previous_ = StoredRow{row.table, row.link, {row.row.begin(), row.row.begin() + 1}, {}, {}};
-        if (row.table->since <= 1 && row.table->name == "datum") ran_ = true;
-        if (row.table->name == "event" || row.table->name == "point") ran_ = true;
+        for (const char* of_course : {"datum", "event", "point"})
+            ran_ = ran_ || row.table->name == of_course;
         report_.closed = report_.complete = false;
         if (row.table->name != "closing") return;
         report_.closed = true;
@@ -225,16 +222,14 @@ private:
     bool ran_ = false; ///< more than a header was written
 };
 
-Result<std::vector<TableRows>>
-open_tables(const Database& database, int format, ChainReport& report) {
+Result<std::vector<TableRows>> open_tables(const Database& database, ChainReport& report) {
     std::vector<TableRows> tables;
     tables.reserve(chained_tables().size());
     for (const Table& table : chained_tables()) {
-        if (table.since > format) continue;
         const std::string name{table.name};
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         report.rows.emplace_back(name, count);
-        AXISCAL_TRY(auto rows, TableRows::open(database, table, format));
+        AXISCAL_TRY(auto rows, TableRows::open(database, table));
         tables.push_back(std::move(rows));
     }
     return tables;
@@ -299,14 +294,13 @@ std::string_view name_of(RowDamage damage) {
 }
 
 Result<ChainReport> verify_chain(const std::string& path) {
-    AXISCAL_TRY(const auto file, open_run_file(path));
-    AXISCAL_CHECK(check_run_file_size(*file.database, path));
-    AXISCAL_CHECK(check_run_file_pages(*file.database, path));
+    AXISCAL_TRY(const auto database, open_run_file(path));
+    AXISCAL_CHECK(check_run_file_size(*database, path));
+    AXISCAL_CHECK(check_run_file_pages(*database, path));
     ChainReport report;
-    report.format = file.format;
-    AXISCAL_TRY(auto tables, open_tables(*file.database, file.format, report));
+    AXISCAL_TRY(auto tables, open_tables(*database, report));
     AXISCAL_TRY(const auto last_closing,
-                file.database->integer_of("SELECT ifnull(max(link), 0) FROM closing"));
+                database->integer_of("SELECT ifnull(max(link), 0) FROM closing"));
     Walk walk{report, last_closing};
     std::string head;
     for (;;) {
@@ -317,7 +311,7 @@ Result<ChainReport> verify_chain(const std::string& path) {
     }
     report.chain_head = hex_of(digest_of(head));
     walk.end(is_folded(path));
-    AXISCAL_CHECK(check_results(*file.database, report));
+    AXISCAL_CHECK(check_results(*database, report));
     return report;
 }
 

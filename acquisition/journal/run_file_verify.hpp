@@ -25,7 +25,6 @@ struct RowFinding {
 
 /// What the chain of a file shows.
 struct ChainReport {
-    int format = 0;
     std::int64_t links = 0;                                 ///< rows of the chain
     std::vector<std::pair<std::string, std::int64_t>> rows; ///< by table, `result` included
     bool closed = false, complete = false;

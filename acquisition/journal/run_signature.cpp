@@ -54,14 +54,13 @@ struct SignedFile {
     bool closed = false;
 };
 
-Result<SignedFile> look_into(const Database& database, int format) {
+Result<SignedFile> look_into(const Database& database) {
     SignedFile file;
     AXISCAL_TRY(const auto id, database.value_of("SELECT run_id FROM run"));
     if (const auto* text = std::get_if<std::string>(&id)) file.run_id = *text;
     AXISCAL_TRY(file.closings, every_value(database, "SELECT hash FROM closing ORDER BY link"));
     AXISCAL_TRY(file.results, every_value(database, "SELECT hash FROM result ORDER BY id"));
     AXISCAL_TRY(file.closed, is_run_closed(database));
-    if (format < signed_since) return file;
     AXISCAL_TRY(file.signatures,
                 every_row(database, "SELECT closing, closing_hash, result_hash, public_key, "
                                     "signature FROM signature ORDER BY id"));
@@ -149,7 +148,7 @@ std::string signed_bytes(const ClosingMark& mark) {
 Result<void> append_signature(Database& database,
                               const SecretKey& key,
                               const std::optional<Digest>& result_hash) {
-    AXISCAL_TRY(const SignedFile file, look_into(database, signed_since));
+    AXISCAL_TRY(const SignedFile file, look_into(database));
     const auto hash =
         file.closings.empty() ? std::nullopt : bytes_from<Digest>(file.closings.back());
     if (!hash) return fail(Fault::internal, "nothing is closed that could be signed");
@@ -166,8 +165,6 @@ Result<void> append_signature(Database& database,
 }
 
 Result<bool> is_closing_signed(const Database& database) {
-    AXISCAL_TRY(const auto format, database.integer_of("PRAGMA user_version"));
-    if (format < signed_since) return false;
     AXISCAL_TRY(const auto found,
                 database.integer_of("SELECT count(*) FROM signature WHERE closing=(SELECT "
                                     "count(*) FROM closing)"));
@@ -175,8 +172,8 @@ Result<bool> is_closing_signed(const Database& database) {
 }
 
 Result<ClosingMark> last_closing_mark(const std::string& run_file) {
-    AXISCAL_TRY(const CheckedFile open, open_run_file(run_file));
-    AXISCAL_TRY(const SignedFile file, look_into(*open.database, open.format));
+    AXISCAL_TRY(const auto database, open_run_file(run_file));
+    AXISCAL_TRY(const SignedFile file, look_into(*database));
     const auto hash =
         file.closings.empty() ? std::nullopt : bytes_from<Digest>(file.closings.back());
     if (!file.closed || !hash) return fail(Fault::refused, run_file + " is still open");
@@ -206,13 +203,10 @@ std::string_view name_of(AnchorVerdict verdict) {
 
 Result<SignatureReport> check_signatures(const std::string& run_file,
                                          std::span<const PublicKey> known) {
-    AXISCAL_TRY(const CheckedFile open, open_run_file(run_file));
-    AXISCAL_TRY(const SignedFile file, look_into(*open.database, open.format));
+    AXISCAL_TRY(const auto database, open_run_file(run_file));
+    AXISCAL_TRY(const SignedFile file, look_into(*database));
     if (file.signatures.empty())
-        return SignatureReport{SignatureVerdict::absent,
-                               open.format < signed_since
-                                   ? "the format of the file is older than signatures"
-                                   : "nothing in the file is signed"};
+        return SignatureReport{SignatureVerdict::absent, "nothing in the file is signed"};
     if (known.empty())
         return SignatureReport{
             SignatureVerdict::unknown_key,
@@ -228,8 +222,8 @@ Result<SignatureReport> check_signatures(const std::string& run_file,
 }
 
 Result<AnchorReport> compare_with_anchor(const std::string& run_file, const ClosingMark& anchor) {
-    AXISCAL_TRY(const CheckedFile open, open_run_file(run_file));
-    AXISCAL_TRY(const SignedFile file, look_into(*open.database, open.format));
+    AXISCAL_TRY(const auto database, open_run_file(run_file));
+    AXISCAL_TRY(const SignedFile file, look_into(*database));
     std::string why = difference(file, anchor);
     if (!why.empty()) return AnchorReport{AnchorVerdict::differs, std::move(why)};
     return AnchorReport{AnchorVerdict::match,

@@ -15,9 +15,6 @@ namespace axiscal {
 
 class Database;
 
-/// Format of the files that can hold signatures.
-inline constexpr int signed_since = 7;
-
 /// What is signed. Its bytes are those of a row (docs/run-file.md) named `signature` with these
 /// four values.
 struct ClosingMark {
@@ -36,7 +33,7 @@ Result<void> append_signature(Database& database,
 /// Whether the last closing is signed: then its result has to be, too.
 Result<bool> is_closing_signed(const Database& database);
 
-/// The newest closing and the newest result of a closed file; of any format.
+/// The newest closing and the newest result of a closed file.
 /// @errors Fault::refused while it is open; those of open_run_file().
 Result<ClosingMark> last_closing_mark(const std::string& run_file);
 

@@ -1,5 +1,6 @@
--- Schema 1 of an axiscal run file. docs/run-file.md explains tables, units and the hash chain.
+-- Schema of an axiscal run file. docs/run-file.md explains tables, units and the hash chain.
 -- Columns of type ANY hold IEEE doubles: STRICT's REAL would turn a negative zero into zero.
+-- The header: written when the run is armed.
 CREATE TABLE run(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, software_version TEXT NOT NULL,
     station TEXT NOT NULL, station_config TEXT NOT NULL, config_hash TEXT NOT NULL,
     boot_id TEXT NOT NULL, opened_before_ns INTEGER NOT NULL, opened_utc_ns INTEGER NOT NULL,
@@ -23,6 +24,26 @@ CREATE TABLE material(link INTEGER PRIMARY KEY, coefficient_per_K ANY NOT NULL,
     hash BLOB NOT NULL) STRICT;
 CREATE TABLE air(link INTEGER PRIMARY KEY, formula TEXT NOT NULL, co2_ppm ANY NOT NULL,
     oldest_ns INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+-- How the angle of a rotary axis is measured, and what the certificate of its artefact says of each
+-- position, that of position 0 first.
+CREATE TABLE rotary(link INTEGER PRIMARY KEY, method TEXT NOT NULL, step_deg ANY NOT NULL,
+    arm_m ANY NOT NULL, range_deg ANY NOT NULL, turn_time_ns INTEGER NOT NULL,
+    by_hand INTEGER NOT NULL, certificate_with_axis INTEGER NOT NULL, run_out TEXT NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE rotary_deviation(link INTEGER PRIMARY KEY, deviation_arcsec ANY NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+-- The linear scale that measured the axis in the place of a laser, and the channels of the temperatures on it.
+CREATE TABLE linear_scale(link INTEGER PRIMARY KEY, resolution_m ANY NOT NULL,
+    coefficient_per_K ANY NOT NULL, standard_uncertainty_per_K ANY, temperature_width_K ANY,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE linear_scale_sensor(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL UNIQUE,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE uncertainty(link INTEGER PRIMARY KEY, device_U_m ANY, device_U_per_m ANY,
+    device_k ANY NOT NULL, device_width_m ANY, device_width_per_m ANY, misalignment_m ANY,
+    misalignment_rad ANY, temperature_width_K ANY, expansion_width_per_K ANY, eve_m ANY,
+    eve_model TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE uncertainty_target(link INTEGER PRIMARY KEY, parameter TEXT NOT NULL UNIQUE,
+    limit_m ANY NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE statement(link INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, value TEXT NOT NULL,
     hash BLOB NOT NULL) STRICT;
 CREATE TABLE instrument(link INTEGER PRIMARY KEY, name TEXT NOT NULL, driver TEXT NOT NULL,
@@ -32,6 +53,35 @@ CREATE TABLE instrument(link INTEGER PRIMARY KEY, name TEXT NOT NULL, driver TEX
 CREATE TABLE channel(link INTEGER PRIMARY KEY, id INTEGER NOT NULL, name TEXT NOT NULL,
     instrument TEXT NOT NULL, place TEXT NOT NULL, kind TEXT NOT NULL, medium TEXT NOT NULL,
     correction ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+-- The certificates of single channels.
+CREATE TABLE channel_calibration(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL UNIQUE,
+    certificate_number TEXT NOT NULL, calibrated_on TEXT NOT NULL, due_on TEXT NOT NULL,
+    expanded_uncertainty ANY, expanded_uncertainty_per_m ANY, coverage ANY NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE channel_correction(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL,
+    reading ANY NOT NULL, correction ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+-- How the beam was aligned, if it was watched.
+CREATE TABLE alignment(link INTEGER PRIMARY KEY, began_utc_ns INTEGER NOT NULL,
+    ended_utc_ns INTEGER NOT NULL, instrument TEXT NOT NULL, serial TEXT NOT NULL,
+    travel_m ANY NOT NULL, reached_m ANY NOT NULL, readings INTEGER NOT NULL, lost INTEGER NOT NULL,
+    restarts INTEGER NOT NULL, far_distance_m ANY, far_highest_m ANY, far_last_m ANY,
+    far_scatter_m ANY, far_blocks INTEGER, far_passed_maximum INTEGER, spot_offset_m ANY,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE alignment_place(link INTEGER PRIMARY KEY, begin_m ANY NOT NULL, end_m ANY NOT NULL,
+    readings INTEGER NOT NULL, weakest_percent ANY NOT NULL, mean_percent ANY NOT NULL,
+    last_percent ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+-- What makes a run a drift test, and what makes it a probing test.
+CREATE TABLE drift(link INTEGER PRIMARY KEY, duration_ns INTEGER NOT NULL,
+    interval_ns INTEGER NOT NULL, place_m ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE probing(link INTEGER PRIMARY KEY, feed_mm_per_min ANY NOT NULL, probe TEXT NOT NULL,
+    signal_path TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE probing_touch(link INTEGER PRIMARY KEY, direction_x ANY NOT NULL,
+    direction_y ANY NOT NULL, direction_z ANY NOT NULL, reference INTEGER NOT NULL,
+    approach_m ANY NOT NULL, x_m ANY NOT NULL, y_m ANY NOT NULL, z_m ANY NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+-- The drift test that a budget's E_VE comes from.
+CREATE TABLE eve_source(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+-- The run: what was captured, what was decided, how it ended.
 CREATE TABLE datum(link INTEGER PRIMARY KEY, id TEXT NOT NULL, at_ns INTEGER NOT NULL,
     coordinate_m ANY NOT NULL, reading_m ANY NOT NULL, epoch INTEGER NOT NULL,
     spread_m ANY NOT NULL, slope_um_per_s ANY NOT NULL, n INTEGER NOT NULL,
@@ -49,8 +99,58 @@ CREATE TABLE environment(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL,
 CREATE TABLE event(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, at_ns INTEGER NOT NULL,
     utc_ns INTEGER NOT NULL, text TEXT NOT NULL, fault TEXT NOT NULL, sequence INTEGER NOT NULL,
     hash BLOB NOT NULL) STRICT;
+-- A circular test: its plan, and channels recorded at their full rate. docs/run-file.md explains the
+-- bytes of stream_block.data.
+CREATE TABLE circular(link INTEGER PRIMARY KEY, plane TEXT NOT NULL, radius_mm ANY NOT NULL,
+    feed_mm_per_s ANY NOT NULL, senses TEXT NOT NULL, repeats INTEGER NOT NULL,
+    warm_up INTEGER NOT NULL, start_deg ANY NOT NULL, arc_deg ANY NOT NULL,
+    overshoot_deg ANY NOT NULL, feed_in_mm ANY NOT NULL, feed_in_outside INTEGER NOT NULL,
+    centre_x_mm ANY NOT NULL, centre_y_mm ANY NOT NULL, centre_z_mm ANY NOT NULL,
+    tool_offset TEXT NOT NULL, work_offset TEXT NOT NULL, sample_rate_hz ANY NOT NULL,
+    low_pass_hz ANY, averaged INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE circular_bar(link INTEGER PRIMARY KEY, instrument TEXT NOT NULL,
+    sign INTEGER NOT NULL, length_mm ANY NOT NULL, bar_alpha_per_K ANY, machine_alpha_per_K ANY,
+    temperature_channel INTEGER, hash BLOB NOT NULL) STRICT;
+CREATE TABLE circular_uncertainty(link INTEGER PRIMARY KEY, device_width_um ANY,
+    calibration_U_um ANY, calibration_k ANY, repeatability_um ANY, eve_um ANY,
+    centre_width_um ANY, machine_temperature_width_K ANY, bar_temperature_width_K ANY,
+    machine_alpha_width_per_K ANY, bar_alpha_width_per_K ANY, runs INTEGER NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE circular_start(link INTEGER PRIMARY KEY, start_from TEXT NOT NULL,
+    trigger_delay_s ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE stream(link INTEGER PRIMARY KEY, id INTEGER NOT NULL UNIQUE,
+    channel INTEGER NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL,
+    nominal_rate_hz ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE stream_block(link INTEGER PRIMARY KEY, stream INTEGER NOT NULL,
+    block INTEGER NOT NULL, first_count INTEGER NOT NULL, samples INTEGER NOT NULL,
+    missing INTEGER NOT NULL, before TEXT NOT NULL, begin_ns INTEGER NOT NULL,
+    end_ns INTEGER NOT NULL, low ANY NOT NULL, high ANY NOT NULL, data BLOB NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+-- u(t) of the block that stands before; NULL: not stated.
+CREATE TABLE stream_block_time(link INTEGER PRIMARY KEY, stream INTEGER NOT NULL,
+    block INTEGER NOT NULL, u_t_ns INTEGER, hash BLOB NOT NULL) STRICT;
+-- A row of retake or exclusion may follow a closing row; the run is then closed again.
+CREATE TABLE preflight(link INTEGER PRIMARY KEY, name TEXT NOT NULL, passed INTEGER NOT NULL,
+    warning INTEGER NOT NULL, verdict TEXT NOT NULL, override_reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE retake(link INTEGER PRIMARY KEY, number INTEGER NOT NULL UNIQUE, at_ns INTEGER NOT NULL,
+    utc_ns INTEGER NOT NULL, reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE retake_point(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE,
+    planned_step INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE exclusion(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE, at_ns INTEGER NOT NULL,
+    utc_ns INTEGER NOT NULL, reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+-- What the uncertain time of the samples adds to a captured reading; both are NULL: not stated.
+CREATE TABLE synchronisation(link INTEGER PRIMARY KEY, step INTEGER NOT NULL,
+    datum_id TEXT NOT NULL, u_t_ns INTEGER, error_um ANY, hash BLOB NOT NULL,
+    UNIQUE(step, datum_id)) STRICT;
+-- Who ordered what was decided about the run.
+CREATE TABLE ordered(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, about TEXT NOT NULL,
+    at_ns INTEGER NOT NULL, utc_ns INTEGER NOT NULL, door TEXT NOT NULL, uid INTEGER,
+    user TEXT NOT NULL, name TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE closing(link INTEGER PRIMARY KEY, complete INTEGER NOT NULL, reason TEXT NOT NULL,
     closed_before_ns INTEGER NOT NULL, closed_utc_ns INTEGER NOT NULL,
     closed_after_ns INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+-- No tables of the chain: results bear their own hash, signatures sign closings and results.
 CREATE TABLE result(id INTEGER PRIMARY KEY, digest TEXT NOT NULL, document TEXT NOT NULL,
     hash BLOB NOT NULL) STRICT;
+CREATE TABLE signature(id INTEGER PRIMARY KEY, closing INTEGER NOT NULL, closing_hash BLOB NOT NULL,
+    result_hash BLOB, public_key BLOB NOT NULL, signature BLOB NOT NULL) STRICT;

@@ -44,8 +44,6 @@ std::string name_for_people(const PaperIdentity& identity, const std::string& ru
 } // namespace
 
 Result<PaperIdentity> identity_of(const std::string& run_file, const RunFileContents& contents) {
-    if (contents.format < numbered_since)
-        return PaperIdentity{contents.run.statements.certificate_number, "", 1};
     const int closings = contents.revisions.closings;
     if (contents.results < closings) return PaperIdentity{"", "", closings};
     AXISCAL_TRY(const auto stored, newest_identity(run_file));

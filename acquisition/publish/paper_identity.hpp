@@ -10,9 +10,6 @@
 
 namespace axiscal {
 
-/// Format of the run files whose results tell by which number they were issued.
-inline constexpr int numbered_since = 7;
-
 struct PaperIdentity {
     std::string number;   ///< empty: the station gives none, or the paper was not issued
     std::string replaces; ///< number of the earlier certificate, without one its folder's name

@@ -8,13 +8,8 @@ import os
 import re
 import sqlite3
 import struct
-import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
-import run_file_window
-
-SCHEMAS = ["schema.sql"] + [f"schema_{name}.sql" for name in ("2", "3_streams", "3", "3_beside", "4", "5", "7")]
-IDENTITY, FORMAT = 0x4158434C, 7
+IDENTITY, FORMAT = 0x4158434C, 1
 NAMES_OF_COLUMNS = "record_columns.hpp"
 
 
@@ -38,11 +33,10 @@ def canonical(table, values):
 
 
 def new_file(path, source):
-    """An empty run file of format 7, with every table."""
+    """An empty run file, with every table."""
     base = sqlite3.connect(path)
-    for name in SCHEMAS:
-        with open(os.path.join(source, "acquisition", "journal", name), encoding="utf-8") as schema:
-            base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
+    with open(os.path.join(source, "acquisition", "journal", "schema.sql"), encoding="utf-8") as schema:
+        base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
     base.execute(f"PRAGMA application_id={IDENTITY}")
     base.execute(f"PRAGMA user_version={FORMAT}")
     return base
@@ -102,16 +96,10 @@ def write(path, source, rows):
             base.execute(f"INSERT INTO {table} VALUES({marks})", (link, *values, before))
 
 
-def with_packed_windows(rows):
-    """Rows of a format before 6, whose points end with 24 bytes a sample, as format 7 has them."""
-    return [(table, [*values[:-1], run_file_window.packed(list(struct.iter_unpack("<qdQ", values[-1])))])
-            if table == "point" else (table, values) for table, values in rows]
-
-
 def read(path):
-    """The rows of the reference run, which is of format 1, as format 7 has them."""
+    """The rows of the reference run."""
     with contextlib.closing(sqlite3.connect(path)) as base:
-        return with_packed_windows([row for _, row in sorted(rows_of(base).items())])
+        return [row for _, row in sorted(rows_of(base).items())]
 
 
 def put_behind(rows, table, more):
@@ -133,7 +121,7 @@ def with_synchronisation(rows):
 
 
 def linear(reference):
-    """The reference run in format 7, with all that a header can hold of a positioning run."""
+    """The reference run, with all that a header can hold of a positioning run."""
     rows = with_synchronisation(read(reference))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),

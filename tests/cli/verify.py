@@ -21,7 +21,7 @@ import run_files
 from run_files import chain_anew, columns_of, make_room, rows_of
 
 AXISCAL, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")  # of format 1
+RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 KINDS = ("linear", "revised", "circular", "rotary", "scale", "probing", "drift")
 # What the schema holds to be unique gets another value in a copied row.
 NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement", "name"): "name || '2'",
@@ -52,7 +52,7 @@ class Verify(unittest.TestCase):
         self.path = os.path.join(self.folder, "run.axiscal")
 
     def make_whole(self, path):
-        """The reference run in format 7, with rows of every kind that a positioning run has and a result."""
+        """The reference run, with rows of every kind that a positioning run has and a result."""
         run_files.write(path, SOURCE, run_files.linear(RUN))
         told = self.verify(path)
         self.assertEqual(told["findings"], [])

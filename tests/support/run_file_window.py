@@ -1,4 +1,4 @@
-"""The samples of a point as docs/run-file.md tells their bytes, from format 6 on.
+"""The samples of a point as docs/run-file.md tells their bytes.
 
 A sample is (time in ns, reading in metres, the instrument's own sample number). Nothing of the product is used.
 """

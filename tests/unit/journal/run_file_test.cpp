@@ -21,6 +21,7 @@ using testing::append;
 using testing::open_run_files;
 using testing::RandomRun;
 using testing::read_bytes;
+using testing::refusal_of;
 using testing::run_sql;
 using testing::same_bits;
 using testing::ScratchFolder;
@@ -95,7 +96,30 @@ TEST(RunFile, SaysWhoItIsInItsFirstBytes) {
     const auto bytes = read_bytes(path);
     EXPECT_EQ(bytes.substr(0, 15), "SQLite format 3");
     EXPECT_EQ(bytes.substr(68, 4), "AXCL");                       // application_id
-    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\7", 4})); // user_version
+    EXPECT_EQ(bytes.substr(60, 4), (std::string{"\0\0\0\1", 4})); // user_version
+}
+
+TEST(RunFile, TellsAnotherFormatFromADamagedFile) {
+    const ScratchFolder scratch;
+    RandomRun random{13};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 1);
+    for (const std::string version : {"99", "2", "0"}) {
+        run_sql(path, "PRAGMA user_version = " + version);
+        EXPECT_NE(refusal_of(path).find("written in format " + version + " by another axiscal"),
+                  std::string::npos);
+    }
+    run_sql(path, "PRAGMA application_id = 1");
+    EXPECT_NE(refusal_of(path).find("not an axiscal run file"), std::string::npos);
+}
+
+TEST(RunFile, IsRefusedWithoutOneOfItsTables) {
+    const ScratchFolder scratch;
+    RandomRun random{22};
+    const auto path = scratch.file("r.axiscal");
+    write_run(path, random, 1);
+    run_sql(path, "DROP TABLE linear_scale");
+    EXPECT_NE(refusal_of(path).find("tables are not those"), std::string::npos);
 }
 
 TEST(RunFile, CanBeReadWhileItIsOpen) {

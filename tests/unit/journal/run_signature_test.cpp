@@ -3,7 +3,6 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/journal/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/older_format.hpp"
 #include "tests/unit/journal/random_run.hpp"
 #include "tests/unit/journal/written_run.hpp"
 
@@ -54,19 +53,11 @@ TEST(RunSignature, OfAnotherStationIsBad) {
     EXPECT_EQ(judged(path, {}).verdict, SignatureVerdict::unknown_key);
 }
 
-TEST(RunSignature, IsAbsentWhereNobodySignedAndInOlderFormats) {
+TEST(RunSignature, IsAbsentWhereNobodySigned) {
     const ScratchFolder scratch;
-    const auto path = scratch.file("r.axiscal"), old = scratch.file("old.axiscal");
+    const auto path = scratch.file("r.axiscal");
     write_signed(path, 3, nullptr);
     EXPECT_EQ(judged(path).verdict, SignatureVerdict::absent);
-    RandomRun random{4};
-    write_run(old, random, 2, false);
-    run_sql(old, testing::to_format_6);
-    auto writer = RunFileWriter::reopen(old).value();
-    ASSERT_TRUE(writer.close(true, "done", random.tie(), &station));
-    ASSERT_TRUE(store_result(old, {"d", "{}"}, &station));
-    EXPECT_EQ(judged(old).verdict, SignatureVerdict::absent);
-    EXPECT_NE(judged(old).sentence.find("older than signatures"), std::string::npos);
 }
 
 TEST(RunSignature, StandsFromTheMomentOfTheClosing) {

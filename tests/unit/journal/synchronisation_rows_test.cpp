@@ -1,5 +1,4 @@
-// Format 4: what the uncertain time of the samples adds to each capture, beside its point or datum.
-#include "older_format.hpp"
+// What the uncertain time of the samples adds to each capture, beside its point or datum.
 #include "random_run.hpp"
 
 #include "acquisition/journal/run_file.hpp"
@@ -14,7 +13,6 @@
 namespace axiscal::synchronisation_rows_test {
 namespace {
 
-using testing::drop_format_4;
 using testing::RandomRun;
 using testing::ScratchFolder;
 
@@ -120,29 +118,6 @@ TEST_F(SynchronisationRows, AnUncertaintyOfNothingIsNotWritten) {
     const auto written = writer.write(batch);
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().fault, Fault::internal);
-}
-
-/// An open file as the version before this one left it.
-TEST_F(SynchronisationRows, AFileOfFormat3GoesOnWithoutThem) {
-    RunRecord header = random.header();
-    header.calibrations.clear();
-    header.rotary.reset();
-    ASSERT_TRUE(RunFileWriter::create(path, header));
-    run_sql(path, drop_format_4 + "PRAGMA user_version=3");
-    auto writer = RunFileWriter::reopen(path);
-    ASSERT_TRUE(writer) << describe(writer.error());
-    RunBatch batch;
-    batch.point = random.point(0);
-    batch.synchronisation = known;
-    batch.preflight = {{"soak", true, false, "Calm.", ""}};
-    ASSERT_TRUE(writer->write(batch));
-    ASSERT_TRUE(writer->close(true, "done", random.tie()));
-    const auto read = read_run_file_contents(path);
-    ASSERT_TRUE(read) << describe(read.error());
-    EXPECT_EQ(read->format, 3);
-    EXPECT_EQ(read->run.points.size(), 1U);
-    EXPECT_TRUE(read->attachments.synchronisation.empty());
-    EXPECT_TRUE(findings().empty());
 }
 
 } // namespace
