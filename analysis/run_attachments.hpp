@@ -12,20 +12,17 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace axiscal {
-
-/// RunPlan::pass of a drift test: of the resting axis, or of the ballbar at rest. LaserSetup names
-/// the bar's instrument then and says nothing else.
-inline constexpr std::string_view axis_drift_pass = "drift", bar_drift_pass = "ballbar-drift";
 
 /// A drift test: every channel read at an interval while the axis rests. The readings stand in
 /// RunRecord::environment, those of the laser in vacuum wavelengths.
 struct DriftSetup {
     Duration duration{}, interval{};
     Length place; ///< coordinate at which the axis rests; 0 for a ballbar, which has none
+    /// Of the ballbar at rest: LaserSetup names its instrument and says nothing else.
+    bool of_bar = false;
 };
 
 struct RunAttachments {

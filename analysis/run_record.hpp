@@ -7,6 +7,7 @@
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
 #include "analysis/rotary/rotary_setup.hpp"
+#include "analysis/test_kind.hpp"
 
 #include <array>
 #include <cstdint>
@@ -67,7 +68,7 @@ struct PlannedPoint {
 struct RunPlan {
     AxisKind axis_kind = AxisKind::linear;
     CycleKind cycle = CycleKind::standard;
-    std::string pass = "whole"; ///< "whole" | "stretch" (2000 mm stretch of a long axis)
+    std::string pass = "whole"; ///< of a positioning test; "stretch": 2000 mm of a long axis
     std::string remark;         ///< e.g. why the stretch was declined; printed
     std::vector<Length> targets;
     int approaches = 5; ///< n per direction
@@ -286,6 +287,7 @@ struct RunRecord {
     ClockTie opened, closed;
     bool complete = false; ///< closed with every planned point
     std::string closing_reason;
+    TestKind kind = TestKind::positioning;
     RunPlan plan;
     LaserSetup laser;
     MaterialSetup material;

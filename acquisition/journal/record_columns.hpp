@@ -13,6 +13,7 @@ inline constexpr std::array tables{
           "run_id, software_version, station, station_config, config_hash, boot_id, "
           "opened_before_ns, opened_utc_ns, opened_after_ns",
           "ttttttiii"},
+    Table{"test", "kind", "t"},
     Table{"plan",
           "axis_kind, cycle, pass, remark, approaches, bidirectional, interval_m, seed, overrun_m, "
           "near_tolerance_m, datum_m",
@@ -57,7 +58,7 @@ inline constexpr std::array tables{
           "iittrriiiRRRRIIR"},
     Table{"alignment_place",
           "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr"},
-    Table{"drift", "duration_ns, interval_ns, place_m", "iir"},
+    Table{"drift", "duration_ns, interval_ns, place_m, of_bar", "iiri"},
     Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt"},
     Table{"probing_touch",
           "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m", "rrrirrrr"},

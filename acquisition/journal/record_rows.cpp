@@ -149,6 +149,7 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     rows.push_back(chained("run", {header.run_id, header.software_version, header.station,
                                    header.station_config, header.config_hash, header.boot_id.text,
                                    nanoseconds(before), utc_ns, nanoseconds(after)}));
+    rows.push_back(chained("test", {text(name_of(header.kind))}));
     rows.push_back(row_of_plan(header.plan));
     for (const auto target : header.plan.targets)
         rows.push_back(chained("plan_target", {target.si()}));
@@ -192,7 +193,8 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     }
     if (drift)
         rows.push_back(chained("drift", {whole(drift->duration.count()),
-                                         whole(drift->interval.count()), drift->place.si()}));
+                                         whole(drift->interval.count()), drift->place.si(),
+                                         whole(drift->of_bar)}));
     if (probing) {
         rows.push_back(
             chained("probing", {probing->feed_mm_per_min, probing->probe, probing->signal_path}));

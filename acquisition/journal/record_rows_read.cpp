@@ -12,6 +12,7 @@ template <auto read> void measured(RecordedRun& run, RowReader& in) {
 
 constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     measured<read_run>,
+    measured<read_test>,
     measured<read_plan>,
     measured<read_target>,
     measured<read_plan_point>,

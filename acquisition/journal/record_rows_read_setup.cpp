@@ -33,6 +33,11 @@ void read_run(RunRecord& run, RowReader& in) {
     run.opened = read_tie(in);
 }
 
+void read_test(RunRecord& run, RowReader& in) {
+    run.kind = in.choice(
+        {TestKind::positioning, TestKind::circular, TestKind::drift, TestKind::probing});
+}
+
 void read_plan(RunRecord& run, RowReader& in) {
     auto& plan = run.plan;
     plan.axis_kind = in.choice({AxisKind::linear, AxisKind::rotary});

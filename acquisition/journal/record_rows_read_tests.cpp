@@ -46,6 +46,7 @@ void read_drift(RecordedRun& run, RowReader& in) {
     drift.duration = Duration{in.integer()};
     drift.interval = Duration{in.integer()};
     drift.place = in.length();
+    drift.of_bar = in.flag();
     if (run.attachments.drift) return in.reject("stands there twice");
     run.attachments.drift = drift;
 }

@@ -21,8 +21,6 @@ namespace axiscal {
 struct RunFileContents;
 
 inline constexpr std::string_view run_file_ending = ".axiscal";
-/// RunPlan::pass of a circular test, whose plan has no targets.
-inline constexpr std::string_view circular_pass = "circular";
 
 /// What becomes durable together.
 struct RunBatch {
@@ -162,7 +160,7 @@ Result<bool> is_run_closed(const Database& database);
 
 /// One line of a list of runs, read quickly: the chain is not verified.
 struct RunSummary {
-    bool circular = false; ///< a circular test
+    TestKind kind = TestKind::positioning;
     std::string path, run_id, machine, axis, closing_reason;
     BootId boot_id; ///< of the computer when the run was opened
     MonotonicTime opened_at;
@@ -170,9 +168,7 @@ struct RunSummary {
     int points = 0, planned = 0, closings = 0;
     bool closed = false, complete = false;
     bool evaluated = false;         ///< a result is stored since the last closing
-    bool drift = false;             ///< a drift test
-    std::optional<std::string> bar; ///< its channel, "gauge/axis 1", where it is one of a ballbar
-    bool probing = false;           ///< a probing test
+    std::optional<std::string> bar; ///< its channel, "gauge/axis 1": of a drift test of a ballbar
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Folder of its certificate: the run's id, made anew by id_of_name() in case the file comes from

@@ -176,7 +176,7 @@ Result<void> take_link(RunFileContents& into,
 }
 
 Result<void> check_header(const Database& database, const std::string& path) {
-    for (const std::string name : {"run", "plan", "laser", "material", "air"}) {
+    for (const std::string name : {"run", "test", "plan", "laser", "material", "air"}) {
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         if (count != 1) return bad(path, "table " + name + " does not have exactly one row");
     }
@@ -305,6 +305,13 @@ Result<void> take_opening(const Database& database, RunSummary& summary) {
     return {};
 }
 
+/// Of a changed file the first kind: who reads all of it is told of the row.
+TestKind kind_named(const std::string& name) {
+    for (const TestKind kind : {TestKind::circular, TestKind::drift, TestKind::probing})
+        if (name == name_of(kind)) return kind;
+    return TestKind::positioning;
+}
+
 /// As laser_channel_of() in run_drift.cpp finds it.
 constexpr const char* bar_of_drift =
     "SELECT channel.instrument || '/' || channel.name FROM channel JOIN laser ON "
@@ -326,8 +333,8 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
     const std::string last_closing = " FROM closing ORDER BY link DESC LIMIT 1";
     AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason" + last_closing));
-    AXISCAL_TRY(const std::string pass, text_of("SELECT pass FROM plan"));
-    summary.circular = pass == circular_pass;
+    AXISCAL_TRY(const std::string kind, text_of("SELECT kind FROM test"));
+    summary.kind = kind_named(kind);
     AXISCAL_TRY(const auto points,
                 database->integer_of("SELECT count(DISTINCT planned_step) FROM point"));
     AXISCAL_TRY(const auto planned, database->integer_of("SELECT count(*) FROM plan_point"));
@@ -341,13 +348,10 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_TRY(const auto closings, database->integer_of("SELECT count(*) FROM closing"));
     summary.evaluated = results != 0 && results >= closings;
     summary.closings = static_cast<int>(closings);
-    AXISCAL_TRY(const auto drifts, database->integer_of("SELECT count(*) FROM drift"));
-    summary.drift = drifts != 0;
-    if (summary.drift && pass == bar_drift_pass) {
+    AXISCAL_TRY(const auto of_bar, database->integer_of("SELECT of_bar FROM drift"));
+    if (of_bar != 0) {
         AXISCAL_TRY(summary.bar, text_of(bar_of_drift));
     }
-    AXISCAL_TRY(const auto probings, database->integer_of("SELECT count(*) FROM probing"));
-    summary.probing = probings != 0;
     return summary;
 }
 
@@ -399,7 +403,7 @@ Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wan
     std::vector<RunSummary> tests = list_run_files(folder);
     std::erase_if(tests, [&](const RunSummary& run) {
         const bool of_it = wanted.of_bar ? run.bar == wanted.of : !run.bar && run.axis == wanted.of;
-        const bool counts = run.drift && run.complete && run.evaluated && of_it;
+        const bool counts = run.kind == TestKind::drift && run.complete && run.evaluated && of_it;
         return !counts || (wanted.which != "latest" && run.run_id != wanted.which);
     });
     const RunSummary* found = newest_run(tests, {});

@@ -5,6 +5,7 @@ CREATE TABLE run(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, software_versio
     station TEXT NOT NULL, station_config TEXT NOT NULL, config_hash TEXT NOT NULL,
     boot_id TEXT NOT NULL, opened_before_ns INTEGER NOT NULL, opened_utc_ns INTEGER NOT NULL,
     opened_after_ns INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE TABLE test(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE plan(link INTEGER PRIMARY KEY, axis_kind TEXT NOT NULL, cycle TEXT NOT NULL,
     pass TEXT NOT NULL, remark TEXT NOT NULL, approaches INTEGER NOT NULL,
     bidirectional INTEGER NOT NULL, interval_m ANY NOT NULL, seed INTEGER,
@@ -70,9 +71,10 @@ CREATE TABLE alignment(link INTEGER PRIMARY KEY, began_utc_ns INTEGER NOT NULL,
 CREATE TABLE alignment_place(link INTEGER PRIMARY KEY, begin_m ANY NOT NULL, end_m ANY NOT NULL,
     readings INTEGER NOT NULL, weakest_percent ANY NOT NULL, mean_percent ANY NOT NULL,
     last_percent ANY NOT NULL, hash BLOB NOT NULL) STRICT;
--- What makes a run a drift test, and what makes it a probing test.
+-- Of a drift test; of a probing test.
 CREATE TABLE drift(link INTEGER PRIMARY KEY, duration_ns INTEGER NOT NULL,
-    interval_ns INTEGER NOT NULL, place_m ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+    interval_ns INTEGER NOT NULL, place_m ANY NOT NULL, of_bar INTEGER NOT NULL,
+    hash BLOB NOT NULL) STRICT;
 CREATE TABLE probing(link INTEGER PRIMARY KEY, feed_mm_per_min ANY NOT NULL, probe TEXT NOT NULL,
     signal_path TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE probing_touch(link INTEGER PRIMARY KEY, direction_x ANY NOT NULL,

@@ -98,11 +98,6 @@ CircularRun header_of(const RunRecord& run, const CircularSetup& setup) {
 
 } // namespace
 
-Result<bool> is_circular_run(const std::string& run_file) {
-    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
-    return summary.circular;
-}
-
 Result<CircularRun> circular_run_of(const RunFileContents& contents) {
     if (!contents.circular || contents.streams.empty())
         return fail(Fault::refused, "run " + contents.run.run_id + " holds no circular test");

@@ -9,9 +9,6 @@
 
 namespace axiscal {
 
-/// The run file holds a circular test; its chain is not looked at. @errors as summarize_run_file.
-Result<bool> is_circular_run(const std::string& run_file);
-
 /// Cuts the circles of a run file that was read. Temperatures are means over the time from the
 /// first evaluated circle to the last.
 /// @errors Fault::refused for a run that is no circular test; Fault::incomplete_run as cut_circles.

@@ -71,8 +71,8 @@ std::string source_of_eve(const Certificate& certificate) {
 }
 
 Result<FirstResult> first_result_of(const std::string& run_file) {
-    AXISCAL_TRY(const bool circular, is_circular_run(run_file));
-    if (!circular) {
+    AXISCAL_TRY(const RunSummary run, summarize_run_file(run_file));
+    if (run.kind != TestKind::circular) {
         AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(run_file));
         if (certificate.completeness.partial()) return no_certificate(certificate.run);
         return FirstResult{certificate.result_digest, result_to_json(certificate.result),
@@ -88,9 +88,9 @@ Result<FirstResult> first_result_of(const std::string& run_file) {
 Result<Certificate> certificate_of_run_file(const std::string& run_file) {
     AXISCAL_TRY(std::string sha256, sha256_of_file(run_file));
     AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
-    if (contents.attachments.drift)
+    if (contents.run.kind == TestKind::drift)
         return fail(Fault::refused, run_file + " is a drift test: it has no points");
-    if (contents.attachments.probing)
+    if (contents.run.kind == TestKind::probing)
         return fail(Fault::refused, run_file + " is a probing test: it has no points");
     AXISCAL_TRY(const PaperIdentity identity, identity_of(run_file, contents));
     if (!contents.closed) take_as_open(contents.run);

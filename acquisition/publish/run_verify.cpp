@@ -141,20 +141,22 @@ struct Recomputed {
 };
 
 Result<Recomputed> recomputed(const std::string& run_file) {
-    AXISCAL_TRY(const bool circular, is_circular_run(run_file));
-    if (circular) {
+    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
+    switch (summary.kind) {
+    case TestKind::circular: {
         AXISCAL_TRY(const CircularCertificate made, circular_certificate_of_run_file(run_file));
         return Recomputed{circular_certificate_to_json(made), made.result_digest,
                           rounding_of_the_library};
     }
-    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
-    if (summary.probing) {
+    case TestKind::probing: {
         AXISCAL_TRY(const ProbingDocument made, probing_of_run_file(run_file));
         return Recomputed{probing_to_json(made), made.result_digest, rounding_of_the_library};
     }
-    if (summary.drift) {
+    case TestKind::drift: {
         AXISCAL_TRY(const DriftDocument made, drift_of_run_file(run_file));
         return Recomputed{drift_to_json(made), made.result_digest, agreement_of(made.run)};
+    }
+    case TestKind::positioning: break;
     }
     AXISCAL_TRY(const Certificate made, certificate_of_run_file(run_file));
     return Recomputed{certificate_to_json(made), made.result_digest, agreement_of(made.run)};

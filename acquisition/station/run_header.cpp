@@ -84,7 +84,7 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     std::vector<ChannelRecord> records;
     std::vector<int> ids = parts.roles.environment();
     if (parts.roles.laser) ids.push_back(*parts.roles.laser);
-    if (parts.plan.pass == circular_pass) {
+    if (parts.kind == TestKind::circular) {
         for (const auto& id : {parts.roles.ballbar, parts.roles.bar_temperature})
             if (id && std::ranges::find(ids, *id) == ids.end()) ids.push_back(*id);
     } else if (parts.roles.autocollimator) {
@@ -177,6 +177,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.config_hash = parts.config_hash;
     run.boot_id = parts.boot_id;
     run.opened = parts.opened;
+    run.kind = parts.kind;
     run.plan = parts.plan;
     run.laser = laser_of(parts);
     run.material = config.axis.material;

@@ -12,6 +12,7 @@ struct RunHeaderParts {
     const StationConfig& config;
     const Supervisor& supervisor;
     const StationRoles& roles;
+    TestKind kind;
     RunPlan plan;
     ClockTie opened;
     BootId boot_id;

@@ -197,7 +197,7 @@ private:
     [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
     /// Of a run that positions nothing: no targets, and no uncertainty of the axis.
     /// @param name  of what is measured, in the run's id
-    [[nodiscard]] Result<RunRecord> header_without_axis(std::string_view pass,
+    [[nodiscard]] Result<RunRecord> header_without_axis(TestKind kind,
                                                         const std::string& name,
                                                         const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);

@@ -115,7 +115,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
     const RunHeaderParts parts{
-        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        config_, supervisor_, roles_, TestKind::positioning, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
     if (auto free = check_number_is_free(config_.state_directory,
@@ -309,13 +309,13 @@ void Station::keep_hold_of_broken_off(const StoredRuns& stored) {
     const auto now = std::ranges::find(stored.looked_into, stored.newest->path, &RunSummary::path);
     const RunSummary& last = now != stored.looked_into.end() ? *now : *stored.newest;
     left_broken_off_ =
-        last.closed && !last.complete && !last.drift && last.closing_reason != ended_by_cnc;
+        last.closed && !last.complete && last.kind != TestKind::drift && last.closing_reason != ended_by_cnc;
 }
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
-    if (contents.attachments.drift) {
-        const bool of_bar = contents.run.plan.pass == bar_drift_pass;
+    if (const auto& drift = contents.attachments.drift) {
+        const bool of_bar = drift->of_bar;
         std::string why = std::string{"Nobody watched the resting "} +
                           (of_bar ? "ballbar" : "axis") + " while the station was away.";
         auto closed = co_await close_left_over(path, std::move(why), Fault::datum_lost, false);
@@ -328,7 +328,7 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     if (run_open())
         co_return co_await close_left_over(path, "Another run was open too; only one can go on.",
                                            Fault::busy, whole);
-    if (run.plan.pass == circular_pass) {
+    if (run.kind == TestKind::circular) {
         contents.run = std::move(run);
         co_return co_await resume_or_close_circles(std::move(path), std::move(contents));
     }

@@ -41,15 +41,14 @@ CircularSetup Station::circular_setup() const {
     return setup;
 }
 
-Result<RunRecord> Station::header_without_axis(std::string_view pass,
+Result<RunRecord> Station::header_without_axis(TestKind kind,
                                                const std::string& name,
                                                const ArmRequest& request) const {
     RunPlan plan;
-    plan.pass = pass;
     plan.approaches = 0;
     plan.bidirectional = false;
     const RunHeaderParts parts{
-        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        config_, supervisor_, roles_, kind, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
     header.run_id = free_run_id(config_, name, parts.opened.utc_ns);
@@ -59,7 +58,7 @@ Result<RunRecord> Station::header_without_axis(std::string_view pass,
 
 Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
     const std::string plane{name_of(config_.circular->setup.plan.plane)};
-    AXISCAL_TRY(RunRecord header, header_without_axis(circular_pass, plane + "-circle", request));
+    AXISCAL_TRY(RunRecord header, header_without_axis(TestKind::circular, plane + "-circle", request));
     AXISCAL_CHECK(
         check_number_is_free(config_.state_directory, header.statements.certificate_number));
     header.plan.remark = "circular test; the table circular holds its plan";
@@ -221,7 +220,7 @@ std::optional<StreamView> Station::stream(std::size_t most) const {
 RunStatus Station::circular_status() const {
     RunStatus run;
     run.run_id = run_->header.run_id;
-    run.pass = run_->header.plan.pass;
+    run.pass = circular_pass;
     run.file = run_->path;
     run.step = circular_->order.begun();
     run.steps = circular_->order.circles();

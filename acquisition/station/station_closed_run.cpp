@@ -64,7 +64,7 @@ Task<Result<RunSummary>> Station::newest_closed_run() {
                        "the last run, " + newest.run_id + ", was " +
                            (newest.closed ? "closed as incomplete" : "left open") +
                            ": arm a new one");
-    if (newest.circular)
+    if (newest.kind == TestKind::circular)
         co_return fail(Fault::no_run_armed,
                        "the last run, " + newest.run_id +
                            ", is a circular test: its circles are driven again");

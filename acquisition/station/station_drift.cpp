@@ -129,12 +129,12 @@ Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request)
     statements.statements = request.statements;
     AXISCAL_TRY(RunPlan plan, plan_for(statements));
     AXISCAL_TRY(const DriftSetup setup, drift_setup_of(request, plan));
-    plan.pass = axis_drift_pass;
+    plan.pass = RunPlan{}.pass;
     plan.targets.clear();
     plan.points.clear();
     plan.remark.clear();
     const RunHeaderParts parts{
-        config_,  supervisor_, roles_, std::move(plan), scheduler_.clock_tie(),
+        config_, supervisor_, roles_, TestKind::drift, std::move(plan), scheduler_.clock_tie(),
         boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, statements));
     header.run_id = free_run_id(config_, config_.axis.name, parts.opened.utc_ns, "-drift");
@@ -164,7 +164,7 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
     const std::string plane =
         config_.circular ? std::string{name_of(config_.circular->setup.plan.plane)} : "";
     const std::string name = (plane.empty() ? plane : plane + "-") + "ballbar";
-    AXISCAL_TRY(RunRecord header, header_without_axis(bar_drift_pass, name, statements));
+    AXISCAL_TRY(RunRecord header, header_without_axis(TestKind::drift, name, statements));
     header.run_id = free_run_id(config_, name, header.opened.utc_ns, "-drift");
     header.statements.axis = plane;
     header.laser = {};
@@ -173,7 +173,7 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
     header.scale.reset();
     header.channels = every_channel(*roles_.ballbar, roles_.of_circles());
     return RestingTest{
-        std::move(header), {request.duration, request.interval, Length{}}, *roles_.ballbar};
+        std::move(header), {request.duration, request.interval, Length{}, true}, *roles_.ballbar};
 }
 
 Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar) {

@@ -100,6 +100,9 @@ struct StationStatus {
     std::vector<std::string> notes; ///< latest last, at most 20
 };
 
+/// ArmRequest::pass and RunStatus::pass of a circular test.
+inline constexpr std::string_view circular_pass = "circular";
+
 /// What a person gives when arming; empty fields keep the station file's statements.
 struct ArmRequest {
     std::optional<double> datum_mm; ///< coordinate where the axis stands now

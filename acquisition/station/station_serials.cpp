@@ -21,7 +21,7 @@ std::string Station::laser_serial_for(const RunRecord& run) const {
 
 /// Of those that this run uses.
 std::vector<InstrumentSerial> Station::answered_serials(const RunRecord& run) const {
-    const bool circles = run.plan.pass == circular_pass;
+    const bool circles = run.kind == TestKind::circular;
     std::vector<int> channels = circles ? roles_.of_circles() : roles_.environment();
     if (const auto& reference = circles ? roles_.ballbar : roles_.laser)
         channels.push_back(*reference);

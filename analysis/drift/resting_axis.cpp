@@ -8,19 +8,16 @@
 
 namespace axiscal {
 
-bool watches_bar(const RunRecord& run) {
-    return run.plan.pass == bar_drift_pass;
-}
-
 RestingAxis::RestingAxis(const RunRecord& run, const DriftSetup& setup)
     : run_{run}
     , environment_{run}
     , place_{setup.place}
     , from_datum_{(setup.place - run.plan.datum) * static_cast<double>(run.laser.sign)}
+    , of_bar_{setup.of_bar}
     , cosine_{cosine_factor_of(run.laser)} {}
 
 Result<Length> RestingAxis::coordinate(const EnvironmentReading& reading) {
-    if (watches_bar(run_)) return metre(reading.value);
+    if (of_bar_) return metre(reading.value);
     if (run_.rotary) return by_table(*run_.rotary, reading);
     AXISCAL_TRY(const Temperature material, environment_.material_at(reading.at, "drift"));
     AXISCAL_TRY(const Length length, run_.scale ? by_scale(reading) : by_laser(reading));

@@ -9,9 +9,6 @@
 
 namespace axiscal {
 
-/// The drift test is one of the ballbar, not of an axis.
-bool watches_bar(const RunRecord& run);
-
 /// Carries the readings of one drift test to what a run would give: of a linear axis to 20 degC, of
 /// a rotary one to an angle; those of a ballbar, which a circle takes as they are, stay so. The
 /// record outlives it.
@@ -34,6 +31,7 @@ private:
     const RunRecord& run_;
     EnvironmentHistory environment_;
     Length place_, from_datum_, at_first_;
+    bool of_bar_;
     double cosine_;
     std::optional<double> first_m_;
     double n0_minus_1_ = 0;

@@ -147,7 +147,7 @@ Result<void> check_test(const RunRecord& run, const DriftSetup& setup) {
     AXISCAL_CHECK(check_angle(run));
     if (!laser_channel_of(run))
         return fail(Fault::bad_run_file, std::string{"the drift test holds no channel of its "} +
-                                             (watches_bar(run) ? "ballbar" : "laser or scale"));
+                                             (setup.of_bar ? "ballbar" : "laser or scale"));
     if (setup.interval <= Duration{} || setup.duration < setup.interval)
         return fail(Fault::bad_run_file, "the interval of the drift test cannot be");
     return {};
@@ -163,7 +163,7 @@ Result<RunDrift> evaluate_drift(const RunRecord& run, const DriftSetup& setup) {
     AXISCAL_CHECK(check_test(run, setup));
     RunDrift drift;
     drift.setup = setup;
-    drift.of_bar = watches_bar(run);
+    drift.of_bar = setup.of_bar;
     if (run.rotary) drift.unit = "arcsec";
     const ChannelRecord& laser = *laser_channel_of(run);
     const auto readings = readings_of(run, laser.id);

@@ -89,7 +89,7 @@ def block_data(times, values):
 
 def circular(reference):
     """A ballbar on a circle of 100 mm, driven in both senses."""
-    rows = run_files.header_without_plan(reference, "linear", "circular")
+    rows = run_files.header_without_plan(reference, "circular")
     times, values, marks = driven()
     rows += [("circular", ["XY", RADIUS_MM, FEED_MM_PER_S, "ccw cw", 1, 0, 0.0, 360.0, 0.0, FEED_IN_MM, 0, 0.0, 0.0,
                            0.0, "T1", "G54", float(RATE_HZ), None, 1]),

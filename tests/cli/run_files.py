@@ -172,12 +172,11 @@ def revised(reference):
     return rows
 
 
-def header_without_plan(reference, kind, run_pass):
+def header_without_plan(reference, kind):
     """Of a run that positions nothing: no targets and no planned points."""
-    kept = ("run", "plan", "laser", "material", "air", "statement", "instrument", "channel")
+    kept = ("run", "test", "plan", "laser", "material", "air", "statement", "instrument", "channel")
     rows = [(table, list(values)) for table, values in read(reference) if table in kept]
-    plan = next(values for table, values in rows if table == "plan")
-    plan[0], plan[2] = kind, run_pass
+    next(values for table, values in rows if table == "test")[0] = kind
     return rows
 
 
@@ -191,7 +190,7 @@ def some_air(reference, count=12):
 
 def circular(reference):
     """Two circles recorded in two streams, eight blocks of four samples each."""
-    rows = header_without_plan(reference, "linear", "circular")
+    rows = header_without_plan(reference, "circular")
     rows.append(("eve_source", ["ballbar-20261120T100000Z-XY-ballbar-drift"]))
     air = some_air(reference)
     rows += [("event", ["armed", 10**9, 10**18, "Armed.", "none", 0]),
@@ -231,7 +230,7 @@ def scale(reference):
 
 def probing(reference):
     """Six touches, nothing else."""
-    rows = header_without_plan(reference, "linear", "probing")
+    rows = header_without_plan(reference, "probing")
     rows.append(("probing", [100.0, "P-1", "radio"]))
     rows += [("probing_touch", [1.0, 0.0, 0.0, int(i == 0), 0.004, 0.001 * i, 0.0, 0.0]) for i in range(6)]
     return rows + [("event", ["note", 10**9, 10**18, "From the log of the control.", "none", 0]), closing_of(reference)]
@@ -239,6 +238,6 @@ def probing(reference):
 
 def drift(reference):
     """A minute of readings of an axis at rest."""
-    rows = header_without_plan(reference, "linear", "drift")
-    rows.append(("drift", [60 * 10**9, 10**9, 0.1]))
+    rows = header_without_plan(reference, "drift")
+    rows.append(("drift", [60 * 10**9, 10**9, 0.1, 0]))
     return rows + some_air(reference) + [closing_of(reference)]

@@ -41,9 +41,20 @@ Result<void> seal(const Options& options, const RunSummary& run) {
     const std::filesystem::path outbox = std::filesystem::absolute(options.outbox);
     const auto state = (outbox / "").lexically_normal().parent_path().parent_path();
     AXISCAL_TRY(const auto key, read_station_key(state.string(), read_machine_id()));
-    if (run.drift) return seal_drift(options.run_file, key.get());
-    if (run.probing) return seal_probing(options.run_file, key.get());
+    if (run.kind == TestKind::drift) return seal_drift(options.run_file, key.get());
+    if (run.kind == TestKind::probing) return seal_probing(options.run_file, key.get());
     return seal_result(options.run_file, {key.get(), state.string()});
+}
+
+Result<void> draw_circles(const Options& options, const std::string& folder) {
+    AXISCAL_TRY(const CircularCertificate certificate,
+                circular_certificate_of_run_file(options.run_file));
+    return write_circular_files(certificate, options.run_file, folder);
+}
+
+Result<void> draw_positioning(const Options& options, const std::string& folder) {
+    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(options.run_file));
+    return write_certificate_files(certificate, options.run_file, folder);
 }
 
 Result<void> draw_drift(const Options& options, const std::string& folder) {
@@ -58,16 +69,13 @@ Result<void> draw_probing(const Options& options, const std::string& folder) {
 
 Result<void> draw(const Options& options, const RunSummary& run, const std::string& folder) {
     AXISCAL_CHECK(seal(options, run));
-    if (run.drift) return draw_drift(options, folder);
-    if (run.probing) return draw_probing(options, folder);
-    AXISCAL_TRY(const bool circular, is_circular_run(options.run_file));
-    if (circular) {
-        AXISCAL_TRY(const CircularCertificate certificate,
-                    circular_certificate_of_run_file(options.run_file));
-        return write_circular_files(certificate, options.run_file, folder);
+    switch (run.kind) {
+    case TestKind::circular: return draw_circles(options, folder);
+    case TestKind::drift: return draw_drift(options, folder);
+    case TestKind::probing: return draw_probing(options, folder);
+    case TestKind::positioning: break;
     }
-    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(options.run_file));
-    return write_certificate_files(certificate, options.run_file, folder);
+    return draw_positioning(options, folder);
 }
 
 /// The entry appears in the outbox only with all its content. Its folder is there before the result

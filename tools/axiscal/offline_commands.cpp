@@ -59,33 +59,32 @@ bool is_run_file(const std::string& path) {
            head == sqlite_magic;
 }
 
-int analyze_circular_run(const std::string& path) {
-    const auto certificate = circular_certificate_of_run_file(path);
-    if (!certificate) return complain(certificate.error());
-    std::cout << circular_certificate_json_text(*certificate);
-    return exit_ok;
+/// What a run file gives as the text of its JSON.
+Result<std::string> result_text_of(const std::string& path) {
+    AXISCAL_TRY(const RunSummary run, summarize_run_file(path));
+    switch (run.kind) {
+    case TestKind::circular: {
+        AXISCAL_TRY(const auto certificate, circular_certificate_of_run_file(path));
+        return circular_certificate_json_text(certificate);
+    }
+    case TestKind::drift: {
+        AXISCAL_TRY(const auto document, drift_of_run_file(path));
+        return drift_json_text(document);
+    }
+    case TestKind::probing: {
+        AXISCAL_TRY(const auto document, probing_of_run_file(path));
+        return probing_json_text(document);
+    }
+    case TestKind::positioning: break;
+    }
+    AXISCAL_TRY(const auto certificate, certificate_of_run_file(path));
+    return certificate_json_text(certificate);
 }
 
 int analyze_run(const std::string& path) {
-    const auto summary = summarize_run_file(path);
-    if (summary && summary->drift) {
-        const auto document = drift_of_run_file(path);
-        if (!document) return complain(document.error());
-        std::cout << drift_json_text(*document);
-        return exit_ok;
-    }
-    if (summary && summary->probing) {
-        const auto document = probing_of_run_file(path);
-        if (!document) return complain(document.error());
-        std::cout << probing_json_text(*document);
-        return exit_ok;
-    }
-    const auto circular = is_circular_run(path);
-    if (!circular) return complain(circular.error());
-    if (*circular) return analyze_circular_run(path);
-    const auto certificate = certificate_of_run_file(path);
-    if (!certificate) return complain(certificate.error());
-    std::cout << certificate_json_text(*certificate);
+    const auto text = result_text_of(path);
+    if (!text) return complain(text.error());
+    std::cout << *text;
     return exit_ok;
 }
 

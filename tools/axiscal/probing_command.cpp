@@ -73,7 +73,7 @@ RunRecord header_of(const StationConfig& config, const ProbingOrder& order) {
     run.station = config.station;
     run.station_config = config.text;
     run.config_hash = sha256_hex(config.text);
-    run.plan.pass = "probing";
+    run.kind = TestKind::probing;
     run.statements = config.statements;
     run.statements.certificate_number.clear(); // no certificate: the station's numbers are not its
     if (!order.operator_name.empty())

@@ -47,13 +47,9 @@ Result<std::string> find_run(const std::string& run, const std::string& station_
 
 /// Another kind of test has other figures.
 Result<void> check_positioning(const RunSummary& run) {
-    const char* kind = run.drift      ? "a drift test"
-                       : run.probing  ? "a probing test"
-                       : run.circular ? "a circular test"
-                                      : nullptr;
-    if (kind == nullptr) return {};
-    return fail(Fault::refused, run.run_id + " is " + kind +
-                                    ", which has no E, A, R, B and M: 'axiscal analyze " +
+    if (run.kind == TestKind::positioning) return {};
+    return fail(Fault::refused, run.run_id + " is a " + std::string{name_of(run.kind)} +
+                                    " test, which has no E, A, R, B and M: 'axiscal analyze " +
                                     run.path + "' gives its figures");
 }
 

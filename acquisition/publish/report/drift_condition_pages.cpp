@@ -40,8 +40,8 @@ std::array<StatedField, 3> fields_of_reference(const RunRecord& run) {
     return run.scale ? fields_of_scale(*run.scale) : fields_of_laser(run);
 }
 
-std::string carried_words(const RunRecord& run) {
-    if (watches_bar(run)) return " and is taken as it is, as in a circular test. ";
+std::string carried_words(const RunRecord& run, bool of_bar) {
+    if (of_bar) return " and is taken as it is, as in a circular test. ";
     if (run.rotary)
         return " and becomes an angle as every point of a run does, with the reflectors taken as "
                "square to the beam while the axis stands at its datum. An angle does not expand. ";
@@ -121,7 +121,7 @@ void draw_setup(Sheet& sheet, const DriftDocument& document) {
     const std::string_view watched = of_bar ? "ballbar" : reference_word_of(run);
     sheet.text("Each reading of the " + std::string{watched} +
                    " is a mean over the capture window" + (of_bar ? "" : " of the station file") +
-                   carried_words(run) + "Other channels are as last read in each interval.",
+                   carried_words(run, of_bar) + "Other channels are as last read in each interval.",
                note_style);
 }
 

@@ -116,7 +116,6 @@ RunRecord resting_bar(const std::function<double(double)>& reading_um) {
     RunRecord run;
     run.opened = {at_seconds(0), 0, at_seconds(0)};
     run.complete = true;
-    run.plan.pass = bar_drift_pass;
     run.laser.instrument = "gauge";
     run.material.coefficient = per_kelvin(11.5e-6);
     run.channels = {{3, "axis 2", "gauge", "", ChannelKind::displacement, Medium::none, 0},
@@ -139,7 +138,7 @@ TEST(RunDrift, OfABallbarIsTheRangeOfItsReadingsAsTheyAre) {
     const auto rise_and_swing = [](double s) {
         return s / 7200 + 2 * std::sin(2 * std::acos(-1.0) * s / 2400);
     };
-    const DriftSetup setup{std::chrono::hours{2}, std::chrono::seconds{10}, Length{}};
+    const DriftSetup setup{std::chrono::hours{2}, std::chrono::seconds{10}, Length{}, true};
     const auto drift = evaluate_drift(resting_bar(rise_and_swing), setup);
     ASSERT_TRUE(drift) << describe(drift.error());
     EXPECT_TRUE(drift->of_bar);
@@ -158,7 +157,7 @@ TEST(RunDrift, OfABallbarIsTheRangeOfItsReadingsAsTheyAre) {
 TEST(RunDrift, OfABallbarNeedsNeitherAirNorMaterialBesideIt) {
     RunRecord run = resting_bar([](double s) { return s / 7200; });
     std::erase_if(run.environment, [](const EnvironmentReading& one) { return one.channel != 3; });
-    const DriftSetup setup{std::chrono::hours{2}, std::chrono::seconds{10}, Length{}};
+    const DriftSetup setup{std::chrono::hours{2}, std::chrono::seconds{10}, Length{}, true};
     const auto drift = evaluate_drift(run, setup);
     ASSERT_TRUE(drift) << describe(drift.error());
     EXPECT_EQ(drift->without_air, 0);

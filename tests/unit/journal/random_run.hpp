@@ -47,6 +47,7 @@ public:
         for (int i = 0; i < pick(4); ++i)
             fill_calibration(run.calibrations.emplace_back(), i);
         if (pick(2) == 0) fill_rotary(run.rotary.emplace());
+        run.kind = static_cast<TestKind>(pick(4));
         return run;
     }
 
@@ -54,7 +55,7 @@ public:
         RunAttachments beside;
         if (pick(2) == 0) fill_alignment(beside.alignment.emplace());
         if (pick(2) == 0)
-            beside.drift = DriftSetup{Duration{integer()}, Duration{integer()}, length()};
+            beside.drift = DriftSetup{Duration{integer()}, Duration{integer()}, length(), pick(2) == 0};
         if (pick(2) == 0) {
             ProbingRecord& probing = beside.probing.emplace();
             probing.feed_mm_per_min = number(), probing.probe = text();

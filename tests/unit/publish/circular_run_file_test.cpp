@@ -18,7 +18,7 @@ TEST(CircularRunFile, TheInjectedErrorsComeBackOfTheFile) {
     DrivenBar bar = bar_of_the_shop();
     const StreamSamples stream = bar.drive();
     const std::string path = write_circles(scratch, bar, stream);
-    EXPECT_TRUE(is_circular_run(path).value());
+    EXPECT_EQ(summarize_run_file(path)->kind, TestKind::circular);
     const auto run = circular_run_of(read_run_file_contents(path).value());
     ASSERT_TRUE(run) << run.error().detail;
     EXPECT_TRUE(run->complete);
@@ -47,9 +47,9 @@ TEST(CircularRunFile, ARunWithoutCirclesIsRefused) {
     const ScratchFolder scratch;
     const std::string path = scratch.file("r.axiscal");
     RunRecord header = circular_header();
-    header.plan.pass = "whole";
+    header.kind = TestKind::positioning;
     ASSERT_TRUE(RunFileWriter::create(path, header));
-    EXPECT_FALSE(is_circular_run(path).value());
+    EXPECT_EQ(summarize_run_file(path)->kind, TestKind::positioning);
     const auto run = circular_run_of(read_run_file_contents(path).value());
     ASSERT_FALSE(run);
     EXPECT_EQ(run.error().fault, Fault::refused);

@@ -20,6 +20,7 @@ constexpr int readings = 11; // one a minute
 
 RunRecord made_run() {
     RunRecord run;
+    run.kind = TestKind::drift;
     run.run_id = "bench-drift";
     run.complete = true;
     run.laser.instrument = "laser";
@@ -45,7 +46,8 @@ RunRecord made_run() {
 DriftDocument made_document(RunRecord run = made_run()) {
     DriftDocument document;
     document.attachments.drift =
-        DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, run.plan.datum};
+        DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, run.plan.datum,
+                   run.laser.instrument == "gauge"};
     const auto drift = evaluate_drift(run, *document.attachments.drift);
     EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
     document.drift = drift.value_or(RunDrift{});
@@ -150,7 +152,6 @@ TEST(DriftDocument, TellsChannelsOfOneNameApartByTheirInstruments) {
 /// What the record holds of the bar: the gauge, which falls by 0.2 um a minute.
 RunRecord of_the_bar() {
     RunRecord run = made_run();
-    run.plan.pass = bar_drift_pass;
     run.laser = {};
     run.laser.instrument = "gauge";
     run.statements.axis = "ZX";
@@ -185,7 +186,7 @@ TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
     const std::string path = folder.file("bar.axiscal");
     RunRecord run = of_the_bar();
     RunAttachments beside;
-    beside.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}};
+    beside.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}, true};
     auto writer = RunFileWriter::create(path, run, beside).value();
     ASSERT_TRUE(testing::append(writer, run.environment));
     ASSERT_TRUE(writer.close(true, "The test is over.", {}));

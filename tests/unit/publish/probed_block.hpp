@@ -59,7 +59,7 @@ inline RunRecord probing_header() {
     run.run_id = "20260101T010000Z-probing";
     run.software_version = "0.1.0";
     run.station = "station 7";
-    run.plan.pass = "probing";
+    run.kind = TestKind::probing;
     run.laser.instrument = "none";
     const ClockTie tie{MonotonicTime{}, 1'767'229'200'000'000'000, MonotonicTime{}};
     run.opened = run.closed = tie;

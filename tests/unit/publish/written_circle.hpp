@@ -16,7 +16,7 @@ namespace axiscal::test {
 inline RunRecord circular_header() {
     RunRecord run;
     run.run_id = "bay3-circle";
-    run.plan.pass = circular_pass;
+    run.kind = TestKind::circular;
     run.plan.approaches = 0;
     InstrumentRecord bar;
     bar.name = "ballbar";

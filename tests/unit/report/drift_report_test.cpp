@@ -40,7 +40,7 @@ double index_of_refraction(const RunRecord& run) {
 RunRecord creeping(const std::function<double(double)>& creep_um, double duration_s = two_hours_s) {
     RunRecord run = test::synthetic_run();
     run.run_id = "20260101T000000Z-X-drift";
-    run.plan.pass = "drift";
+    run.kind = TestKind::drift;
     run.plan.targets.clear();
     run.plan.points.clear();
     run.points.clear();
@@ -73,7 +73,8 @@ RunRecord creeping(const std::function<double(double)>& creep_um, double duratio
 
 DriftDocument document_of(RunRecord run, Duration duration = 2h) {
     DriftDocument document;
-    document.attachments.drift = DriftSetup{duration, 10s, mm(900)};
+    document.attachments.drift =
+        DriftSetup{duration, 10s, mm(900), run.laser.instrument == "gauge"};
     auto drift = evaluate_drift(run, *document.attachments.drift);
     EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
     document.drift = drift.value_or(RunDrift{});
@@ -237,7 +238,6 @@ TEST_F(DriftReport, OfARotaryAxisIsInSecondsOfArc) {
 /// The gauge becomes a bar that rises steadily by 2.5 um in two hours; the laser is silent.
 RunRecord of_the_bar() {
     RunRecord run = creeping([](double) { return 0; });
-    run.plan.pass = bar_drift_pass;
     run.laser = {};
     run.laser.instrument = "gauge";
     run.statements.axis = "ZX";

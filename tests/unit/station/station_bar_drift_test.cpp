@@ -91,7 +91,8 @@ TEST_F(StationBarDrifts, AStationWithABallbarAloneRecordsItAtRest) {
     EXPECT_EQ(life.status().drift->state, "complete");
     const RunFileContents file = contents();
     EXPECT_TRUE(file.closed && file.run.complete);
-    EXPECT_EQ(file.run.plan.pass, bar_drift_pass);
+    EXPECT_EQ(file.run.kind, TestKind::drift);
+    EXPECT_TRUE(file.attachments.drift->of_bar);
     EXPECT_EQ(file.run.laser.instrument, "ballbar");
     EXPECT_EQ(file.run.statements.axis, "XY");
     ASSERT_EQ(file.run.channels.size(), 7U); // light, three of the air, two contacts, the bar
@@ -123,7 +124,8 @@ TEST_F(StationBarDrifts, BesideAnAxisItMustBeAskedFor) {
         const auto file = read_run_file_contents(path);
         ASSERT_TRUE(file);
         const bool of_bar = file->run.run_id == **id;
-        EXPECT_EQ(file->run.plan.pass, of_bar ? bar_drift_pass : axis_drift_pass);
+        EXPECT_EQ(file->run.kind, TestKind::drift);
+        EXPECT_EQ(file->attachments.drift->of_bar, of_bar);
         EXPECT_EQ(file->run.laser.instrument, of_bar ? "ballbar" : "laser");
         EXPECT_EQ(file->run.channels.front().instrument, of_bar ? "ballbar" : "laser");
         EXPECT_EQ(file->run.laser.vacuum_wavelength.si() == 0, of_bar);

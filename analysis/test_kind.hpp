@@ -1,0 +1,23 @@
+#pragma once
+// What kind of test a run is. Pure data.
+
+#include <cstdint>
+#include <string_view>
+
+namespace axiscal {
+
+/// positioning: ISO 230-2, a linear or a rotary axis; circular: ISO 230-4; drift: ISO/TR 230-9 and
+/// ISO 230-3, an axis or a ballbar at rest; probing: ISO 230-10.
+enum class TestKind : std::uint8_t { positioning, circular, drift, probing };
+
+constexpr std::string_view name_of(TestKind kind) {
+    switch (kind) {
+    case TestKind::positioning: return "positioning";
+    case TestKind::circular: return "circular";
+    case TestKind::drift: return "drift";
+    case TestKind::probing: return "probing";
+    }
+    return "?";
+}
+
+} // namespace axiscal
