@@ -71,7 +71,7 @@ def driven():
             inward = min(max(1 - t / feed_s, (t - feed_s - arc_s) / feed_s, 0.0), 1.0)
             here = deviation_mm(turn, 360 * (share if turn > 0 else 1 - share), chance)
             times.append(int((5 + (i + 0.37) / RATE_HZ) * SECOND))
-            values.append((outside * inward + here) * 1e-3)
+            values.append(round((outside * inward + here) * 1e-3, 12))  # in whole picometres: the same from any sine
         now += total
     return times, values, marks + [(99, int((5 + now) * SECOND))]
 
