@@ -61,7 +61,8 @@ inline constexpr std::array tables{
     Table{"drift", "duration_ns, interval_ns, place_m, of_bar", "iiri"},
     Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt"},
     Table{"probing_touch",
-          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m", "rrrirrrr"},
+          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m",
+          "rrrirrrr"},
     Table{"eve_source", "run_id", "t"},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "

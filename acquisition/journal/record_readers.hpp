@@ -13,10 +13,10 @@ using ReadRow = void(RecordedRun& run, RowReader& in);
 using ReadMeasuredRow = void(RunRecord& run, RowReader& in);
 
 // record_rows_read_setup.cpp
-ReadMeasuredRow read_run, read_test, read_plan, read_target, read_plan_point, read_laser, read_material,
-    read_air, read_rotary, read_rotary_deviation, read_linear_scale, read_linear_scale_sensor,
-    read_uncertainty, read_uncertainty_target, read_statement, read_instrument, read_channel,
-    read_channel_calibration, read_channel_correction;
+ReadMeasuredRow read_run, read_test, read_plan, read_target, read_plan_point, read_laser,
+    read_material, read_air, read_rotary, read_rotary_deviation, read_linear_scale,
+    read_linear_scale_sensor, read_uncertainty, read_uncertainty_target, read_statement,
+    read_instrument, read_channel, read_channel_calibration, read_channel_correction;
 ClockTie read_tie(RowReader& in);
 PlannedPoint read_planned(RowReader& in);
 
@@ -27,9 +27,8 @@ ReadRow read_alignment, read_alignment_place, read_drift, read_probing, read_pro
 
 // record_rows_read_course.cpp
 ReadMeasuredRow read_datum, read_point, read_environment, read_event;
-ReadRow read_stream, read_stream_block, read_stream_block_time, read_preflight,
-    read_retake, read_retake_point, read_exclusion, read_synchronisation, read_ordered,
-    read_closing;
+ReadRow read_stream, read_stream_block, read_stream_block_time, read_preflight, read_retake,
+    read_retake_point, read_exclusion, read_synchronisation, read_ordered, read_closing;
 
 /// Left alone where the column is NULL.
 template <class Amount> void read_optional(std::optional<Amount>& amount, RowReader& in) {

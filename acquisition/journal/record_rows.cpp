@@ -192,9 +192,9 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
             rows.push_back(row_of_place(place));
     }
     if (drift)
-        rows.push_back(chained("drift", {whole(drift->duration.count()),
-                                         whole(drift->interval.count()), drift->place.si(),
-                                         whole(drift->of_bar)}));
+        rows.push_back(
+            chained("drift", {whole(drift->duration.count()), whole(drift->interval.count()),
+                              drift->place.si(), whole(drift->of_bar)}));
     if (probing) {
         rows.push_back(
             chained("probing", {probing->feed_mm_per_min, probing->probe, probing->signal_path}));

@@ -34,8 +34,8 @@ void read_run(RunRecord& run, RowReader& in) {
 }
 
 void read_test(RunRecord& run, RowReader& in) {
-    run.kind = in.choice(
-        {TestKind::positioning, TestKind::circular, TestKind::drift, TestKind::probing});
+    run.kind =
+        in.choice({TestKind::positioning, TestKind::circular, TestKind::drift, TestKind::probing});
 }
 
 void read_plan(RunRecord& run, RowReader& in) {

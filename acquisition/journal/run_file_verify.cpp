@@ -166,7 +166,10 @@ private:
                       : "before" + after;
         for (std::int64_t link = report_.links + 1;
              link < row.link && link <= report_.links + most_holes; ++link)
-            find({RowDamage::missing, {}, link, {},
+            find({RowDamage::missing,
+                  {},
+                  link,
+                  {},
                   "row " + std::to_string(link) + ", " + place + ", is missing"});
     }
 

@@ -1,6 +1,7 @@
 // Source: LinuxCNC 2.9 G-code reference: G38.2 (stops with an error when nothing is touched, #5061
-// to #5063 hold the touched point in the current coordinate system, #5070 is 1 where it touched), G10 L2, (LOGOPEN,), (LOG,).
-// (PROBEOPEN) will not do: it leaves out a touch that was latched where the one before was.
+// to #5063 hold the touched point in the current coordinate system, #5070 is 1 where it touched),
+// G10 L2, (LOGOPEN,), (LOG,). (PROBEOPEN) will not do: it leaves out a touch that was latched where
+// the one before was.
 #include "acquisition/program/probing_program.hpp"
 
 #include "acquisition/program/part_program.hpp"

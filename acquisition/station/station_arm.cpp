@@ -115,8 +115,8 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
     const RunHeaderParts parts{
-        config_, supervisor_, roles_, TestKind::positioning, std::move(plan), scheduler_.clock_tie(),
-        boot_id_, config_hash_};
+        config_, supervisor_, roles_, TestKind::positioning,
+        std::move(plan), scheduler_.clock_tie(), boot_id_, config_hash_};
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
     if (auto free = check_number_is_free(config_.state_directory,
                                          header.statements.certificate_number);
@@ -309,7 +309,8 @@ void Station::keep_hold_of_broken_off(const StoredRuns& stored) {
     const auto now = std::ranges::find(stored.looked_into, stored.newest->path, &RunSummary::path);
     const RunSummary& last = now != stored.looked_into.end() ? *now : *stored.newest;
     left_broken_off_ =
-        last.closed && !last.complete && last.kind != TestKind::drift && last.closing_reason != ended_by_cnc;
+        last.closed && !last.complete && last.kind != TestKind::drift &&
+        last.closing_reason != ended_by_cnc;
 }
 
 Task<Result<void>> Station::resume_or_close(std::string path) {

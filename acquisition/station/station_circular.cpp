@@ -47,9 +47,9 @@ Result<RunRecord> Station::header_without_axis(TestKind kind,
     RunPlan plan;
     plan.approaches = 0;
     plan.bidirectional = false;
-    const RunHeaderParts parts{
-        config_, supervisor_, roles_, kind, std::move(plan), scheduler_.clock_tie(),
-        boot_id_, config_hash_};
+    const RunHeaderParts parts{config_,  supervisor_,     roles_,
+                               kind,     std::move(plan), scheduler_.clock_tie(),
+                               boot_id_, config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
     header.run_id = free_run_id(config_, name, parts.opened.utc_ns);
     header.uncertainty.reset(); // it speaks of the linear axis
@@ -58,7 +58,8 @@ Result<RunRecord> Station::header_without_axis(TestKind kind,
 
 Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
     const std::string plane{name_of(config_.circular->setup.plan.plane)};
-    AXISCAL_TRY(RunRecord header, header_without_axis(TestKind::circular, plane + "-circle", request));
+    AXISCAL_TRY(RunRecord header,
+                header_without_axis(TestKind::circular, plane + "-circle", request));
     AXISCAL_CHECK(
         check_number_is_free(config_.state_directory, header.statements.certificate_number));
     header.plan.remark = "circular test; the table circular holds its plan";

@@ -133,9 +133,9 @@ Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request)
     plan.targets.clear();
     plan.points.clear();
     plan.remark.clear();
-    const RunHeaderParts parts{
-        config_, supervisor_, roles_, TestKind::drift, std::move(plan), scheduler_.clock_tie(),
-        boot_id_, config_hash_};
+    const RunHeaderParts parts{config_,         supervisor_,     roles_,
+                               TestKind::drift, std::move(plan), scheduler_.clock_tie(),
+                               boot_id_,        config_hash_};
     AXISCAL_TRY(RunRecord header, make_run_header(parts, statements));
     header.run_id = free_run_id(config_, config_.axis.name, parts.opened.utc_ns, "-drift");
     header.channels = every_channel(*roles_.laser, roles_.environment());

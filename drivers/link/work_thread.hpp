@@ -26,9 +26,9 @@ class WorkThread {
 public:
     using Job = std::function<void()>;
     /// joined: begins at once; the destructor finishes and joins.
-    /// left_behind: lives while there are jobs, so that an idle one costs nothing, and outlives this
-    /// object until it has done them all. For jobs that may hang in the kernel, where neither the
-    /// loop nor the end of the program may wait for them.
+    /// left_behind: lives while there are jobs, so that an idle one costs nothing, and outlives
+    /// this object until it has done them all. For jobs that may hang in the kernel, where neither
+    /// the loop nor the end of the program may wait for them.
     enum class End : std::uint8_t { joined, left_behind };
     explicit WorkThread(End end = End::joined);
     ~WorkThread();

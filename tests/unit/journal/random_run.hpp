@@ -55,7 +55,8 @@ public:
         RunAttachments beside;
         if (pick(2) == 0) fill_alignment(beside.alignment.emplace());
         if (pick(2) == 0)
-            beside.drift = DriftSetup{Duration{integer()}, Duration{integer()}, length(), pick(2) == 0};
+            beside.drift =
+                DriftSetup{Duration{integer()}, Duration{integer()}, length(), pick(2) == 0};
         if (pick(2) == 0) {
             ProbingRecord& probing = beside.probing.emplace();
             probing.feed_mm_per_min = number(), probing.probe = text();

@@ -94,7 +94,8 @@ TEST_F(SynchronisationRows, AMissingOneIsNamedByItsPlace) {
         const auto found = findings();
         ASSERT_EQ(found.size(), 1U);
         EXPECT_EQ(found[0].damage, RowDamage::missing);
-        const std::string before = step == "-1" ? "between table datum and" : "between table point and";
+        const std::string before =
+            step == "-1" ? "between table datum and" : "between table point and";
         EXPECT_NE(found[0].sentence.find(before), std::string::npos) << found[0].sentence;
     }
 }

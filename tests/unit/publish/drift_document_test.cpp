@@ -45,9 +45,8 @@ RunRecord made_run() {
 /// At its datum, where neither air nor material acts on a path.
 DriftDocument made_document(RunRecord run = made_run()) {
     DriftDocument document;
-    document.attachments.drift =
-        DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, run.plan.datum,
-                   run.laser.instrument == "gauge"};
+    document.attachments.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1},
+                                            run.plan.datum, run.laser.instrument == "gauge"};
     const auto drift = evaluate_drift(run, *document.attachments.drift);
     EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
     document.drift = drift.value_or(RunDrift{});
