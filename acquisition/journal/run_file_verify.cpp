@@ -1,5 +1,6 @@
 #include "acquisition/journal/run_file_verify.hpp"
 
+#include "acquisition/journal/record_rows.hpp"
 #include "acquisition/journal/run_file_open.hpp"
 
 #include <algorithm>
