@@ -66,20 +66,21 @@ inline constexpr std::array tables{
     Table{"eve_source", "run_id", "t"},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
-          "device_count",
-          "tirrirriii"},
+          "device_count, u_t_ns, synchronisation_um",
+          "tirrirriiiIR"},
     Table{"point",
           "step, sequence, planned_step, target_index, direction, approach, origin, triggered_ns, "
           "window_begin_ns, window_end_ns, reading_m, spread_m, slope_um_per_s, n, "
-          "approach_travel_m, datum_id, live_deviation_m, samples",
-          "iiiititiiirrrirtrb"},
+          "approach_travel_m, datum_id, live_deviation_m, u_t_ns, synchronisation_um, samples",
+          "iiiititiiirrrirtrIRb"},
     Table{"environment", "channel, at_ns, value", "iir"},
     Table{"event", "kind, at_ns, utc_ns, text, fault, sequence", "tiitti"},
     Table{"circular",
           "plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg, "
           "overshoot_deg, feed_in_mm, feed_in_outside, centre_x_mm, centre_y_mm, centre_z_mm, "
-          "tool_offset, work_offset, sample_rate_hz, low_pass_hz, averaged",
-          "trrtiirrrrirrrttrRi"},
+          "tool_offset, work_offset, sample_rate_hz, low_pass_hz, averaged, start_from, "
+          "trigger_delay_s",
+          "trrtiirrrrirrrttrRitr"},
     Table{"circular_bar",
           "instrument, sign, length_mm, bar_alpha_per_K, machine_alpha_per_K, temperature_channel",
           "tirRRI"},
@@ -88,17 +89,15 @@ inline constexpr std::array tables{
           "centre_width_um, machine_temperature_width_K, bar_temperature_width_K, "
           "machine_alpha_width_per_K, bar_alpha_width_per_K, runs",
           "RRRRRRRRRRi"},
-    Table{"circular_start", "start_from, trigger_delay_s", "tr"},
     Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr"},
     Table{"stream_block",
-          "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, data",
-          "iiiiitiirrb"},
-    Table{"stream_block_time", "stream, block, u_t_ns", "iiI"},
+          "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, "
+          "u_t_ns, data",
+          "iiiiitiirrIb"},
     Table{"preflight", "name, passed, warning, verdict, override_reason", "tiitt"},
     Table{"retake", "number, at_ns, utc_ns, reason", "iiit"},
     Table{"retake_point", "step, planned_step", "ii"},
     Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit"},
-    Table{"synchronisation", "step, datum_id, u_t_ns, error_um", "itIR"},
     Table{"ordered", "kind, about, at_ns, utc_ns, door, uid, user, name", "ttiitItt"},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };

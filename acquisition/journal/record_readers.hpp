@@ -22,13 +22,12 @@ PlannedPoint read_planned(RowReader& in);
 
 // record_rows_read_tests.cpp
 ReadRow read_alignment, read_alignment_place, read_drift, read_probing, read_probing_touch,
-    read_eve_source, read_circular, read_circular_bar, read_circular_uncertainty,
-    read_circular_start;
+    read_eve_source, read_circular, read_circular_bar, read_circular_uncertainty;
 
 // record_rows_read_course.cpp
-ReadMeasuredRow read_datum, read_point, read_environment, read_event;
-ReadRow read_stream, read_stream_block, read_stream_block_time, read_preflight, read_retake,
-    read_retake_point, read_exclusion, read_synchronisation, read_ordered, read_closing;
+ReadMeasuredRow read_environment, read_event;
+ReadRow read_datum, read_point, read_stream, read_stream_block, read_preflight, read_retake,
+    read_retake_point, read_exclusion, read_ordered, read_closing;
 
 /// Left alone where the column is NULL.
 template <class Amount> void read_optional(std::optional<Amount>& amount, RowReader& in) {

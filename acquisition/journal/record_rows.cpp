@@ -205,15 +205,26 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
     return rows;
 }
 
-ChainedRow row_of(const DatumRecord& datum) {
-    const auto& [id, at, coordinate, reading, epoch, spread, slope_um_per_s, n, sequence,
-                 device_count] = datum;
-    return chained("datum",
-                   {id, nanoseconds(at), coordinate.si(), reading.si(), whole(epoch), spread.si(),
-                    slope_um_per_s, whole(n), whole(sequence), whole(device_count)});
+namespace {
+
+/// u_t_ns and synchronisation_um: the last columns of a datum, of a point those before its samples.
+void append_synchronisation(Row& row, const std::optional<Synchronisation>& stated) {
+    row.push_back(stated ? whole(stated->time_uncertainty.count()) : Value{});
+    row.push_back(stated ? Value{stated->error_um} : Value{});
 }
 
-ChainedRow row_of(const PointRecord& point) {
+} // namespace
+
+ChainedRow row_of(const DatumRecord& datum, const std::optional<Synchronisation>& stated) {
+    const auto& [id, at, coordinate, reading, epoch, spread, slope_um_per_s, n, sequence,
+                 device_count] = datum;
+    Row row{id,          nanoseconds(at), coordinate.si(), reading.si(),    whole(epoch),
+            spread.si(), slope_um_per_s,  whole(n),        whole(sequence), whole(device_count)};
+    append_synchronisation(row, stated);
+    return chained("datum", std::move(row));
+}
+
+ChainedRow row_of(const PointRecord& point, const std::optional<Synchronisation>& stated) {
     const auto& [step, sequence, planned, origin, triggered_at, window_begin, window_end, reading,
                  spread, slope_um_per_s, n, approach_travel, datum_id, live_deviation, samples] =
         point;
@@ -234,6 +245,7 @@ ChainedRow row_of(const PointRecord& point) {
             approach_travel.si(),
             datum_id,
             live_deviation.si()};
+    append_synchronisation(row, stated);
     // A list in braces would copy all samples once more.
     row.push_back(Blob{packed_window(samples)});
     return chained("point", std::move(row));
@@ -258,7 +270,6 @@ ChainedRow row_of(const Closing& closing) {
 
 namespace {
 
-/// Begin and end of the arcs stand in a row of their own.
 ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capture) {
     const auto& [plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg,
                  overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset,
@@ -266,11 +277,27 @@ ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capt
     std::string words;
     for (const Sense sense : senses)
         words += (words.empty() ? "" : " ") + std::string{name_of(sense)};
-    return chained("circular", {text(name_of(plane)), radius_mm, feed_mm_per_s, words,
-                                whole(repeats), whole(warm_up), start_deg, arc_deg, overshoot_deg,
-                                feed_in_mm, whole(feed_in_outside), centre_mm[0], centre_mm[1],
-                                centre_mm[2], tool_offset, work_offset, capture.sample_rate_hz,
-                                optional(capture.low_pass_hz), whole(capture.averaged)});
+    return chained("circular", {text(name_of(plane)),
+                                radius_mm,
+                                feed_mm_per_s,
+                                words,
+                                whole(repeats),
+                                whole(warm_up),
+                                start_deg,
+                                arc_deg,
+                                overshoot_deg,
+                                feed_in_mm,
+                                whole(feed_in_outside),
+                                centre_mm[0],
+                                centre_mm[1],
+                                centre_mm[2],
+                                tool_offset,
+                                work_offset,
+                                capture.sample_rate_hz,
+                                optional(capture.low_pass_hz),
+                                whole(capture.averaged),
+                                text(name_of(start)),
+                                trigger_delay_s});
 }
 
 ChainedRow row_of_statement(const CircularUncertaintyStatement& statement) {
@@ -296,7 +323,6 @@ std::vector<ChainedRow> rows_of(const CircularSetup& setup) {
         chained("circular_bar", {bar_instrument, whole(bar_sign), bar_length_mm,
                                  optional(bar_alpha), optional(machine_alpha), channel}));
     rows.push_back(row_of_statement(uncertainty));
-    rows.push_back(chained("circular_start", {text(name_of(plan.start)), plan.trigger_delay_s}));
     return rows;
 }
 
@@ -308,15 +334,11 @@ ChainedRow row_of(const StreamSetup& stream) {
 ChainedRow row_of(const StreamBlock& block) {
     const auto& [stream, index, first_count, samples, missing, before, begin, end, low, high,
                  packed, time_uncertainty] = block;
+    Value u_t_ns;
+    if (time_uncertainty > Duration{}) u_t_ns = whole(time_uncertainty.count());
     return chained("stream_block",
                    {whole(stream), whole(index), whole(first_count), whole(samples), whole(missing),
-                    before, nanoseconds(begin), nanoseconds(end), low, high, Blob{packed}});
-}
-
-ChainedRow time_row_of(const StreamBlock& block) {
-    Value uncertainty;
-    if (block.time_uncertainty > Duration{}) uncertainty = whole(block.time_uncertainty.count());
-    return chained("stream_block_time", {whole(block.stream), whole(block.index), uncertainty});
+                    before, nanoseconds(begin), nanoseconds(end), low, high, u_t_ns, Blob{packed}});
 }
 
 ChainedRow row_of(const PreflightRecord& check) {
@@ -327,16 +349,6 @@ ChainedRow row_of(const PreflightRecord& check) {
 ChainedRow row_of(const ExclusionRecord& exclusion) {
     const auto& [step, at, utc_ns, reason] = exclusion;
     return chained("exclusion", {whole(step), nanoseconds(at), utc_ns, reason});
-}
-
-ChainedRow row_of(const SynchronisationRecord& record) {
-    const auto& [step, datum_id, stated] = record;
-    Value uncertainty, error;
-    if (stated) {
-        uncertainty = whole(stated->time_uncertainty.count());
-        error = stated->error_um;
-    }
-    return chained("synchronisation", {whole(step), datum_id, uncertainty, error});
 }
 
 ChainedRow row_of(const OrderRecord& order) {

@@ -43,19 +43,17 @@ const Table& table_named(std::string_view name);
 /// closing of `header` are not among them.
 std::vector<ChainedRow> header_rows(const RunRecord& header,
                                     const RunAttachments& attachments = {});
-ChainedRow row_of(const DatumRecord& datum);
-ChainedRow row_of(const PointRecord& point);
+/// `stated`: what the uncertain time of its samples adds to the reading; empty: not stated.
+ChainedRow row_of(const DatumRecord& datum, const std::optional<Synchronisation>& stated);
+ChainedRow row_of(const PointRecord& point, const std::optional<Synchronisation>& stated);
 ChainedRow row_of(const EnvironmentReading& reading);
 ChainedRow row_of(const EventRecord& event);
 ChainedRow row_of(const Closing& closing);
 std::vector<ChainedRow> rows_of(const CircularSetup& setup);
 ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
-/// Its u(t), a row of its own.
-ChainedRow time_row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);
 ChainedRow row_of(const ExclusionRecord& exclusion);
-ChainedRow row_of(const SynchronisationRecord& record);
 ChainedRow row_of(const OrderRecord& order);
 /// The order, then its points.
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake);

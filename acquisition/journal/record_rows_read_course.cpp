@@ -19,9 +19,20 @@ WindowSamples samples_of(RowReader& in) {
     return *std::move(samples);
 }
 
+/// Empty where both columns are NULL: not stated.
+std::optional<Synchronisation> read_synchronisation(RowReader& in) {
+    const auto u_t_ns = in.optional_integer();
+    const auto error_um = in.optional_real();
+    if (u_t_ns.has_value() != error_um.has_value())
+        in.reject("states one number without the other");
+    if (!u_t_ns || !error_um) return std::nullopt;
+    if (*u_t_ns <= 0 || *error_um < 0) in.reject("states an uncertainty that is none");
+    return Synchronisation{Duration{*u_t_ns}, *error_um};
+}
+
 } // namespace
 
-void read_datum(RunRecord& run, RowReader& in) {
+void read_datum(RecordedRun& run, RowReader& in) {
     DatumRecord datum;
     datum.id = in.text();
     datum.at = in.time();
@@ -33,10 +44,11 @@ void read_datum(RunRecord& run, RowReader& in) {
     datum.n = in.number<int>();
     datum.sequence = in.number<std::uint16_t>();
     datum.device_count = std::bit_cast<std::uint64_t>(in.integer());
+    run.attachments.synchronisation.push_back({-1, datum.id, read_synchronisation(in)});
     run.datums.push_back(std::move(datum));
 }
 
-void read_point(RunRecord& run, RowReader& in) {
+void read_point(RecordedRun& run, RowReader& in) {
     PointRecord point;
     point.step = in.number<int>();
     point.sequence = in.number<std::uint16_t>();
@@ -52,6 +64,8 @@ void read_point(RunRecord& run, RowReader& in) {
     point.approach_travel = in.length();
     point.datum_id = in.text();
     point.live_deviation = in.length();
+    run.attachments.synchronisation.push_back(
+        {point.step, point.datum_id, read_synchronisation(in)});
     point.samples = samples_of(in);
     run.points.push_back(std::move(point));
 }
@@ -102,23 +116,11 @@ void read_stream_block(RecordedRun& run, RowReader& in) {
     block.end = in.time();
     block.low = in.real();
     block.high = in.real();
-    block.packed = in.blob();
-    run.blocks.push_back(std::move(block));
-}
-
-void read_stream_block_time(RecordedRun& run, RowReader& in) {
-    const int stream = in.number<int>();
-    const std::int64_t index = in.integer();
     const auto u_t_ns = in.optional_integer();
     if (u_t_ns && *u_t_ns <= 0) in.reject("states an uncertainty that is none");
-    if (run.blocks.empty()) { // the writer checks each row by itself
-        run.blocks.emplace_back().stream = stream;
-        run.blocks.back().index = index;
-    }
-    StreamBlock& block = run.blocks.back();
-    if (block.stream != stream || block.index != index)
-        return in.reject("belongs to a block that does not stand before it");
     block.time_uncertainty = Duration{u_t_ns.value_or(0)};
+    block.packed = in.blob();
+    run.blocks.push_back(std::move(block));
 }
 
 void read_preflight(RecordedRun& run, RowReader& in) {
@@ -159,21 +161,6 @@ void read_exclusion(RecordedRun& run, RowReader& in) {
     exclusion.utc_ns = in.integer();
     exclusion.reason = in.text();
     run.revisions.exclusions.push_back(std::move(exclusion));
-}
-
-void read_synchronisation(RecordedRun& run, RowReader& in) {
-    SynchronisationRecord record;
-    record.step = in.number<int>();
-    record.datum_id = in.text();
-    const auto u_t_ns = in.optional_integer();
-    const auto error_um = in.optional_real();
-    if (u_t_ns.has_value() != error_um.has_value())
-        in.reject("states one number without the other");
-    if (u_t_ns && error_um) {
-        if (*u_t_ns <= 0 || *error_um < 0) in.reject("states an uncertainty that is none");
-        record.stated = Synchronisation{Duration{*u_t_ns}, *error_um};
-    }
-    run.attachments.synchronisation.push_back(std::move(record));
 }
 
 void read_ordered(RecordedRun& run, RowReader& in) {

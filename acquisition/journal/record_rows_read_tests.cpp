@@ -106,6 +106,8 @@ void read_circular(RecordedRun& run, RowReader& in) {
     setup.capture.sample_rate_hz = in.real();
     setup.capture.low_pass_hz = in.optional_real();
     setup.capture.averaged = in.number<int>();
+    setup.plan.start = in.choice({StartMethod::feed_step, StartMethod::trigger});
+    setup.plan.trigger_delay_s = in.real();
 }
 
 void read_circular_bar(RecordedRun& run, RowReader& in) {
@@ -130,12 +132,6 @@ void read_circular_uncertainty(RecordedRun& run, RowReader& in) {
           &statement.machine_alpha_width_per_K, &statement.bar_alpha_width_per_K})
         *value = in.optional_real();
     statement.runs = in.number<int>();
-}
-
-void read_circular_start(RecordedRun& run, RowReader& in) {
-    if (!run.circular) run.circular.emplace();
-    run.circular->plan.start = in.choice({StartMethod::feed_step, StartMethod::trigger});
-    run.circular->plan.trigger_delay_s = in.real();
 }
 
 } // namespace axiscal::record_readers

@@ -66,28 +66,16 @@ std::vector<ChainedRow> circular_rows(const RunBatch& batch) {
     if (batch.circular) rows = rows_of(*batch.circular);
     for (const auto& stream : batch.streams)
         rows.push_back(row_of(stream));
-    for (const auto& chunk : batch.chunks) {
-        const StreamBlock block = packed(chunk);
-        rows.push_back(row_of(block));
-        rows.push_back(time_row_of(block));
-    }
+    for (const auto& chunk : batch.chunks)
+        rows.push_back(row_of(packed(chunk)));
     return rows;
 }
 
-/// Each with what is known of its time, in the same transaction.
 std::vector<ChainedRow> rows_of_captures(const RunBatch& batch) {
     std::vector<ChainedRow> rows;
-    if (batch.datum) {
-        rows.push_back(row_of(*batch.datum));
-        const auto stated = batch.point ? std::nullopt : batch.synchronisation;
-        rows.push_back(row_of(SynchronisationRecord{-1, batch.datum->id, stated}));
-    }
-    if (batch.point) {
-        const PointRecord& point = *batch.point;
-        rows.push_back(row_of(point));
-        rows.push_back(
-            row_of(SynchronisationRecord{point.step, point.datum_id, batch.synchronisation}));
-    }
+    if (batch.datum)
+        rows.push_back(row_of(*batch.datum, batch.point ? std::nullopt : batch.synchronisation));
+    if (batch.point) rows.push_back(row_of(*batch.point, batch.synchronisation));
     return rows;
 }
 
@@ -100,7 +88,8 @@ Error as_not_durable(Error error) {
 
 bool RunBatch::empty() const {
     return environment.empty() && events.empty() && preflight.empty() && retakes.empty() &&
-           exclusions.empty() && orders.empty() && !datum && !point && !circular && streams.empty() && chunks.empty();
+           exclusions.empty() && orders.empty() && !datum && !point && !circular &&
+           streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
@@ -132,8 +121,7 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path,
             "PRAGMA application_id=" + std::to_string(run_file_application_id) +
             "; PRAGMA user_version=" + std::to_string(run_file_version) + ";";
         // One transaction: a disk that takes 10 ms for a sync is not asked for it table by table.
-        AXISCAL_CHECK(writer.transact(header_rows(header, attachments),
-                                      mark + run_file_schema));
+        AXISCAL_CHECK(writer.transact(header_rows(header, attachments), mark + run_file_schema));
         return writer.head_;
     }();
     if (!head) return tl::unexpected<Error>(head.error());
@@ -218,8 +206,7 @@ Result<void> RunFileWriter::transact(const std::vector<ChainedRow>& rows,
         if (!before.empty()) AXISCAL_CHECK(database_->execute(before));
         for (const auto& row : rows)
             AXISCAL_CHECK(append(row));
-        if (key != nullptr)
-            AXISCAL_CHECK(append_signature(*database_, *key, std::nullopt));
+        if (key != nullptr) AXISCAL_CHECK(append_signature(*database_, *key, std::nullopt));
         return database_->execute("COMMIT");
     }());
 }

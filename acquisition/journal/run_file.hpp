@@ -68,8 +68,8 @@ public:
     /// its sync waits for the data alone.
     void reserve_log() const;
 
-    /// One transaction, in the order preflight, retakes, exclusions, orders, circular, streams, chunks,
-    /// environment, events, datum, point; the last two with their synchronisation.
+    /// One transaction, in the order preflight, retakes, exclusions, orders, circular, streams,
+    /// chunks, environment, events, datum, point.
     Result<void> write(const RunBatch& batch);
     /// A sentence that a person should find in the file.
     Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);
@@ -106,7 +106,7 @@ private:
     std::unique_ptr<Database> database_;
     std::map<std::string_view, Statement> insertions_; ///< by table
     std::int64_t links_ = 0;                           ///< in the chain so far
-    Digest head_{};  ///< hash of the last link; zeros before the first
+    Digest head_{}; ///< hash of the last link; zeros before the first
     bool closed_ = false;
     std::optional<Error> broken_;
 };

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 namespace axiscal {
 namespace {
@@ -212,22 +211,6 @@ Result<void> set_superseded_aside(RecordedRun& run, const std::string& path) {
     return {};
 }
 
-/// Before superseded readings are set aside: theirs are among them.
-Result<void> check_synchronisation(const RecordedRun& run, const std::string& path) {
-    std::set<int> steps;
-    std::set<std::string> datums;
-    for (const PointRecord& point : run.points)
-        steps.insert(point.step);
-    for (const DatumRecord& datum : run.datums)
-        datums.insert(datum.id);
-    for (const SynchronisationRecord& record : run.attachments.synchronisation) {
-        if (record.step < 0 ? !datums.contains(record.datum_id) : !steps.contains(record.step))
-            return bad(path, "synchronisation " + std::to_string(record.step) +
-                                 " belongs to no point and no datum");
-    }
-    return {};
-}
-
 void put_in_order(RunRecord& run) {
     std::ranges::stable_sort(run.environment, {}, &EnvironmentReading::at);
 }
@@ -246,7 +229,6 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
     }
-    AXISCAL_CHECK(check_synchronisation(recorded, path));
     AXISCAL_CHECK(set_superseded_aside(recorded, path));
     put_in_order(recorded);
     AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));

@@ -83,19 +83,21 @@ CREATE TABLE probing_touch(link INTEGER PRIMARY KEY, direction_x ANY NOT NULL,
     hash BLOB NOT NULL) STRICT;
 -- The drift test that a budget's E_VE comes from.
 CREATE TABLE eve_source(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
--- The run: what was captured, what was decided, how it ended.
+-- The run: what was captured, what was decided, how it ended. u_t_ns: u(t) of the samples;
+-- synchronisation_um: what it adds to the reading; NULL: not stated.
 CREATE TABLE datum(link INTEGER PRIMARY KEY, id TEXT NOT NULL, at_ns INTEGER NOT NULL,
     coordinate_m ANY NOT NULL, reading_m ANY NOT NULL, epoch INTEGER NOT NULL,
     spread_m ANY NOT NULL, slope_um_per_s ANY NOT NULL, n INTEGER NOT NULL,
-    sequence INTEGER NOT NULL, device_count INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+    sequence INTEGER NOT NULL, device_count INTEGER NOT NULL, u_t_ns INTEGER,
+    synchronisation_um ANY, hash BLOB NOT NULL) STRICT;
 CREATE TABLE point(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE,
     sequence INTEGER NOT NULL, planned_step INTEGER NOT NULL, target_index INTEGER NOT NULL,
     direction TEXT NOT NULL, approach INTEGER NOT NULL, origin TEXT NOT NULL,
     triggered_ns INTEGER NOT NULL, window_begin_ns INTEGER NOT NULL,
     window_end_ns INTEGER NOT NULL, reading_m ANY NOT NULL, spread_m ANY NOT NULL,
     slope_um_per_s ANY NOT NULL, n INTEGER NOT NULL, approach_travel_m ANY NOT NULL,
-    datum_id TEXT NOT NULL, live_deviation_m ANY NOT NULL, samples BLOB NOT NULL,
-    hash BLOB NOT NULL) STRICT;
+    datum_id TEXT NOT NULL, live_deviation_m ANY NOT NULL, u_t_ns INTEGER,
+    synchronisation_um ANY, samples BLOB NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE environment(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL,
     at_ns INTEGER NOT NULL, value ANY NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE event(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, at_ns INTEGER NOT NULL,
@@ -109,7 +111,8 @@ CREATE TABLE circular(link INTEGER PRIMARY KEY, plane TEXT NOT NULL, radius_mm A
     overshoot_deg ANY NOT NULL, feed_in_mm ANY NOT NULL, feed_in_outside INTEGER NOT NULL,
     centre_x_mm ANY NOT NULL, centre_y_mm ANY NOT NULL, centre_z_mm ANY NOT NULL,
     tool_offset TEXT NOT NULL, work_offset TEXT NOT NULL, sample_rate_hz ANY NOT NULL,
-    low_pass_hz ANY, averaged INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
+    low_pass_hz ANY, averaged INTEGER NOT NULL, start_from TEXT NOT NULL,
+    trigger_delay_s ANY NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE circular_bar(link INTEGER PRIMARY KEY, instrument TEXT NOT NULL,
     sign INTEGER NOT NULL, length_mm ANY NOT NULL, bar_alpha_per_K ANY, machine_alpha_per_K ANY,
     temperature_channel INTEGER, hash BLOB NOT NULL) STRICT;
@@ -118,19 +121,14 @@ CREATE TABLE circular_uncertainty(link INTEGER PRIMARY KEY, device_width_um ANY,
     centre_width_um ANY, machine_temperature_width_K ANY, bar_temperature_width_K ANY,
     machine_alpha_width_per_K ANY, bar_alpha_width_per_K ANY, runs INTEGER NOT NULL,
     hash BLOB NOT NULL) STRICT;
-CREATE TABLE circular_start(link INTEGER PRIMARY KEY, start_from TEXT NOT NULL,
-    trigger_delay_s ANY NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE stream(link INTEGER PRIMARY KEY, id INTEGER NOT NULL UNIQUE,
     channel INTEGER NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL,
     nominal_rate_hz ANY NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE stream_block(link INTEGER PRIMARY KEY, stream INTEGER NOT NULL,
     block INTEGER NOT NULL, first_count INTEGER NOT NULL, samples INTEGER NOT NULL,
     missing INTEGER NOT NULL, before TEXT NOT NULL, begin_ns INTEGER NOT NULL,
-    end_ns INTEGER NOT NULL, low ANY NOT NULL, high ANY NOT NULL, data BLOB NOT NULL,
-    hash BLOB NOT NULL) STRICT;
--- u(t) of the block that stands before; NULL: not stated.
-CREATE TABLE stream_block_time(link INTEGER PRIMARY KEY, stream INTEGER NOT NULL,
-    block INTEGER NOT NULL, u_t_ns INTEGER, hash BLOB NOT NULL) STRICT;
+    end_ns INTEGER NOT NULL, low ANY NOT NULL, high ANY NOT NULL, u_t_ns INTEGER,
+    data BLOB NOT NULL, hash BLOB NOT NULL) STRICT;
 -- A row of retake or exclusion may follow a closing row; the run is then closed again.
 CREATE TABLE preflight(link INTEGER PRIMARY KEY, name TEXT NOT NULL, passed INTEGER NOT NULL,
     warning INTEGER NOT NULL, verdict TEXT NOT NULL, override_reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
@@ -140,10 +138,6 @@ CREATE TABLE retake_point(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE
     planned_step INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE exclusion(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE, at_ns INTEGER NOT NULL,
     utc_ns INTEGER NOT NULL, reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
--- What the uncertain time of the samples adds to a captured reading; both are NULL: not stated.
-CREATE TABLE synchronisation(link INTEGER PRIMARY KEY, step INTEGER NOT NULL,
-    datum_id TEXT NOT NULL, u_t_ns INTEGER, error_um ANY, hash BLOB NOT NULL,
-    UNIQUE(step, datum_id)) STRICT;
 -- Who ordered what was decided about the run.
 CREATE TABLE ordered(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, about TEXT NOT NULL,
     at_ns INTEGER NOT NULL, utc_ns INTEGER NOT NULL, door TEXT NOT NULL, uid INTEGER,

@@ -181,7 +181,7 @@ Json set_aside_of(const Certificate& certificate) {
     return list;
 }
 
-/// Null where nothing is stated: a file before format 4, an instrument whose clock tells no u(t).
+/// Null where nothing is stated: the clock of the instrument tells no u(t).
 Json synchronisation_json(const Certificate& certificate) {
     const auto& records = certificate.attachments.synchronisation;
     const SynchronisationSummary over = summarize_synchronisation(certificate.run, records);

@@ -223,8 +223,8 @@ class Result(Scratch):
         rows, points = [], 0
         for table, values in run_files.linear(RUN):
             values = list(values)
-            if table in ("point", "synchronisation"):
-                points += table == "point"
+            if table == "point":
+                points += 1
                 if points > taken:
                     continue
             if table == "closing":

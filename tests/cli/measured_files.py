@@ -92,12 +92,12 @@ def circular(reference):
     rows = run_files.header_without_plan(reference, "circular")
     times, values, marks = driven()
     rows += [("circular", ["XY", RADIUS_MM, FEED_MM_PER_S, "ccw cw", 1, 0, 0.0, 360.0, 0.0, FEED_IN_MM, 0, 0.0, 0.0,
-                           0.0, "T1", "G54", float(RATE_HZ), None, 1]),
+                           0.0, "T1", "G54", float(RATE_HZ), None, 1, "feed_step", 0.0]),
              ("circular_bar", ["laser", 1, 0.0, None, None, None]),
-             ("circular_start", ["feed_step", 0.0]), ("stream", [0, 0, "ballbar", "m", float(RATE_HZ)])]
+             ("stream", [0, 0, "ballbar", "m", float(RATE_HZ)])]
     rows += [("event", ["note", at, SECOND**2 + at, "circle", "none", number]) for number, at in marks]
     for block, at in enumerate(range(0, len(times), BLOCK)):
         t, v = times[at:at + BLOCK], values[at:at + BLOCK]
-        rows += [("stream_block", [0, block, at + 1, len(t), 0, "", t[0], t[-1], min(v), max(v), block_data(t, v)]),
-                 ("stream_block_time", [0, block, 40000])]
+        rows.append(("stream_block", [0, block, at + 1, len(t), 0, "", t[0], t[-1], min(v), max(v), 40000,
+                                      block_data(t, v)]))
     return rows + [run_files.closing_of(reference)]

@@ -112,11 +112,12 @@ def with_synchronisation(rows):
     """Each datum and point with what its uncertain time of 40 us adds."""
     out = []
     for table, values in rows:
-        out.append((table, values))
+        values = list(values)
         if table == "datum":
-            out.append(("synchronisation", [-1, values[0], 40000, abs(values[6]) * 40e-6]))
+            values[10:12] = [40000, abs(values[6]) * 40e-6]
         if table == "point":
-            out.append(("synchronisation", [values[0], values[15], 40000, abs(values[12]) * 40e-6]))
+            values[17:19] = [40000, abs(values[12]) * 40e-6]
+        out.append((table, values))
     return out
 
 
@@ -195,17 +196,15 @@ def circular(reference):
     air = some_air(reference)
     rows += [("event", ["armed", 10**9, 10**18, "Armed.", "none", 0]),
              ("circular", ["XY", 40.0, 100.0, "ccw cw", 1, 0, 0.0, 360.0, 180.0, 0.5, 0, 0.0, 0.0, 0.0, "T1",
-                           "G54", 1000.0, None, 1]),
+                           "G54", 1000.0, None, 1, "feed_step", 0.0]),
              ("circular_bar", ["laser", 1, 40.0, None, None, None]),
              ("circular_uncertainty", [0.1, 0.2, 2.0, 0.1, 0.1, None, None, None, None, None, 1]),
-             ("circular_start", ["feed_step", 0.0]),
              ("stream", [0, 0, "axis 1", "m", 1000.0]), ("stream", [1, 1, "air temperature", "degC", 1.0])]
     for block in range(8):
         for stream in (0, 1):
             begin_ns = (block + 2) * 10**9
-            rows += [("stream_block", [stream, block, 4 * block, 4, 0, "", begin_ns, begin_ns + 3 * 10**6, 0.0, 0.001,
-                                       bytes(range(16))]),
-                     ("stream_block_time", [stream, block, 40000])]
+            rows.append(("stream_block", [stream, block, 4 * block, 4, 0, "", begin_ns, begin_ns + 3 * 10**6, 0.0,
+                                          0.001, 40000, bytes(range(16))]))
         rows.append(air[block])
         rows.append(("event", ["note", begin_ns, 10**18 + begin_ns, f"Circle {block}.", "none", block]))
     return rows + [closing_of(reference)]

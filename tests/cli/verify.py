@@ -28,8 +28,7 @@ NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement
             ("channel_calibration", "channel"): "channel + 100", ("linear_scale_sensor", "channel"): "channel + 100",
             ("point", "step"): "step + 1000",
             ("stream", "id"): "id + 100", ("retake", "number"): "number + 100",
-            ("retake_point", "step"): "step + 1000", ("exclusion", "step"): "step + 1000",
-            ("synchronisation", "step"): "step + 1000"}
+            ("retake_point", "step"): "step + 1000", ("exclusion", "step"): "step + 1000"}
 
 
 def other(value):

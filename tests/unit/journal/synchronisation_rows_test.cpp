@@ -1,6 +1,7 @@
-// What the uncertain time of the samples adds to each capture, beside its point or datum.
+// What the uncertain time of the samples adds to each capture, in the row of its point or datum.
 #include "random_run.hpp"
 
+#include "acquisition/journal/record_rows.hpp"
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/journal/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -57,7 +58,7 @@ protected:
     const std::string path = scratch.file("r.axiscal");
 };
 
-TEST_F(SynchronisationRows, ComeBackBesideTheirPointsAndWhatIsNotStatedStaysSo) {
+TEST_F(SynchronisationRows, ComeBackWithTheirPointsAndWhatIsNotStatedStaysSo) {
     write_run();
     const auto read = read_run_file_contents(path);
     ASSERT_TRUE(read) << describe(read.error());
@@ -77,48 +78,38 @@ TEST_F(SynchronisationRows, ComeBackBesideTheirPointsAndWhatIsNotStatedStaysSo) 
 
 TEST_F(SynchronisationRows, AChangedOneIsNamed) {
     write_run();
-    run_sql(path, "UPDATE synchronisation SET error_um = 0.0 WHERE step = 2");
+    run_sql(path, "UPDATE point SET synchronisation_um = 0.0 WHERE step = 2");
     const auto found = findings();
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].damage, RowDamage::changed);
-    EXPECT_EQ(found[0].table, "synchronisation");
+    EXPECT_EQ(found[0].table, "point");
     EXPECT_EQ(found[0].row, "step=2");
     EXPECT_FALSE(read_run_file(path));
 }
 
-TEST_F(SynchronisationRows, AMissingOneIsNamedByItsPlace) {
-    for (const std::string step : {"-1", "0", "2"}) {
+TEST_F(SynchronisationRows, AnUncertaintyOfNothingIsNotWritten) {
+    RunBatch of_point, of_datum;
+    of_point.point = random.point(0);
+    of_datum.datum = random.datum();
+    for (RunBatch* batch : {&of_point, &of_datum}) {
         std::filesystem::remove(path);
-        write_run();
-        run_sql(path, "DELETE FROM synchronisation WHERE step = " + step);
-        const auto found = findings();
-        ASSERT_EQ(found.size(), 1U);
-        EXPECT_EQ(found[0].damage, RowDamage::missing);
-        const std::string before =
-            step == "-1" ? "between table datum and" : "between table point and";
-        EXPECT_NE(found[0].sentence.find(before), std::string::npos) << found[0].sentence;
+        auto writer = RunFileWriter::create(path, random.header()).value();
+        batch->synchronisation = Synchronisation{Duration{}, 0};
+        const auto written = writer.write(*batch);
+        ASSERT_FALSE(written);
+        EXPECT_EQ(written.error().fault, Fault::internal);
     }
 }
 
-TEST_F(SynchronisationRows, AnAddedOneIsNamed) {
-    write_run();
-    run_sql(path, "INSERT INTO synchronisation SELECT (SELECT max(link) + 1 FROM closing), 9, '', "
-                  "1, 0.0, hash FROM synchronisation LIMIT 1");
-    const auto found = findings();
-    ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].damage, RowDamage::added);
-    EXPECT_EQ(found[0].table, "synchronisation");
-    EXPECT_EQ(found[0].row, "step=9");
-}
-
-TEST_F(SynchronisationRows, AnUncertaintyOfNothingIsNotWritten) {
-    auto writer = RunFileWriter::create(path, random.header()).value();
-    RunBatch batch;
-    batch.point = random.point(0);
-    batch.synchronisation = Synchronisation{Duration{}, 0};
-    const auto written = writer.write(batch);
-    ASSERT_FALSE(written);
-    EXPECT_EQ(written.error().fault, Fault::internal);
+TEST_F(SynchronisationRows, HalfOfAStatementIsRefused) {
+    for (const std::size_t from_the_end : {1U, 2U}) {
+        ChainedRow half = row_of(random.datum(), known);
+        half.row[half.row.size() - from_the_end] = Value{};
+        RecordedRun run;
+        const auto placed = place_row(run, *half.table, half.row);
+        ASSERT_FALSE(placed);
+        EXPECT_EQ(placed.error().fault, Fault::bad_run_file);
+    }
 }
 
 } // namespace
