@@ -82,12 +82,12 @@ class Computer:
                  "-o", f"ControlPath={self.key.parent}/s%C", "-o", "ControlPersist=yes", f"{user}@127.0.0.1", command]
         return [str(word) for word in words]
 
-    def ssh(self, user, command, given=None, limit_s=300, more=()):
+    def ssh(self, user, command, given=None, limit_s=600, more=()):
         """One connection is kept open for each user: a new one costs the emulated processor a second."""
         return subprocess.run(self.ssh_words(user, command, more), input=given, stdin=None if given is not None else subprocess.DEVNULL,
                               capture_output=True, text=True, timeout=limit_s, check=False)
 
-    def run(self, command, user="root", code=0, given=None, limit_s=300):
+    def run(self, command, user="root", code=0, given=None, limit_s=600):
         """What a person types; its exit code must be `code`. Gives back what it printed."""
         done = self.ssh(user, command, given, limit_s)
         if done.returncode != code:

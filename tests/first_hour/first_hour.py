@@ -41,7 +41,7 @@ from truth import BOUNDED, compare
 PAGE, README = SOURCE / "docs/install.md", SOURCE / "README.md"
 STATION = "/etc/axiscal/station.toml"
 MOST_LINES, MOST_NOT_OF_INSTRUMENTS = 30, 15
-PATIENCE_S = 240
+PATIENCE_S = 600
 SLEEP_S = 20
 BEFORE_OTHERS = -10  # niceness: the emulated PC and the machine around it keep the time of this computer, whatever runs beside
 ADAPTERS = {"LASER": ("laser.tty", "umd"), "AIR": ("air.tty", "dracal-vcp"), "MATERIAL": ("material.tty", "modbus")}
