@@ -4,6 +4,7 @@
 #include "acquisition/journal/run_file.hpp"
 #include "acquisition/publish/document_parts.hpp"
 #include "acquisition/publish/record_json.hpp"
+#include "analysis/probing/probing_case.hpp"
 #include "config/json_text.hpp"
 
 #include <cstdio>

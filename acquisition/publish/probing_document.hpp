@@ -3,6 +3,7 @@
 // file.
 
 #include "acquisition/journal/ed25519.hpp"
+#include "analysis/probing/probing_delay.hpp"
 #include "analysis/probing/probing_record.hpp"
 #include "analysis/run_record.hpp"
 

@@ -1,7 +1,6 @@
 #pragma once
 // A probing test as it was made on the machine: every touch with what the control latched. Pure.
 
-#include "analysis/probing/probing_delay.hpp"
 #include "analysis/quantity/quantity.hpp"
 
 #include <array>
@@ -24,10 +23,5 @@ struct ProbingRecord {
     std::string probe, signal_path;    ///< as stated: type and stylus; skip input, PLC
     std::vector<ProbingTouch> touches; ///< in the order in which they were made
 };
-
-/// Consecutive touches of one direction and kind make a series; its readings are the latched
-/// points along the direction (their product with the unit vector), so that a late latch reads
-/// larger.
-ProbingDelayCase case_of(const ProbingRecord& record);
 
 } // namespace axiscal

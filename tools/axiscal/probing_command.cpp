@@ -6,6 +6,7 @@
 #include "acquisition/publish/probing_document.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "analysis/probing/probing_case.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "config/json_text.hpp"
 #include "config/version.hpp"

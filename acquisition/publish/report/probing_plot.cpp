@@ -2,6 +2,7 @@
 
 #include "acquisition/publish/report/plot_frame.hpp"
 #include "acquisition/publish/report/wording.hpp"
+#include "analysis/probing/probing_case.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,7 @@
 #include "acquisition/program/probing_program.hpp"
 
+#include "analysis/probing/probing_case.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

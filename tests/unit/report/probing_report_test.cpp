@@ -2,6 +2,7 @@
 #include "acquisition/publish/report/probing_pages.hpp"
 #include "acquisition/publish/report/probing_plot.hpp"
 #include "acquisition/publish/report/probing_report.hpp"
+#include "analysis/probing/probing_case.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 #include "tests/unit/publish/probed_block.hpp"

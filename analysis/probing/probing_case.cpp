@@ -1,4 +1,4 @@
-#include "analysis/probing/probing_record.hpp"
+#include "analysis/probing/probing_case.hpp"
 
 #include <cmath>
 
