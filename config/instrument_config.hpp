@@ -1,7 +1,7 @@
 #pragma once
 // One [[instrument]] of the station file, without the keys that only its driver understands.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <string>
 #include <vector>

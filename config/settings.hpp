@@ -6,7 +6,7 @@
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cstdint>
 #include <initializer_list>

@@ -2,7 +2,7 @@
 // The station file as checked structs. Reading opens no device.
 
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 #include "config/address_range.hpp"
 #include "config/environment_limits.hpp"
 #include "config/instrument_config.hpp"

@@ -3,7 +3,7 @@
 // holds against what is plugged in. One constant beside each driver, named in its registry line.
 // Pure data.
 
-#include "drivers/link/usb_place.hpp"
+#include "drivers/wire/usb_place.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 // The kernel's name for this boot. What sd_id128_get_boot(3) reads, without the six libraries that
-// libsystemd loads (drivers/link/service_manager.hpp).
+// libsystemd loads (drivers/loop/service_manager.hpp).
 
 #include "analysis/quantity/boot_id.hpp"
 

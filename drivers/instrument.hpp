@@ -2,8 +2,8 @@
 // The face every instrument shows: it hands up samples and knows nothing of cycles. Loop-bound.
 
 #include "config/instrument_config.hpp"
-#include "drivers/link/byte_link.hpp"
 #include "drivers/sample.hpp"
+#include "drivers/wire/byte_link.hpp"
 
 #include <memory>
 #include <optional>

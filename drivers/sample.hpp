@@ -2,7 +2,7 @@
 // What an instrument hands up: a value with its time, its source and its quality. Pure data.
 
 #include "analysis/quantity/time.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cmath>
 #include <cstdint>

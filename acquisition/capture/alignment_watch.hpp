@@ -2,7 +2,7 @@
 // Watches the laser while its beam is aligned: strength along the travel, and the highest reading
 // at the far end. Time comes with the samples.
 
-#include "analysis/alignment/alignment_record.hpp"
+#include "analysis/record/alignment_record.hpp"
 #include "drivers/sample.hpp"
 
 #include <map>

@@ -4,7 +4,7 @@
 
 #include "acquisition/capture/sample_history.hpp"
 #include "acquisition/capture/stillness.hpp"
-#include "analysis/synchronisation.hpp"
+#include "analysis/record/synchronisation.hpp"
 
 #include <optional>
 #include <vector>

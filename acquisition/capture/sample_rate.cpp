@@ -1,6 +1,6 @@
 #include "acquisition/capture/sample_rate.hpp"
 
-#include "analysis/stream_rate.hpp"
+#include "analysis/record/stream_rate.hpp"
 
 namespace axiscal {
 namespace {

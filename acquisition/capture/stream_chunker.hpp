@@ -1,7 +1,7 @@
 #pragma once
 // One channel at its full rate, cut into chunks that have no hole. Loop-bound.
 
-#include "analysis/stream_record.hpp"
+#include "analysis/record/stream_record.hpp"
 #include "drivers/sample.hpp"
 
 #include <optional>

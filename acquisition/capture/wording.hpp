@@ -4,7 +4,7 @@
 #include "analysis/quantity/counted.hpp"
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/time.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "acquisition/console/alignment_json.hpp"
 
 #include "acquisition/console/optional_json.hpp"
-#include "analysis/alignment/cosine_error.hpp"
+#include "analysis/compensation/cosine_error.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -9,7 +9,7 @@
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 #include "drivers/turned_away.hpp"
 
 #include <boost/asio/as_tuple.hpp>

@@ -3,7 +3,7 @@
 // Private to the console.
 
 #include "acquisition/console/http_answer.hpp"
-#include "drivers/scheduler.hpp"
+#include "drivers/loop/scheduler.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/use_awaitable.hpp>

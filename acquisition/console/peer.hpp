@@ -1,7 +1,7 @@
 #pragma once
 // Who is at the other end of a connection, as the kernel knows it.
 
-#include "analysis/run_revisions.hpp"
+#include "analysis/record/run_revisions.hpp"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 #include "acquisition/journal/journal.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/journal/journal_worker.hpp"
-#include "acquisition/journal/run_store.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_store.hpp"
 
 namespace axiscal {
 

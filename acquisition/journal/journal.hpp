@@ -1,15 +1,15 @@
 #pragma once
 // The one writer of an open run: a thread that owns the run file, and the only maker of receipts.
 
-#include "acquisition/journal/ed25519.hpp"
 #include "acquisition/journal/journal_clock.hpp"
+#include "acquisition/runfile/ed25519.hpp"
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
-#include "analysis/run_revisions.hpp"
-#include "analysis/stream_record.hpp"
-#include "drivers/journal_receipt.hpp"
-#include "drivers/scheduler.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/run_revisions.hpp"
+#include "analysis/record/stream_record.hpp"
+#include "drivers/loop/scheduler.hpp"
+#include "drivers/trigger/journal_receipt.hpp"
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 // commit, at the latest after two seconds. Private to the journal.
 
 #include "acquisition/journal/journal.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/executor_work_guard.hpp>

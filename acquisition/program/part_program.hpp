@@ -1,7 +1,7 @@
 #pragma once
 // Part programs for controllers: one file a dialect, all from the same plan. Pure.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 #include "config/station_config.hpp"
 
 #include <optional>

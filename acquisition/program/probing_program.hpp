@@ -1,8 +1,8 @@
 #pragma once
 // The part program of a probing test (ISO 230-10, 6.9) and the log that it leaves. Pure.
 
-#include "analysis/probing/probing_record.hpp"
 #include "analysis/quantity/result.hpp"
+#include "analysis/record/probing_record.hpp"
 
 #include <string>
 

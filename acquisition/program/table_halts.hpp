@@ -1,7 +1,7 @@
 #pragma once
 // How the indexing table goes along with the axis: where the program halts for it. Pure.
 
-#include "analysis/rotary/rotary_setup.hpp"
+#include "analysis/record/rotary_setup.hpp"
 
 #include <vector>
 

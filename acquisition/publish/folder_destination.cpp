@@ -1,7 +1,7 @@
 #include "acquisition/publish/folder_destination.hpp"
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <algorithm>
 #include <array>

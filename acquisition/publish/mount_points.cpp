@@ -1,6 +1,6 @@
 #include "acquisition/publish/mount_points.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <algorithm>
 #include <array>

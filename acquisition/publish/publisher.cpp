@@ -1,6 +1,6 @@
 #include "acquisition/publish/publisher.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <algorithm>
 

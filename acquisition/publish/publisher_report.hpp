@@ -2,7 +2,7 @@
 // What the publisher says to whoever asks: a small file beside the outbox, read by axiscald for
 // `axiscal status`; and the lock that tells it runs, once an outbox. Files only, no state.
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <string>
 

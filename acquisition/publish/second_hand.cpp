@@ -1,6 +1,6 @@
 #include "acquisition/publish/second_hand.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <array>
 #include <atomic>

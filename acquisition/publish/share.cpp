@@ -1,9 +1,9 @@
 #include "acquisition/publish/share.hpp"
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/durable_file.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/publish/receipt.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/receipt.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "analysis/quantity/time.hpp"
 #include "config/json_text.hpp"
 

@@ -2,9 +2,9 @@
 // Carries one outbox entry to its destination, which may be slow or vanish: every call may block,
 // so only the publisher's own process makes them. No state.
 
-#include "acquisition/journal/run_signature.hpp"
 #include "acquisition/publish/destination.hpp"
 #include "acquisition/publish/outbox.hpp"
+#include "acquisition/runfile/run_signature.hpp"
 
 #include <cstdint>
 #include <optional>

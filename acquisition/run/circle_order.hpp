@@ -3,7 +3,7 @@
 // one at each end of its arc, one more after the last circle. Pure.
 
 #include "analysis/circular/circular_setup.hpp"
-#include "drivers/trigger_port.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <optional>
 #include <string>

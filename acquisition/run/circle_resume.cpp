@@ -1,7 +1,7 @@
 #include "acquisition/run/circle_resume.hpp"
 
 #include "analysis/circular/circle_cut.hpp"
-#include "analysis/run_clock.hpp"
+#include "analysis/record/run_clock.hpp"
 
 namespace axiscal {
 namespace {

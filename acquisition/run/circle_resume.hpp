@@ -4,7 +4,7 @@
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/resume.hpp"
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/stream_record.hpp"
+#include "analysis/record/stream_record.hpp"
 
 #include <optional>
 #include <string>

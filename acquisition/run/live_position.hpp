@@ -2,7 +2,7 @@
 // Where the axis stands now, for near checks and screens. Never for a certificate: no dead path, no
 // cosine, temperatures of this moment. Pure.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 namespace axiscal {
 

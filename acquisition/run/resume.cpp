@@ -2,7 +2,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/sequence.hpp"
-#include "analysis/run_clock.hpp"
+#include "analysis/record/run_clock.hpp"
 
 #include <algorithm>
 #include <cmath>

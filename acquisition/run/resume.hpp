@@ -1,8 +1,8 @@
 #pragma once
 // May an open run go on after a restart of the daemon? Pure.
 
-#include "analysis/run_record.hpp"
-#include "analysis/skipped_step.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/skipped_step.hpp"
 #include "drivers/sample.hpp"
 
 #include <cstdint>

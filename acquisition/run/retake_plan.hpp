@@ -1,8 +1,8 @@
 #pragma once
 // What is left to be taken again, read from a run file. Pure.
 
-#include "analysis/run_record.hpp"
-#include "analysis/run_revisions.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/run_revisions.hpp"
 
 #include <vector>
 

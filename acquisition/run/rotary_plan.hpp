@@ -1,8 +1,8 @@
 #pragma once
 // Whether a plan can be measured beside its artefact. Pure.
 
-#include "analysis/rotary/rotary_setup.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/rotary_setup.hpp"
+#include "analysis/record/run_record.hpp"
 
 namespace axiscal {
 

@@ -3,9 +3,9 @@
 // its own time. Pure data.
 
 #include "acquisition/capture/capture.hpp"
-#include "analysis/run_record.hpp"
-#include "analysis/run_revisions.hpp"
-#include "drivers/trigger_port.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/run_revisions.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 // The numbering of requests: 0 is idle, 65534 is followed by 1, 65535 is
 // `done` while no run takes requests. Pure.
 
-#include "drivers/trigger_port.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 // Where the targets of a pass lie: P_i = (i-1) p + r, and how their phases spread over the period
 // of the feedback (ISO 230-2:2014, 4.3). Pure; the same seed gives the same targets everywhere.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cstdint>
 #include <span>

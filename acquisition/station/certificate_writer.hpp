@@ -1,7 +1,7 @@
 #pragma once
 // Starts axiscal-report, the short-lived process that draws: the daemon links no drawing library.
 
-#include "drivers/scheduler.hpp"
+#include "drivers/loop/scheduler.hpp"
 
 #include <chrono>
 #include <string>

@@ -2,8 +2,8 @@
 // Which readings of a drift test are taken, interval by interval. No I/O; time comes with the call.
 
 #include "acquisition/capture/sample_history.hpp"
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
 #include "drivers/sample.hpp"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "acquisition/station/run_header.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_store.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_store.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "config/measure.hpp"
 #include "config/number_pattern.hpp"

@@ -1,6 +1,6 @@
 #include "acquisition/station/sleep_lock.hpp"
 
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 // While a run is open this computer must not fall asleep. systemd-inhibit(1) asks logind for it, a
 // program of systemd that comes with it: libsystemd would stay in an idle daemon's memory
-// (drivers/link/service_manager.hpp). Loop-bound; nothing here waits.
+// (drivers/loop/service_manager.hpp). Loop-bound; nothing here waits.
 
 #include "acquisition/station/child_process.hpp"
-#include "drivers/scheduler.hpp"
+#include "drivers/loop/scheduler.hpp"
 
 #include <string>
 

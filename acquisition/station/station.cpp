@@ -1,10 +1,10 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/run/live_position.hpp"
-#include "analysis/air_refraction.hpp"
+#include "analysis/air/air_refraction.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "analysis/rotary/rotary_position.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <boost/asio/bind_cancellation_slot.hpp>
 #include <spdlog/spdlog.h>

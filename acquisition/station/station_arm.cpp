@@ -2,17 +2,17 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/journal/certificate_numbers.hpp"
-#include "acquisition/journal/durable_file.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/certificate_numbers.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
-#include "acquisition/station/environment_limits.hpp"
+#include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
-#include "analysis/run_clock.hpp"
-#include "drivers/spawn.hpp"
+#include "analysis/record/run_clock.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
 #include <random>

@@ -2,11 +2,11 @@
 // request of the CNC becomes durable before it is answered.
 #include "acquisition/station/station.hpp"
 
-#include "acquisition/journal/certificate_numbers.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/certificate_numbers.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/run_header.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
 

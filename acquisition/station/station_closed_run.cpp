@@ -3,10 +3,10 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/run/resume.hpp"
-#include "acquisition/station/environment_limits.hpp"
 #include "acquisition/station/patience.hpp"
-#include "analysis/run_clock.hpp"
+#include "analysis/record/run_clock.hpp"
 
 #include <utility>
 

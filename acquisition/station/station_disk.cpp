@@ -1,8 +1,8 @@
 // The disk fails under an open run: nothing is acknowledged, and the station waits for the disk as
 // a new daemon would find it: the file is opened, verified and synced anew.
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/journal/durable_file.hpp"
 #include "acquisition/run/resume.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/station/station.hpp"
 
 #include <utility>

@@ -7,7 +7,7 @@
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
 

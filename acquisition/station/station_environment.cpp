@@ -1,6 +1,6 @@
 // The limits of the environment: outside them nothing is captured, and the run goes on when it is
 // back.
-#include "acquisition/station/environment_limits.hpp"
+#include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/station/station.hpp"
 
 namespace axiscal {

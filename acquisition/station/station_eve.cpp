@@ -1,8 +1,8 @@
 // E_VE of a drift test, carried to the budget of later runs.
 #include "acquisition/station/station.hpp"
 
-#include "acquisition/journal/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/runfile/run_file.hpp"
 
 #include <nlohmann/json.hpp>
 

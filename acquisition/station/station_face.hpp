@@ -6,12 +6,12 @@
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
-#include "analysis/run_revisions.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/run_revisions.hpp"
 #include "drivers/sample.hpp"
-#include "drivers/scheduler.hpp"
-#include "drivers/trigger_port.hpp"
+#include "drivers/loop/scheduler.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <functional>
 #include <map>

@@ -4,7 +4,7 @@
 #include "acquisition/station/roles.hpp"
 #include "config/station_config.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 
 #include <map>
 #include <memory>

@@ -6,7 +6,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/station/patience.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <utility>
 

@@ -5,7 +5,7 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/patience.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
 #include <utility>

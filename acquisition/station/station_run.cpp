@@ -5,7 +5,7 @@
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/station/certificate_writer.hpp"
 #include "acquisition/station/patience.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <filesystem>
 #include <malloc.h>

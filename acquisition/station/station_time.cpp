@@ -2,7 +2,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
 
 #include <utility>
 

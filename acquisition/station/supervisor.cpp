@@ -1,11 +1,11 @@
 #include "acquisition/station/supervisor.hpp"
 
-#include "analysis/channel_correction.hpp"
 #include "analysis/quantity/valid_text.hpp"
-#include "drivers/link/arrival.hpp"
-#include "drivers/link/can_link.hpp"
-#include "drivers/link/usb_link.hpp"
-#include "drivers/spawn.hpp"
+#include "analysis/record/channel_correction.hpp"
+#include "drivers/loop/spawn.hpp"
+#include "drivers/wire/arrival.hpp"
+#include "drivers/wire/can_link.hpp"
+#include "drivers/wire/usb_link.hpp"
 
 #include <algorithm>
 #include <exception>

@@ -3,8 +3,8 @@
 
 #include "config/instrument_config.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/link/tape_link.hpp"
-#include "drivers/scheduler.hpp"
+#include "drivers/loop/scheduler.hpp"
+#include "drivers/recording/tape_link.hpp"
 
 #include <memory>
 #include <optional>

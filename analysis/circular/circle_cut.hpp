@@ -3,7 +3,7 @@
 // feed-out, or by the controller's words; the angle by the programmed feed. Pure.
 
 #include "analysis/circular/circular_run.hpp"
-#include "analysis/stream_record.hpp"
+#include "analysis/record/stream_record.hpp"
 
 #include <span>
 #include <vector>

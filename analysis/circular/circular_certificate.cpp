@@ -1,8 +1,8 @@
 #include "analysis/circular/circular_certificate.hpp"
 
 #include "analysis/circular/circular_trials.hpp"
-#include "analysis/preflight_remarks.hpp"
 #include "analysis/quantity/counted.hpp"
+#include "analysis/record/preflight_remarks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // What a closed run says of its circles, ready to be evaluated.
 
-#include "analysis/certificate_expiry.hpp"
 #include "analysis/circular/circular_certificate.hpp"
-#include "analysis/run_clock.hpp"
+#include "analysis/record/certificate_expiry.hpp"
+#include "analysis/record/run_clock.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include "analysis/circular/circle_diagnosis.hpp"
 #include "analysis/circular/circular_parameters.hpp"
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/run_record.hpp"
-#include "analysis/run_revisions.hpp"
-#include "analysis/synchronisation.hpp"
+#include "analysis/record/run_record.hpp"
+#include "analysis/record/run_revisions.hpp"
+#include "analysis/record/synchronisation.hpp"
 
 namespace axiscal {
 

@@ -1,8 +1,8 @@
 #include "analysis/drift/resting_axis.hpp"
 
-#include "analysis/air_refraction.hpp"
+#include "analysis/air/air_refraction.hpp"
+#include "analysis/compensation/thermal_compensation.hpp"
 #include "analysis/rotary/rotary_position.hpp"
-#include "analysis/thermal_compensation.hpp"
 
 #include <cmath>
 

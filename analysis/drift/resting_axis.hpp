@@ -1,9 +1,9 @@
 #pragma once
 // The coordinate of an axis that rests, or the reading of a ballbar, from what measures it. Pure.
 
-#include "analysis/environment_history.hpp"
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/compensation/environment_history.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <optional>
 

@@ -2,8 +2,8 @@
 // A recorded drift test: what the measuring system shows of an axis or a ballbar that rests. Pure.
 
 #include "analysis/drift/drift.hpp"
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <optional>
 #include <string>

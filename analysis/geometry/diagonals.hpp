@@ -2,7 +2,7 @@
 // ISO 230-6: positioning along the body and face diagonals of a working volume, and the squareness
 // values that their lengths give away. Pure; lengths in one unit.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/quantity/result.hpp"
 
 #include <array>

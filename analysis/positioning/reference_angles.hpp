@@ -8,7 +8,7 @@
 //     face.
 // The constant (set-up, datum of the certificate) cancels in every figure but NMTBA's offset.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // Slope of the mean deviation over the axis: what a scale or a linear compensation would take out.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 
 #include <optional>
 

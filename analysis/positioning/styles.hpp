@@ -5,8 +5,8 @@
 // Common to all: x_ij deviation of approach j at target i (actual - target), up and down the two
 // directions; xm means, s standard deviations (n - 1), B_i = xm_i up - xm_i down.
 
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/positioning/standards.hpp"
-#include "analysis/positioning_accuracy.hpp"
 
 #include <map>
 #include <string>

@@ -4,7 +4,7 @@
 // Lengths are mm of a linear axis, degrees of a rotary one.
 
 #include "analysis/quantity/result.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 // From the touches that a run file holds to the series that clause 6.9 evaluates. Pure.
 
 #include "analysis/probing/probing_delay.hpp"
-#include "analysis/probing/probing_record.hpp"
+#include "analysis/record/probing_record.hpp"
 
 namespace axiscal {
 

@@ -14,8 +14,8 @@
 // As everywhere, one millimetre of a coordinate stands for one degree.
 
 #include "analysis/quantity/result.hpp"
-#include "analysis/rotary/rotary_setup.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/rotary_setup.hpp"
+#include "analysis/record/run_record.hpp"
 
 namespace axiscal {
 

@@ -6,7 +6,7 @@
 // document, R is reconstructed from its structure (the printed tables are lost).
 
 #include "analysis/quantity/result.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "analysis/uncertainty/calibrated_terms.hpp"
 
-#include "analysis/air_refraction.hpp"
-#include "analysis/channel_correction.hpp"
+#include "analysis/air/air_refraction.hpp"
+#include "analysis/record/channel_correction.hpp"
 
 #include <algorithm>
 #include <array>

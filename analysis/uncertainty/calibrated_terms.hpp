@@ -2,7 +2,7 @@
 // Terms of the uncertainty budget from the certificates of the instruments, offered where the
 // station file states none. Pure.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 // Monte Carlo evaluation of a whole session (JCGM 101, GUM supplement 1): the check of the budget
 // by a second method. Pure: a seed gives the same bits on every CPU, compiler and preset.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/quantity/result.hpp"
 #include "analysis/uncertainty/budget.hpp"
 #include "analysis/uncertainty/figure_tally.hpp"

@@ -2,7 +2,7 @@
 // The uncertainty budget of one run: what its station file stated (UncertaintySetup), completed by
 // what the run itself knows. Pure.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 #include "analysis/uncertainty/budget.hpp"
 #include "analysis/uncertainty/monte_carlo.hpp"
 

@@ -19,7 +19,7 @@
 #include "drivers/appearance.hpp"
 #include "drivers/ballbar/cia406_position.hpp"
 #include "drivers/canopen/pdo_stream.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <array>
 #include <optional>

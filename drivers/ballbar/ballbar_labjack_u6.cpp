@@ -15,8 +15,8 @@
 #include "config/settings.hpp"
 #include "drivers/appearance.hpp"
 #include "drivers/ballbar/u6_stream.hpp"
-#include "drivers/link/link_settings.hpp"
-#include "drivers/link/usb_link.hpp"
+#include "drivers/wire/link_settings.hpp"
+#include "drivers/wire/usb_link.hpp"
 
 #include <algorithm>
 #include <array>

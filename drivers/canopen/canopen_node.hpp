@@ -3,7 +3,7 @@
 
 #include "drivers/canopen/node_messages.hpp"
 #include "drivers/canopen/sdo.hpp"
-#include "drivers/link/can_link.hpp"
+#include "drivers/wire/can_link.hpp"
 
 namespace axiscal {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a CANopen node says unasked, and what the master says to its state. Pure.
 
-#include "drivers/link/can_frame.hpp"
+#include "drivers/wire/can_frame.hpp"
 
 #include <optional>
 #include <string>

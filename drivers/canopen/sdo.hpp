@@ -3,7 +3,7 @@
 // Pure.
 
 #include "analysis/quantity/result.hpp"
-#include "drivers/link/can_frame.hpp"
+#include "drivers/wire/can_frame.hpp"
 
 #include <string>
 #include <string_view>

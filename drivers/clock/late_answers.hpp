@@ -2,7 +2,7 @@
 // Hears what an instrument answers late before it is asked again.
 
 #include "drivers/clock/open_requests.hpp"
-#include "drivers/scheduler.hpp"
+#include "drivers/loop/scheduler.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 // One line of a Dracal VCP sensor. Pure. Sections: see environment_dracal_vcp.cpp.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <optional>
 #include <string>

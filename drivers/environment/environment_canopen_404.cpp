@@ -16,7 +16,7 @@
 #include "drivers/appearance.hpp"
 #include "drivers/canopen/canopen_session.hpp"
 #include "drivers/environment/cia404_input.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <algorithm>
 #include <optional>

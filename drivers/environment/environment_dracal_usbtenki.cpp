@@ -18,8 +18,8 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/tenki_reading.hpp"
 #include "drivers/framing/byte_order.hpp"
-#include "drivers/link/link_settings.hpp"
-#include "drivers/link/usb_link.hpp"
+#include "drivers/wire/link_settings.hpp"
+#include "drivers/wire/usb_link.hpp"
 
 #include <algorithm>
 #include <array>

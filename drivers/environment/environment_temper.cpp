@@ -20,7 +20,7 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_report.hpp"
 #include "drivers/framing/byte_order.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <algorithm>
 #include <array>

@@ -23,7 +23,7 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/temper_line.hpp"
 #include "drivers/framing/line_framer.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <array>
 #include <cstdio>

@@ -22,7 +22,7 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/vaisala_line.hpp"
 #include "drivers/framing/line_framer.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <algorithm>
 

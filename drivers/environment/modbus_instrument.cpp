@@ -2,7 +2,7 @@
 //
 // Document: Modbus Application Protocol Specification V1.1b3 (2012-04-26), "[6.3]" read holding
 // registers, "[6.4]" read input registers. What the registers of one model hold stands, with its
-// manual, in config/profiles/<model>.toml. The line is shared (drivers/link/modbus_bus.hpp).
+// manual, in config/profiles/<model>.toml. The line is shared (drivers/wire/modbus_bus.hpp).
 
 #include "drivers/environment/modbus_instrument.hpp"
 
@@ -10,9 +10,9 @@
 #include "drivers/appearance.hpp"
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/environment/stated_settings.hpp"
-#include "drivers/link/arrival.hpp"
-#include "drivers/link/link_settings.hpp"
-#include "drivers/link/modbus_bus.hpp"
+#include "drivers/wire/arrival.hpp"
+#include "drivers/wire/link_settings.hpp"
+#include "drivers/wire/modbus_bus.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 // A Modbus sensor as data: which registers hold what. Pure but for reading the profile's file.
 
-#include "drivers/link/byte_link.hpp"
+#include "drivers/wire/byte_link.hpp"
 #include "drivers/sample.hpp"
 
 #include <optional>

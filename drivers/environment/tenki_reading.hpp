@@ -2,7 +2,7 @@
 // Replies and raw readings of Dracal USBTenki sensors. Pure. Sections: see
 // environment_dracal_usbtenki.cpp.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -28,7 +28,7 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/gauge/gauge_answer.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <algorithm>
 #include <utility>

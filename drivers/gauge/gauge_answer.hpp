@@ -5,7 +5,7 @@
 
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/result.hpp"
-#include "drivers/link/byte_link.hpp"
+#include "drivers/wire/byte_link.hpp"
 
 #include <optional>
 #include <span>

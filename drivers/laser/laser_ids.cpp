@@ -24,7 +24,7 @@
 #include "drivers/clock/placed_time.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/laser/ids_message.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <array>
 #include <cmath>

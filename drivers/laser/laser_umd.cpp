@@ -14,7 +14,7 @@
 #include "drivers/appearance.hpp"
 #include "drivers/framing/line_framer.hpp"
 #include "drivers/laser/umd_counter.hpp"
-#include "drivers/link/link_settings.hpp"
+#include "drivers/wire/link_settings.hpp"
 
 #include <algorithm>
 #include <array>

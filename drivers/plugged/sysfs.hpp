@@ -1,7 +1,7 @@
 #pragma once
 // Small steps through sysfs. What cannot be read is empty: devices vanish while one looks.
 
-#include "drivers/link/usb_place.hpp"
+#include "drivers/wire/usb_place.hpp"
 
 #include <filesystem>
 #include <optional>

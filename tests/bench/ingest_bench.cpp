@@ -2,7 +2,7 @@
 // in the history. Only the reader's own CPU time counts; the limit reads the same bytes and drops
 // them.
 #include "acquisition/capture/sample_history.hpp"
-#include "drivers/link/link_opener.hpp"
+#include "drivers/wire/link_opener.hpp"
 #include "drivers/registry.hpp"
 #include "tests/bench/row.hpp"
 #include "tests/support/pty_pair.hpp"

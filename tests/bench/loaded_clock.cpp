@@ -7,10 +7,10 @@
 //
 // An instrument is never late, the thread that stands for it is: what the host lets it wait counts
 // as a delay of the record, so the figures are rather too large.
-#include "drivers/asio_scheduler.hpp"
 #include "drivers/clock/device_clock.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/link/link_opener.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/link_opener.hpp"
 #include "tests/support/pty_pair.hpp"
 
 #include <boost/asio/co_spawn.hpp>

@@ -1,9 +1,9 @@
 // A Modbus TCP request and its reply, client and server on one processor: what the trigger port
 // adds to an echo of as many bytes. A client that spins on nothing: it waits in recv like a
 // controller.
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/cnc/modbus_tcp_port.hpp"
-#include "drivers/cnc/sequence_block_map.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/trigger/modbus_tcp_port.hpp"
+#include "drivers/trigger/sequence_block_map.hpp"
 #include "tests/bench/loopback.hpp"
 #include "tests/bench/row.hpp"
 #include "tests/support/port_bench.hpp"

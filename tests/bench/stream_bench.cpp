@@ -2,7 +2,7 @@
 // view reads. What a sample costs in bytes is a row of its own.
 #include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/stream_chunker.hpp"
-#include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
 #include "tests/bench/row.hpp"
 
 #include <cmath>

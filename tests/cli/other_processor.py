@@ -5,7 +5,7 @@ there is no fused multiply-add; GLIBC_TUNABLES makes this processor one without.
 other_processor.py AXISCAL SOURCE_FOLDER
 
 A linear axis gives the same bits. A figure behind such a function agrees to 1e-8 of its unit and 1e-10 of
-itself (acquisition/publish/figure_agreement.hpp); on a processor without it nothing differs at all.
+itself (acquisition/documents/figure_agreement.hpp); on a processor without it nothing differs at all.
 """
 import hashlib
 import json

@@ -35,7 +35,7 @@ def canonical(table, values):
 def new_file(path, source):
     """An empty run file, with every table."""
     base = sqlite3.connect(path)
-    with open(os.path.join(source, "acquisition", "journal", "schema.sql"), encoding="utf-8") as schema:
+    with open(os.path.join(source, "acquisition", "runfile", "schema.sql"), encoding="utf-8") as schema:
         base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
     base.execute(f"PRAGMA application_id={IDENTITY}")
     base.execute(f"PRAGMA user_version={FORMAT}")
@@ -56,7 +56,7 @@ def tables_of(base):
 
 def tables_of_program(source):
     """The tables of the chain, as the program knows them."""
-    with open(os.path.join(source, "acquisition", "journal", NAMES_OF_COLUMNS), encoding="utf-8") as text:
+    with open(os.path.join(source, "acquisition", "runfile", NAMES_OF_COLUMNS), encoding="utf-8") as text:
         return re.findall(r'^    Table\{"(\w+)"', text.read(), re.M)
 
 

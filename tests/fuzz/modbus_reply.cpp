@@ -3,9 +3,9 @@
 // right checksum behind them, and both are fed in two pieces.
 
 #include "drivers/framing/modbus_reply.hpp"
-#include "drivers/cnc/mbap_framer.hpp"
 #include "drivers/framing/checksum.hpp"
 #include "drivers/framing/modbus_answers.hpp"
+#include "drivers/trigger/mbap_framer.hpp"
 #include "tests/fuzz/judge.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Bytes of a Modbus TCP client: frames stay within the protocol's bounds, requests within theirs.
 
-#include "drivers/cnc/modbus_request.hpp"
-#include "drivers/cnc/mbap_framer.hpp"
+#include "drivers/trigger/modbus_request.hpp"
+#include "drivers/trigger/mbap_framer.hpp"
 #include "tests/fuzz/judge.hpp"
 
 using namespace axiscal;

@@ -1,7 +1,7 @@
 // A client that writes what it likes into each trigger shape. Steps of the input: a length byte, a
 // PDU, a time step in 10 ms. `done` is never ours to move: no receipt is given here.
 
-#include "drivers/cnc/register_map.hpp"
+#include "drivers/trigger/register_map.hpp"
 #include "tests/fuzz/judge.hpp"
 
 using namespace axiscal;

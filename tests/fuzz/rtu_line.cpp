@@ -2,9 +2,9 @@
 // many bytes; bit 6 puts a silence behind them, bit 7 their right checksum, so that this is no wall
 // against the search. Every byte is a frame's or noise.
 
-#include "drivers/cnc/modbus_request.hpp"
-#include "drivers/cnc/rtu_framer.hpp"
 #include "drivers/framing/checksum.hpp"
+#include "drivers/trigger/modbus_request.hpp"
+#include "drivers/trigger/rtu_framer.hpp"
 #include "tests/fuzz/judge.hpp"
 
 #include <algorithm>

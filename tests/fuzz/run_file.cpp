@@ -2,8 +2,8 @@
 // to a good file, made once; a whole file when it begins as one. Read, summarized and verified, or
 // refused with a reason.
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_file_verify.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/fuzz/judge.hpp"
 #include "tests/unit/journal/one_row.hpp"
 #include "tests/unit/journal/random_run.hpp"

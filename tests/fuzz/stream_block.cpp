@@ -2,7 +2,7 @@
 // bytes of index, eight bytes a sample for its value, then changes of the packed bytes (offset 2,
 // value). What was packed comes back bit for bit; what was changed is refused or is a stream.
 
-#include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
 #include "tests/fuzz/judge.hpp"
 
 #include <algorithm>

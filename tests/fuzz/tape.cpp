@@ -1,6 +1,6 @@
 // Recorded bytes as text.
 
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/fuzz/judge.hpp"
 
 using namespace axiscal;

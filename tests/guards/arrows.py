@@ -19,7 +19,7 @@ LINKED_AS = {"PkgConfig::pangocairo": "cairo", "PkgConfig::modbus": "modbus", "P
 # Links that carry no arrow: compiler options, and libraries that stand in no row.
 FREE = {"axiscal_options", "Threads::Threads", "CLI11::CLI11", "spdlog::spdlog", "nlohmann_json::nlohmann_json", "PkgConfig::systemd"}
 # header -> who may include it, whatever the room. Of RunAt20C: the compensation and declare_at_20C.
-MAKERS = {"analysis/run_at_20C_maker.hpp": {"analysis/thermal_compensation.cpp", "analysis/deviation_table.cpp"}}
+MAKERS = {"analysis/compensation/run_at_20C_maker.hpp": {"analysis/compensation/thermal_compensation.cpp", "analysis/positioning/deviation_table.cpp"}}
 
 
 def maker_complaints(path, text):
@@ -109,14 +109,14 @@ def cmake_complaints(table, files):
 def include_self_test(table):
     planted = {
         "analysis/x.cpp": '#include "drivers/sample.hpp"\n', "drivers/x.cpp": '#include "acquisition/run/run_machine.hpp"\n',
-        "analysis/quantity/x.hpp": '#include "analysis/run_record.hpp"\n', "tools/axiscal-simulate/x.cpp": '#include "drivers/sample.hpp"\n',
+        "analysis/quantity/x.hpp": '#include "analysis/record/run_record.hpp"\n', "tools/axiscal-simulate/x.cpp": '#include "drivers/sample.hpp"\n',
         "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "acquisition/publish/x.cpp": "#include <libsmbclient.h>\n",
-        "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/certificate.hpp"\n',
+        "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/positioning/positioning_certificate.hpp"\n',
         "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
-        "acquisition/publish/z.cpp": '#include "acquisition/publish/report/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_setup.hpp"\n',
+        "acquisition/publish/z.cpp": '#include "acquisition/documents/pdf/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_setup.hpp"\n',
         "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
     }
-    fine = {"drivers/z.cpp": '#include "analysis/run_record.hpp"\n#include <modbus.h>\n', "acquisition/publish/report/x.cpp": "#include <cairo.h>\n"}
+    fine = {"drivers/z.cpp": '#include "analysis/record/run_record.hpp"\n#include <modbus.h>\n', "acquisition/documents/pdf/x.cpp": "#include <cairo.h>\n"}
     missed = [path for path, text in planted.items() if not list(table.include_complaints(path, text))]
     return missed + [alarm for path, text in fine.items() for alarm in table.include_complaints(path, text)]
 
@@ -142,7 +142,7 @@ def link_self_test(table, files):
 def maker_self_test(files):
     """files: path -> text. A planted include by anybody else is seen, the makers' own are there and are fine."""
     wrong = [path for path in ("analysis/x.cpp", "analysis/run_at_20C.hpp", "tools/axiscal/x.cpp", "tests/unit/analysis/x.cpp")
-             if not list(maker_complaints(path, '#include "analysis/run_at_20C_maker.hpp"\n'))]
+             if not list(maker_complaints(path, '#include "analysis/compensation/run_at_20C_maker.hpp"\n'))]
     wrong += [] if list(maker_complaints("analysis/x.cpp", '#include "run_at_20C_maker.hpp"\n')) else ["beside the header"]
     for header, makers in MAKERS.items():
         wrong += [f"{path} does not include {header}" for path in makers if header not in INCLUDE.findall(files[path])]

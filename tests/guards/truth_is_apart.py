@@ -34,7 +34,7 @@ def complaints(path, text):
 
 def self_test():
     planted = {
-        HOME + "/a.cpp": '#include "analysis/air_refraction.hpp"\n',
+        HOME + "/a.cpp": '#include "analysis/air/air_refraction.hpp"\n',
         HOME + "/b.cpp": '#  include <drivers/sample.hpp>\n',
         HOME + "/wire/c.cpp": '#include "../../../config/settings.hpp"\n',
         HOME + "/d.hpp": '#include "acquisition/program/part_program.hpp"\n',

@@ -5,10 +5,10 @@
 //   modbus_peer_host SHAPE mirrored PORT   client of a CNC on 127.0.0.1:PORT
 // Prints "request N standing 0|1" for each event. Ends with its standard input.
 
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/cnc/mirrored_port.hpp"
-#include "drivers/cnc/modbus_rtu_port.hpp"
-#include "drivers/cnc/modbus_tcp_port.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/trigger/mirrored_port.hpp"
+#include "drivers/trigger/modbus_rtu_port.hpp"
+#include "drivers/trigger/modbus_tcp_port.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 
 #include <boost/asio/co_spawn.hpp>

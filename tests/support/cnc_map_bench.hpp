@@ -1,9 +1,9 @@
 #pragma once
 // Register maps on the bench: requests as bytes, and `done` set without a journal. Tests only.
 
-#include "drivers/cnc/coil_and_index_map.hpp"
-#include "drivers/cnc/sequence_block_map.hpp"
-#include "drivers/cnc/single_register_map.hpp"
+#include "drivers/trigger/coil_and_index_map.hpp"
+#include "drivers/trigger/sequence_block_map.hpp"
+#include "drivers/trigger/single_register_map.hpp"
 
 #include <initializer_list>
 

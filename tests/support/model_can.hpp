@@ -2,8 +2,8 @@
 // Simulated CANopen devices on a bus without a kernel: the models of axiscal-simulate are the wire,
 // virtual time is theirs. Tests only.
 
-#include "drivers/link/can_interface.hpp"
-#include "drivers/link/can_link.hpp"
+#include "drivers/wire/can_interface.hpp"
+#include "drivers/wire/can_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

@@ -2,7 +2,7 @@
 // Simulated USB devices as links, without a kernel between: the models of axiscal-simulate are the
 // wire, virtual time is theirs. Tests only.
 
-#include "drivers/link/usb_link.hpp"
+#include "drivers/wire/usb_link.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 #include "wire/usb/usb_faults.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // A trigger port under a scheduler, its station replaced by a list. Tests only.
 
-#include "drivers/trigger_port.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <boost/asio/bind_cancellation_slot.hpp>
 #include <boost/asio/cancellation_signal.hpp>

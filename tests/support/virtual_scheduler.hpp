@@ -1,7 +1,7 @@
 #pragma once
 // The virtual time in which tests let whole runs pass, under the name that they know.
 
-#include "drivers/virtual_scheduler.hpp"
+#include "drivers/loop/virtual_scheduler.hpp"
 
 namespace axiscal::testing {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A real opener that counts its answers: a test writes when the link is open, not before.
 
-#include "drivers/link/link_opener.hpp"
+#include "drivers/wire/link_opener.hpp"
 
 namespace axiscal::testing {
 

@@ -2,8 +2,8 @@
 // that the main thread reads without being told; the sanitizer must report it and end with 66.
 // `data_race fenced`: the same result by the product's own fence; nothing may be reported.
 
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/work_thread.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/loop/work_thread.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>

@@ -1,5 +1,5 @@
 // Links of files which block: the loop goes on meanwhile, and it ends with readings still open.
-#include "drivers/link/file_link.hpp"
+#include "drivers/wire/file_link.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/threads/link_bench.hpp"
 

@@ -1,6 +1,6 @@
 // The threads of HID links: each owns its stick, and hidapi, which keeps state for the whole
 // process, is entered by one thread at a time.
-#include "drivers/link/hid_link.hpp"
+#include "drivers/wire/hid_link.hpp"
 #include "tests/threads/link_bench.hpp"
 #include "tests/threads/usb_doubles.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 // A loop, its scheduler and the threads of an opener, which end before the loop does.
 
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/work_thread.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/loop/work_thread.hpp"
 #include "tests/support/loop_until.hpp"
 
 #include <boost/asio/co_spawn.hpp>

@@ -1,7 +1,7 @@
 #include "tests/threads/usb_doubles.hpp"
 
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/usb_handle.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/usb_handle.hpp"
 
 #include <hidapi/hidapi.h>
 
@@ -46,7 +46,7 @@ namespace axiscal {
 
 using testing::seen_at;
 
-// --- in place of drivers/link/usb_place.cpp ---
+// --- in place of drivers/wire/usb_place.cpp ---
 
 std::string UsbEntry::describe() const {
     return "the USB device at " + port;
@@ -70,7 +70,7 @@ Result<UsbEntry> choose_usb(const UsbPlace& place, const std::vector<UsbEntry>& 
     return *found;
 }
 
-// --- in place of drivers/link/usb_handle.cpp ---
+// --- in place of drivers/wire/usb_handle.cpp ---
 
 Result<std::shared_ptr<UsbHandle>> UsbHandle::open(const UsbPlace& place) {
     AXISCAL_TRY(UsbEntry entry, choose_usb(place, list_usb()));

@@ -1,6 +1,6 @@
 // The thread of a USB link: every call of the device is made on it, packets that it reads ahead
 // reach the loop in order and whole, and it ends with the link.
-#include "drivers/link/usb_link.hpp"
+#include "drivers/wire/usb_link.hpp"
 #include "tests/threads/link_bench.hpp"
 #include "tests/threads/usb_doubles.hpp"
 

@@ -5,13 +5,13 @@
 // stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
 // refused or the run is incomplete.
 
-#include "acquisition/journal/durable_file.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/signing_key.hpp"
-#include "acquisition/publish/circular_run_file.hpp"
+#include "acquisition/documents/circular/circular_run_file.hpp"
+#include "acquisition/documents/pdf/certificate_files.hpp"
+#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/publish/outbox.hpp"
-#include "acquisition/publish/report/certificate_files.hpp"
-#include "acquisition/publish/run_certificate.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/signing_key.hpp"
 #include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "tools/axiscal/circular_case_certificate.hpp"

@@ -1,7 +1,7 @@
 #include "tools/axiscal/circular_case_certificate.hpp"
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/publish/result_digest.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/documents/result_digest.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "config/version.hpp"
 #include "tools/axiscal/case_text.hpp"

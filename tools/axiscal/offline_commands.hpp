@@ -1,7 +1,7 @@
 #pragma once
 // The commands that need no daemon.
 
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/run_verify.hpp"
 
 #include <cstdint>
 #include <optional>

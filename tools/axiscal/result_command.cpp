@@ -1,7 +1,7 @@
 // `axiscal result`: the figures of one run, for somebody who has just measured it.
-#include "acquisition/journal/run_order.hpp"
-#include "acquisition/publish/certificate_json.hpp"
-#include "acquisition/publish/run_certificate.hpp"
+#include "acquisition/documents/positioning/certificate_json.hpp"
+#include "acquisition/documents/run_certificate.hpp"
+#include "acquisition/runfile/run_order.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/cases/tolerances_member.hpp"

@@ -1,6 +1,6 @@
 #include "tools/axiscal/station_command.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/json_text.hpp"
 #include "drivers/registry.hpp"

@@ -1,5 +1,5 @@
 // `axiscal verify`: is this run file what the station wrote, and is this its certificate?
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/run_verify.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"

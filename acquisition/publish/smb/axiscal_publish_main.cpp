@@ -1,7 +1,7 @@
 // axiscal-publish: a process of its own, because a dead network share can hold one for ever, and a
 // work of its own: with libsmbclient the program as a whole is under the GPL (LICENSES/).
 
-#include "acquisition/journal/folder_owner.hpp"
+#include "acquisition/runfile/folder_owner.hpp"
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 #include "acquisition/publish/publisher_report.hpp"

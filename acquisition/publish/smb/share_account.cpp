@@ -1,6 +1,6 @@
 #include "acquisition/publish/smb/share_account.hpp"
 
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <array>
 #include <cstdlib>

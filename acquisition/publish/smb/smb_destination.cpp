@@ -1,8 +1,8 @@
 #include "acquisition/publish/smb/smb_session.hpp"
 #include "acquisition/publish/smb/wire_watch.hpp"
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/durable_file.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 
 #include <algorithm>
 #include <array>

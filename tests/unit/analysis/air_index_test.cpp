@@ -1,7 +1,7 @@
 #include "analysis/air/air_index.hpp"
 
 #include "analysis/air/air_formulas.hpp"
-#include "analysis/air_refraction.hpp"
+#include "analysis/air/air_refraction.hpp"
 #include "reference_data.hpp"
 
 #include <algorithm>

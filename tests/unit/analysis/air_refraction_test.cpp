@@ -1,4 +1,4 @@
-#include "analysis/air_refraction.hpp"
+#include "analysis/air/air_refraction.hpp"
 #include "reference_data.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "analysis/certificate_expiry.hpp"
+#include "analysis/record/certificate_expiry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "reference_data.hpp"
 #include "simulated_run.hpp"
 #include "stated_uncertainty.hpp"

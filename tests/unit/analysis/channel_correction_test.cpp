@@ -1,4 +1,4 @@
-#include "analysis/channel_correction.hpp"
+#include "analysis/record/channel_correction.hpp"
 
 #include <gtest/gtest.h>
 #include <vector>

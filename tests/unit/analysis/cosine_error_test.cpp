@@ -1,4 +1,4 @@
-#include "analysis/alignment/cosine_error.hpp"
+#include "analysis/compensation/cosine_error.hpp"
 
 #include <gtest/gtest.h>
 

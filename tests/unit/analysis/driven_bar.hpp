@@ -3,7 +3,7 @@
 // overshoot, feed-out, rest. It knows the plan of the program and nothing of how circles are cut.
 
 #include "analysis/circular/circular_setup.hpp"
-#include "analysis/stream_record.hpp"
+#include "analysis/record/stream_record.hpp"
 #include "synthetic_circle.hpp"
 
 #include <algorithm>

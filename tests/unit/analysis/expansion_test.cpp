@@ -1,4 +1,4 @@
-#include "analysis/thermal/expansion.hpp"
+#include "analysis/compensation/expansion.hpp"
 
 #include "reference_data.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 // How far the compensation is from what was put into a simulated run.
 
-#include "analysis/run_record.hpp"
-#include "analysis/thermal_compensation.hpp"
+#include "analysis/compensation/thermal_compensation.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <algorithm>
 #include <cmath>

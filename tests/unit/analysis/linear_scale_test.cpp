@@ -3,8 +3,8 @@
 #include "linear_scale_run.hpp"
 #include "stated_uncertainty.hpp"
 
+#include "analysis/compensation/thermal_compensation.hpp"
 #include "analysis/drift/run_drift.hpp"
-#include "analysis/thermal_compensation.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 // compensation, a RunAt20C made by hand. The build is the test; tests/guards/arrows.py holds who
 // may include the maker.
 
+#include "analysis/compensation/thermal_compensation.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/positioning/styles.hpp"
-#include "analysis/positioning_accuracy.hpp"
-#include "analysis/run_record.hpp"
-#include "analysis/thermal_compensation.hpp"
+#include "analysis/record/run_record.hpp"
 #include "analysis/uncertainty/monte_carlo.hpp"
 
 #include <concepts>

@@ -1,8 +1,8 @@
 // What a run gives that was not closed as complete. Expected figures are worked by hand from
 // deviations of whole micrometres; a scale at 20 degC with no expansion keeps them exact.
 
-#include "analysis/certificate.hpp"
-#include "analysis/skipped_step.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
+#include "analysis/record/skipped_step.hpp"
 #include "simulated_run.hpp"
 #include "stated_uncertainty.hpp"
 

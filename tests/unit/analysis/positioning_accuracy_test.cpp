@@ -1,4 +1,4 @@
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "reference_data.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Laws that hold for every table, over seeded random ones.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "reference_data.hpp"
 
 #include <algorithm>

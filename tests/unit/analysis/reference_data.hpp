@@ -1,7 +1,7 @@
 #pragma once
 // Reads tests/reference and makes tables from it.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "tests/support/source_dir.hpp"
 
 #include <fstream>

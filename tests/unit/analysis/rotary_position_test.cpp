@@ -1,7 +1,7 @@
 // Angles beside an indexing table and a polygon: closed forms, and a run made from a known truth.
 #include "analysis/rotary/rotary_position.hpp"
 
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "rotary_truth.hpp"
 
 #include <gtest/gtest.h>

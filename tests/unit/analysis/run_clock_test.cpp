@@ -1,7 +1,7 @@
 // What paper tells of a run's times when the clock is set in mid-run or the computer restarted.
-#include "analysis/run_clock.hpp"
+#include "analysis/record/run_clock.hpp"
 
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "simulated_run.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The truth is made here from n and L alone: V = n L of the way from the interferometer, by hand.
 #include "analysis/drift/run_drift.hpp"
 
-#include "analysis/air_refraction.hpp"
+#include "analysis/air/air_refraction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // Boensch and Potulski's index with Ciddor's exponential saturation pressure, the optical path
 // written out.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cmath>
 #include <functional>

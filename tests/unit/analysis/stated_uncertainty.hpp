@@ -1,7 +1,7 @@
 #pragma once
 // What a good workshop states of its measurement: nothing that the budget needs is left out.
 
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 namespace axiscal::test {
 

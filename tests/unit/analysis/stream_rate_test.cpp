@@ -1,4 +1,4 @@
-#include "analysis/stream_rate.hpp"
+#include "analysis/record/stream_rate.hpp"
 
 #include <gtest/gtest.h>
 

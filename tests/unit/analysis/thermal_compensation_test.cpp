@@ -1,4 +1,4 @@
-#include "analysis/thermal_compensation.hpp"
+#include "analysis/compensation/thermal_compensation.hpp"
 #include "largest_error.hpp"
 #include "reference_data.hpp"
 #include "simulated_run.hpp"

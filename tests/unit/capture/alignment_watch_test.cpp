@@ -1,7 +1,7 @@
 // The truth: a beam at an angle gamma reads D cos(gamma); the watch is told readings, no angle.
 #include "acquisition/capture/alignment_watch.hpp"
 
-#include "analysis/alignment/cosine_error.hpp"
+#include "analysis/compensation/cosine_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "acquisition/console/peer.hpp"
 
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/ip/tcp.hpp>

@@ -1,7 +1,7 @@
 // What is not there is waited for by the kernel's word; the folders are real, the time is virtual.
-#include "drivers/link/arrival.hpp"
-#include "drivers/link/doorbell.hpp"
-#include "drivers/virtual_scheduler.hpp"
+#include "drivers/loop/doorbell.hpp"
+#include "drivers/loop/virtual_scheduler.hpp"
+#include "drivers/wire/arrival.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <boost/asio/co_spawn.hpp>

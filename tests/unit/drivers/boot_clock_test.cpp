@@ -1,6 +1,6 @@
 // The station's clock where CLOCK_BOOTTIME and CLOCK_MONOTONIC differ, as after a suspend:
 // time_namespaces(7) moves the first by an hour for a child of this test.
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // A CAN link on one end of a socketpair that carries struct can_frame, as a raw socket does: this
 // runs where the kernel has no CAN. The kernel's own sockets are met in tests/kernel.
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/can_interface.hpp"
-#include "drivers/link/can_link.hpp"
-#include "drivers/link/link_opener.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/can_interface.hpp"
+#include "drivers/wire/can_link.hpp"
+#include "drivers/wire/link_opener.hpp"
 #include "tests/support/loop_until.hpp"
 
 #include <boost/asio/co_spawn.hpp>

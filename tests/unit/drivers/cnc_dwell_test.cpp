@@ -1,5 +1,5 @@
-#include "drivers/cnc/dwell_detector.hpp"
-#include "drivers/cnc/trigger_ports.hpp"
+#include "drivers/trigger/dwell_detector.hpp"
+#include "drivers/trigger/trigger_ports.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 

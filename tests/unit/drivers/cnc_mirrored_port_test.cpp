@@ -1,5 +1,5 @@
-#include "drivers/cnc/mirrored_port.hpp"
-#include "drivers/cnc/modbus_tcp_port.hpp"
+#include "drivers/trigger/mirrored_port.hpp"
+#include "drivers/trigger/modbus_tcp_port.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/virtual_scheduler.hpp"

@@ -1,5 +1,5 @@
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/cnc/modbus_rtu_port.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/trigger/modbus_rtu_port.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/pty_line.hpp"

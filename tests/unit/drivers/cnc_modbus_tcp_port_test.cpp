@@ -1,5 +1,5 @@
-#include "drivers/cnc/mbap_framer.hpp"
-#include "drivers/cnc/modbus_tcp_port.hpp"
+#include "drivers/trigger/mbap_framer.hpp"
+#include "drivers/trigger/modbus_tcp_port.hpp"
 #include "drivers/turned_away.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/port_bench.hpp"

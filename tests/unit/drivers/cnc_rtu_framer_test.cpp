@@ -1,5 +1,5 @@
-#include "drivers/cnc/rtu_framer.hpp"
 #include "drivers/framing/checksum.hpp"
+#include "drivers/trigger/rtu_framer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Literal records in the layout of <linux/counter.h>, little-endian; and a named pipe that gives
 // them instead of a device.
-#include "drivers/asio_scheduler.hpp"
 #include "drivers/laser/counter_record.hpp"
-#include "drivers/link/link_opener.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/link_opener.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"

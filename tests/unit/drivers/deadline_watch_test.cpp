@@ -1,6 +1,6 @@
 // One sleeper for many operations: what it may cost, and what it must not miss.
-#include "drivers/link/deadline_watch.hpp"
-#include "drivers/virtual_scheduler.hpp"
+#include "drivers/loop/virtual_scheduler.hpp"
+#include "drivers/wire/deadline_watch.hpp"
 
 #include <boost/asio/post.hpp>
 #include <gtest/gtest.h>

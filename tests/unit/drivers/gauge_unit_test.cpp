@@ -1,6 +1,6 @@
 // A Sylvac gauge is asked for its unit (SET?); what is said of one that does not tell it, under
 // virtual time.
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

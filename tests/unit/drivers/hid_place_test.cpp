@@ -1,5 +1,5 @@
 // HID devices as the kernel lists them; sysfs is a folder of files and links here.
-#include "drivers/link/hid_place.hpp"
+#include "drivers/wire/hid_place.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // Instruments that die, flood or send garbage, on real ptys.
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/pty_pair.hpp"

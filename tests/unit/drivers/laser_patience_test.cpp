@@ -1,6 +1,6 @@
 // A host that stalls loses no datum, a laser that is silent is opened anew: the driver's patience,
 // under virtual time.
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

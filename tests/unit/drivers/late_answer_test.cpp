@@ -1,7 +1,7 @@
 // Answers that come after the next request was sent: u(t) covers the request that they belong to.
 // An answer cannot tell; so each tape has the truth, by how it was made.
 #include "drivers/clock/open_requests.hpp"
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

@@ -1,5 +1,5 @@
 // A log that nobody reads holds nobody up, and says how much of it is missing.
-#include "drivers/link/line_writer.hpp"
+#include "drivers/loop/line_writer.hpp"
 
 #include <gtest/gtest.h>
 

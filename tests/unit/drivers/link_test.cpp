@@ -1,8 +1,8 @@
 // Real descriptors: ptys and loopback sockets. No test waits for a span of time to pass.
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/link_opener.hpp"
-#include "drivers/link/link_settings.hpp"
-#include "drivers/link/serial_link.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/link_opener.hpp"
+#include "drivers/wire/link_settings.hpp"
+#include "drivers/wire/serial_link.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/pty_pair.hpp"
 #include "tests/support/scratch_folder.hpp"

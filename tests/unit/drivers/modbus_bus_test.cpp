@@ -1,7 +1,7 @@
 // The shared Modbus line under virtual time, against slaves that answer late, twice, wrong or not
 // at all. What they send is made here, checksum and all, apart from what reads it.
-#include "drivers/link/modbus_bus.hpp"
-#include "drivers/spawn.hpp"
+#include "drivers/loop/spawn.hpp"
+#include "drivers/wire/modbus_bus.hpp"
 #include "modbus_wire.hpp"
 #include "tests/support/asked_seed.hpp"
 

@@ -1,7 +1,7 @@
 // The Modbus driver against libmodbus as a server (TCP) and against literal bytes (RTU on a pty).
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/serial_link.hpp"
-#include "drivers/link/tape_link.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/recording/tape_link.hpp"
+#include "drivers/wire/serial_link.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/pty_pair.hpp"

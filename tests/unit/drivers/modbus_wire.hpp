@@ -2,7 +2,7 @@
 // A Modbus line under virtual time and the slave at its far end. What is sent is made here,
 // checksum and all, apart from what reads it. Tests only.
 
-#include "drivers/link/byte_link.hpp"
+#include "drivers/wire/byte_link.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // termios(3): "\377 \0 X" of a byte X with a wrong parity or a broken frame, "\377 \377" of a good
 // FF.
-#include "drivers/link/parity_marks.hpp"
+#include "drivers/wire/parity_marks.hpp"
 
 #include "drivers/framing/byte_order.hpp"
-#include "drivers/link/serial_link.hpp"
+#include "drivers/wire/serial_link.hpp"
 #include "tests/support/pty_pair.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What is known of the time of a reading that was asked for, and what each driver says of it.
 #include "drivers/clock/placed_time.hpp"
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/source_dir.hpp"

@@ -1,5 +1,5 @@
 // What the service manager hears, against sd_notify(3) and sd_watchdog_enabled(3) of systemd 252.
-#include "drivers/link/service_manager.hpp"
+#include "drivers/loop/service_manager.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,6 +1,6 @@
 // Every instrument's tape under virtual time, compared with its expectation to the last digit.
-#include "drivers/link/tape_link.hpp"
-#include "drivers/link/tape_recording.hpp"
+#include "drivers/recording/tape_link.hpp"
+#include "drivers/recording/tape_recording.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/source_dir.hpp"

@@ -1,8 +1,8 @@
 // A tape itself: what it refuses, how it is played, that a recording gives the driver the same
 // again.
-#include "drivers/link/tape_link.hpp"
-#include "drivers/link/tape_recording.hpp"
-#include "drivers/link/usb_link.hpp"
+#include "drivers/recording/tape_link.hpp"
+#include "drivers/recording/tape_recording.hpp"
+#include "drivers/wire/usb_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

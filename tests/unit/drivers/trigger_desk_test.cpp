@@ -1,7 +1,7 @@
 // The desk keeps the time of its map and sleeps otherwise; virtual time, every waking counted.
-#include "drivers/cnc/trigger_desk.hpp"
-#include "drivers/spawn.hpp"
-#include "drivers/virtual_scheduler.hpp"
+#include "drivers/loop/spawn.hpp"
+#include "drivers/loop/virtual_scheduler.hpp"
+#include "drivers/trigger/trigger_desk.hpp"
 #include "tests/support/port_bench.hpp"
 
 #include <gtest/gtest.h>

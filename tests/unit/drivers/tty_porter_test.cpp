@@ -1,6 +1,6 @@
 // Opening and closing beside the loop: what hangs in the kernel holds nobody up.
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/tty_porter.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/wire/tty_porter.hpp"
 #include "tests/support/loop_until.hpp"
 
 #include <boost/asio/co_spawn.hpp>

@@ -1,5 +1,5 @@
 // Which of the devices that are plugged in is meant; sysfs is a folder of files here.
-#include "drivers/link/usb_place.hpp"
+#include "drivers/wire/usb_place.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // A Vaisala that falls silent: told its settings anew, then its line is opened anew, under virtual
 // time.
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

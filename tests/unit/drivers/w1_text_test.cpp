@@ -1,9 +1,9 @@
 // Literal texts: the kernel's documentation of w1_therm and the scratchpads of the DS18B20 data
 // sheet (its table of temperatures and its power-on state).
-#include "drivers/asio_scheduler.hpp"
 #include "drivers/environment/w1_text.hpp"
-#include "drivers/link/link_opener.hpp"
-#include "drivers/link/tape_recording.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/recording/tape_recording.hpp"
+#include "drivers/wire/link_opener.hpp"
 #include "tests/support/loop_until.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/sample_recorder.hpp"

@@ -1,6 +1,6 @@
 // What can block does so on a thread of its own: the loop goes on, and no thread is left behind.
-#include "drivers/asio_scheduler.hpp"
-#include "drivers/link/work_thread.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
+#include "drivers/loop/work_thread.hpp"
 #include "tests/support/loop_until.hpp"
 
 #include <boost/asio/co_spawn.hpp>

@@ -1,4 +1,4 @@
-#include "acquisition/journal/certificate_numbers.hpp"
+#include "acquisition/runfile/certificate_numbers.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

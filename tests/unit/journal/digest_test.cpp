@@ -1,4 +1,4 @@
-#include "acquisition/journal/digest.hpp"
+#include "acquisition/runfile/digest.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

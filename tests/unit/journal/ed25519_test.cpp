@@ -1,4 +1,4 @@
-#include "acquisition/journal/ed25519.hpp"
+#include "acquisition/runfile/ed25519.hpp"
 
 #include <gtest/gtest.h>
 

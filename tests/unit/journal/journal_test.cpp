@@ -1,7 +1,7 @@
 #include "acquisition/journal/journal.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "drivers/asio_scheduler.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 #include "tests/unit/journal/manual_clock.hpp"

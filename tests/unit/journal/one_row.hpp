@@ -1,7 +1,7 @@
 #pragma once
 // Rows written one by one, and what a folder has open: the product writes batches.
 
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 
 #include <span>
 #include <utility>

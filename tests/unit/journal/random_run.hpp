@@ -2,8 +2,8 @@
 // Seeded run records with every field filled, and a comparison of every bit, field by field,
 // that knows nothing of rows and columns.
 
-#include "analysis/run_attachments.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <bit>
 #include <boost/pfr.hpp>

@@ -1,9 +1,9 @@
 // From the durable commit to the register that the CNC reads.
 
 #include "acquisition/journal/journal.hpp"
-#include "drivers/cnc/dwell_trigger_port.hpp"
-#include "drivers/cnc/single_register_map.hpp"
-#include "drivers/cnc/trigger_desk.hpp"
+#include "drivers/trigger/dwell_trigger_port.hpp"
+#include "drivers/trigger/single_register_map.hpp"
+#include "drivers/trigger/trigger_desk.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

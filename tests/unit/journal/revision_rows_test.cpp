@@ -1,9 +1,9 @@
 // Format 3: checks, retakes and exclusions in the run file, also after its closing row.
 #include "random_run.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_file_verify.hpp"
-#include "acquisition/journal/statement.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_file_verify.hpp"
+#include "acquisition/runfile/statement.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/one_row.hpp"
 

@@ -1,4 +1,4 @@
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/random_run.hpp"

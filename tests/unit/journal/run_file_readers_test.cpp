@@ -1,8 +1,8 @@
 // Another program reads the run file that is to be closed: SQLite's own locks,
 // sqlite.org/lockingv3.
-#include "acquisition/journal/file_users.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_store.hpp"
+#include "acquisition/runfile/file_users.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_store.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/one_row.hpp"

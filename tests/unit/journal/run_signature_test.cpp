@@ -1,7 +1,7 @@
-#include "acquisition/journal/run_signature.hpp"
+#include "acquisition/runfile/run_signature.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_file_verify.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/random_run.hpp"
 #include "tests/unit/journal/written_run.hpp"

@@ -1,6 +1,6 @@
 // Which stored runs a starting station must open: every state that a life of a run file can be left
 // in, made by the writer itself, and how many files are opened, counted by the kernel.
-#include "acquisition/journal/run_store.hpp"
+#include "acquisition/runfile/run_store.hpp"
 
 #include "tests/support/opening_count.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "acquisition/journal/signing_key.hpp"
+#include "acquisition/runfile/signing_key.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 

@@ -1,8 +1,8 @@
 // Streams in the run file: bit for bit, few bytes a sample, damage told.
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_file_verify.hpp"
-#include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_file_verify.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
 
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/random_run.hpp"

@@ -2,9 +2,9 @@
 // file tells where they are missing.
 
 #include "acquisition/journal/journal.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/stream_packing.hpp"
-#include "drivers/asio_scheduler.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/manual_clock.hpp"
 #include "tests/unit/journal/random_run.hpp"

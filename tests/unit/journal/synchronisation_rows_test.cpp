@@ -1,9 +1,9 @@
 // What the uncertain time of the samples adds to each capture, in the row of its point or datum.
 #include "random_run.hpp"
 
-#include "acquisition/journal/record_rows.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/journal/run_file_verify.hpp"
+#include "acquisition/runfile/record_rows.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The samples of a point in the run file: bit for bit, few bytes, damage refused.
 
-#include "acquisition/journal/window_packing.hpp"
+#include "acquisition/runfile/window_packing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Writes run files, changes them from outside and hears what is told of them.
 
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "tests/unit/journal/random_run.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // certificate.json and certificate.csv of a circular test.
 
-#include "acquisition/publish/circular_certificate_csv.hpp"
-#include "acquisition/publish/circular_certificate_json.hpp"
-#include "acquisition/publish/circular_json.hpp"
+#include "acquisition/documents/circular/circular_certificate_csv.hpp"
+#include "acquisition/documents/circular/circular_certificate_json.hpp"
+#include "acquisition/documents/circular/circular_json.hpp"
 #include "tests/unit/report/synthetic_circular.hpp"
 
 #include <gtest/gtest.h>

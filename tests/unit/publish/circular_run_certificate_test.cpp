@@ -1,8 +1,8 @@
 // From the run file of a circular test to its certificate, and back.
 
-#include "acquisition/publish/circular_certificate_json.hpp"
-#include "acquisition/publish/run_certificate.hpp"
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/circular/circular_certificate_json.hpp"
+#include "acquisition/documents/run_certificate.hpp"
+#include "acquisition/documents/run_verify.hpp"
 #include "written_circle.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // A bar driven through circles of known truth, written into a run file, read back and diagnosed.
 
-#include "acquisition/publish/circular_run_file.hpp"
+#include "acquisition/documents/circular/circular_run_file.hpp"
 
 #include "written_circle.hpp"
 

@@ -1,10 +1,10 @@
 // What leaves the station of a drift test, as JSON and CSV. The truth is a record made by hand: an
 // axis that creeps by 1 um a minute, a bed that warms up by 0.1 K a minute, a gauge, a silent one.
-#include "acquisition/publish/drift_document.hpp"
+#include "acquisition/documents/drift/drift_document.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/publish/document_parts.hpp"
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/document_parts.hpp"
+#include "acquisition/documents/run_verify.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/one_row.hpp"
 

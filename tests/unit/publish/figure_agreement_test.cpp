@@ -1,10 +1,10 @@
 // What counts as the same figure on another processor, and for which runs.
 
-#include "acquisition/publish/figure_agreement.hpp"
+#include "acquisition/documents/figure_agreement.hpp"
 
-#include "acquisition/publish/circular_json.hpp"
-#include "acquisition/publish/run_certificate.hpp"
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/circular/circular_json.hpp"
+#include "acquisition/documents/run_certificate.hpp"
+#include "acquisition/documents/run_verify.hpp"
 #include "tests/unit/analysis/rotary_truth.hpp"
 #include "written_circle.hpp"
 

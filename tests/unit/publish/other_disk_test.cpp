@@ -1,8 +1,8 @@
 // `published` leads to another disk, or the share's file system knows fewer calls than others.
 
-#include "acquisition/journal/digest.hpp"
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
+#include "acquisition/runfile/digest.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/publish/denied_calls.hpp"
 #include "tests/unit/publish/staged_entry.hpp"

@@ -1,6 +1,6 @@
 #include "acquisition/publish/outbox.hpp"
 
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/publish/staged_entry.hpp"
 

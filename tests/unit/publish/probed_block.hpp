@@ -6,8 +6,8 @@
 //   -Y  one touch is 5 ms later than the others: 0.040 mm, the example of ISO 230-10, 6.9
 //   -Z  5 um from growing distances, 3 um of the references: net sqrt(5^2 - 3^2) = 4 um
 
-#include "analysis/probing/probing_record.hpp"
-#include "analysis/run_record.hpp"
+#include "analysis/record/probing_record.hpp"
+#include "analysis/record/run_record.hpp"
 
 #include <cstddef>
 

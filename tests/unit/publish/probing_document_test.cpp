@@ -1,10 +1,10 @@
 // From the run file of a probing test to its documents. The truth is a block whose delays are
 // known.
 
-#include "acquisition/publish/probing_document.hpp"
+#include "acquisition/documents/probing/probing_document.hpp"
 
-#include "acquisition/journal/run_file.hpp"
-#include "acquisition/publish/run_verify.hpp"
+#include "acquisition/documents/run_verify.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "probed_block.hpp"
 #include "tests/support/scratch_folder.hpp"
 

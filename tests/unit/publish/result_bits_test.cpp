@@ -2,8 +2,8 @@
 // digest below is no known answer (those are in tests/unit/analysis): it only ties the presets to
 // each other. It may change only together with a formula, and then the commit says why.
 
-#include "acquisition/publish/result_digest.hpp"
-#include "analysis/certificate.hpp"
+#include "acquisition/documents/result_digest.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "tests/unit/analysis/simulated_run.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 

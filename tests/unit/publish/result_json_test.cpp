@@ -1,5 +1,5 @@
-#include "acquisition/publish/result_digest.hpp"
-#include "acquisition/publish/result_json.hpp"
+#include "acquisition/documents/positioning/result_json.hpp"
+#include "acquisition/documents/result_digest.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

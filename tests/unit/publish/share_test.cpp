@@ -1,7 +1,7 @@
 #include "acquisition/publish/share.hpp"
 
-#include "acquisition/journal/digest.hpp"
 #include "acquisition/publish/folder_destination.hpp"
+#include "acquisition/runfile/digest.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/publish/staged_entry.hpp"
 

@@ -2,7 +2,7 @@
 // A circular test in a run file, written as a station writes it; its truth is known.
 
 #include "acquisition/capture/stream_chunker.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/analysis/driven_bar.hpp"
 

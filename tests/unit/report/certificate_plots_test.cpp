@@ -1,7 +1,7 @@
 // The plots of a certificate show each curve in its colour where the numbers at the axes say that
 // it lies, and nowhere else. Nothing of the code that lays plots out is asked where that is.
 
-#include "acquisition/publish/report/plots.hpp"
+#include "acquisition/documents/pdf/plots.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 

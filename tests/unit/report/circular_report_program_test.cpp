@@ -1,7 +1,7 @@
 // The program as the daemon starts it for a circular test: a closed run file in, an outbox entry
 // out.
 
-#include "acquisition/journal/digest.hpp"
+#include "acquisition/runfile/digest.hpp"
 #include "pdf_tools.hpp"
 #include "tests/unit/publish/written_circle.hpp"
 

@@ -1,7 +1,7 @@
 // The certificate of a circular test as its reader holds it.
 
-#include "acquisition/publish/report/circular_report.hpp"
-#include "acquisition/publish/report/circular_wording.hpp"
+#include "acquisition/documents/circular/circular_report.hpp"
+#include "acquisition/documents/circular/circular_wording.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_circular.hpp"
 

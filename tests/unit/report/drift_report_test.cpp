@@ -1,8 +1,8 @@
 // The report of a drift test. The truth is a creep put in by hand: 6 um in two hours, 3 um in one.
-#include "acquisition/publish/report/drift_pages.hpp"
-#include "acquisition/publish/report/drift_plot.hpp"
-#include "acquisition/publish/report/drift_report.hpp"
-#include "analysis/air_refraction.hpp"
+#include "acquisition/documents/drift/drift_pages.hpp"
+#include "acquisition/documents/drift/drift_plot.hpp"
+#include "acquisition/documents/drift/drift_report.hpp"
+#include "analysis/air/air_refraction.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 

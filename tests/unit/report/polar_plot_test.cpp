@@ -1,6 +1,6 @@
 // What a polar plot shows, and that the page shows it there.
 
-#include "acquisition/publish/report/polar_plot.hpp"
+#include "acquisition/documents/circular/polar_plot.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_circular.hpp"
 

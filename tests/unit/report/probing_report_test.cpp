@@ -1,7 +1,7 @@
 // The report of a probing test. The truth is a block whose delays are known (probed_block.hpp).
-#include "acquisition/publish/report/probing_pages.hpp"
-#include "acquisition/publish/report/probing_plot.hpp"
-#include "acquisition/publish/report/probing_report.hpp"
+#include "acquisition/documents/probing/probing_pages.hpp"
+#include "acquisition/documents/probing/probing_plot.hpp"
+#include "acquisition/documents/probing/probing_report.hpp"
 #include "analysis/probing/probing_case.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"

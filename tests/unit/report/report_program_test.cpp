@@ -1,7 +1,7 @@
 // The program as the daemon starts it: a closed run file in, an outbox entry out.
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 #include "tests/unit/journal/one_row.hpp"

@@ -1,5 +1,5 @@
-#include "acquisition/publish/report/report.hpp"
-#include "acquisition/publish/report/wording.hpp"
+#include "acquisition/documents/pdf/wording.hpp"
+#include "acquisition/documents/positioning/report.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 #include "tests/unit/analysis/linear_scale_run.hpp"

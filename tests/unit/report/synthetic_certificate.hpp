@@ -2,7 +2,7 @@
 // A certificate of a simulated axis: its numbers come from a known truth, its statements are
 // visibly made up.
 
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "tests/unit/analysis/simulated_run.hpp"
 
 #include <memory>

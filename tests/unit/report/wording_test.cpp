@@ -1,5 +1,5 @@
-#include "acquisition/publish/report/plot_frame.hpp"
-#include "acquisition/publish/report/wording.hpp"
+#include "acquisition/documents/pdf/plot_frame.hpp"
+#include "acquisition/documents/pdf/wording.hpp"
 
 #include <gtest/gtest.h>
 

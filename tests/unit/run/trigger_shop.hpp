@@ -6,10 +6,10 @@
 #include "bench.hpp"
 
 #include "acquisition/run/resume.hpp"
-#include "drivers/cnc/coil_and_index_map.hpp"
-#include "drivers/cnc/mbap_framer.hpp"
-#include "drivers/cnc/sequence_block_map.hpp"
-#include "drivers/cnc/single_register_map.hpp"
+#include "drivers/trigger/coil_and_index_map.hpp"
+#include "drivers/trigger/mbap_framer.hpp"
+#include "drivers/trigger/sequence_block_map.hpp"
+#include "drivers/trigger/single_register_map.hpp"
 #include "tests/support/raw_modbus_client.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "acquisition/station/certificate_writer.hpp"
 
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 #include "tests/unit/station/report_script.hpp"
 
 #include <boost/asio/co_spawn.hpp>

@@ -1,5 +1,5 @@
 // Each pre-flight check with what it lets pass and what it stops.
-#include "acquisition/station/preflight.hpp"
+#include "acquisition/preflight/preflight.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A run's id, which is a file, a folder and a share's name, of whatever people call their things.
 #include "acquisition/station/run_header.hpp"
 
-#include "acquisition/journal/run_store.hpp"
+#include "acquisition/runfile/run_store.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "tests/support/scratch_folder.hpp"
 

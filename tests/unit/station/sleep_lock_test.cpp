@@ -2,7 +2,7 @@
 // its manual says: starts the command while the lock is held, or complains and ends.
 #include "acquisition/station/sleep_lock.hpp"
 
-#include "drivers/asio_scheduler.hpp"
+#include "drivers/loop/asio_scheduler.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 #include <gtest/gtest.h>

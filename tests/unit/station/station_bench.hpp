@@ -2,12 +2,12 @@
 // A whole station under virtual time: made instruments at its door `Instrument`, a scripted port at
 // its door `TriggerPort`, a machine that moves. Tests only.
 
-#include "acquisition/journal/digest.hpp"
-#include "acquisition/journal/run_file.hpp"
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/station/station.hpp"
-#include "drivers/link/arrival.hpp"
-#include "drivers/link/doorbell.hpp"
+#include "drivers/wire/arrival.hpp"
+#include "drivers/loop/doorbell.hpp"
 #include "tests/support/cnc_map_bench.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"

@@ -2,7 +2,7 @@
 // each circle, a run file, and what its diagnosis finds.
 
 #include "acquisition/capture/stream_chunker.hpp"
-#include "acquisition/journal/stream_packing.hpp"
+#include "acquisition/runfile/stream_packing.hpp"
 #include "analysis/circular/circle_cut.hpp"
 #include "analysis/circular/circle_diagnosis.hpp"
 #include "station_bench.hpp"

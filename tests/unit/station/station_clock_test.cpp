@@ -2,8 +2,8 @@
 // the closing: what is printed goes on by the clock of the opening.
 #include "tests/unit/station/station_bench.hpp"
 
-#include "analysis/certificate.hpp"
-#include "analysis/run_clock.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
+#include "analysis/record/run_clock.hpp"
 
 namespace axiscal::testing::station_clock_test {
 namespace {

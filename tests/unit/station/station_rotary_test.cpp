@@ -1,6 +1,6 @@
 // A rotary axis at the station, behind an indexing table with the interferometer's readings.
-#include "analysis/certificate.hpp"
 #include "analysis/drift/run_drift.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "rotary_bench.hpp"
 
 namespace axiscal::station_rotary_test {

@@ -1,7 +1,7 @@
 // A station whose axis a linear scale measures: nothing is asked of air, nothing of it is kept.
 #include "tests/unit/station/station_bench.hpp"
 
-#include "analysis/thermal_compensation.hpp"
+#include "analysis/compensation/thermal_compensation.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What the station closes bears its signature; that its key changed is told.
-#include "acquisition/journal/run_signature.hpp"
+#include "acquisition/runfile/run_signature.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // A rotary axis at the station, before a polygon whose readings are typed.
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "rotary_bench.hpp"
 
 namespace axiscal::station_typed_polygon_test {

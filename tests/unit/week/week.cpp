@@ -1,6 +1,6 @@
 #include "tests/unit/week/week.hpp"
 
-#include "analysis/run_clock.hpp"
+#include "analysis/record/run_clock.hpp"
 
 #include <cmath>
 #include <numbers>

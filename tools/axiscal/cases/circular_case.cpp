@@ -1,4 +1,4 @@
-#include "acquisition/publish/circular_json.hpp"
+#include "acquisition/documents/circular/circular_json.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/circular_input.hpp"
 #include "tools/axiscal/cases/plausibility.hpp"

@@ -1,4 +1,4 @@
-#include "acquisition/publish/result_json.hpp"
+#include "acquisition/documents/positioning/result_json.hpp"
 #include "analysis/geometry/diagonals.hpp"
 #include "analysis/geometry/step_diagonal.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"

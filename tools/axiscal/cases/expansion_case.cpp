@@ -1,4 +1,4 @@
-#include "analysis/thermal/expansion.hpp"
+#include "analysis/compensation/expansion.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 

@@ -2,7 +2,7 @@
 // Reads a measured line out of a case: readings at targets, or angles to be integrated. Pure.
 
 #include "analysis/geometry/straightness.hpp"
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "tools/axiscal/cases/monte_carlo_member.hpp"
 
-#include "acquisition/publish/uncertainty_json.hpp"
+#include "acquisition/documents/uncertainty_json.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "acquisition/publish/result_json.hpp"
+#include "acquisition/documents/positioning/result_json.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/positioning/styles.hpp"
-#include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/plausibility.hpp"

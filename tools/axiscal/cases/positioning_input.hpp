@@ -1,8 +1,8 @@
 #pragma once
 // What a positioning case says, read and checked; the evaluation is in positioning_case.cpp. Pure.
 
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/positioning/standards.hpp"
-#include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 
 #include <nlohmann/json.hpp>

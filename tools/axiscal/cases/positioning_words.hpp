@@ -1,8 +1,8 @@
 #pragma once
 // The members that a case's answer carries beside the figures: edition, labels, slope. Pure.
 
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/positioning/styles.hpp"
-#include "analysis/positioning_accuracy.hpp"
 #include "tools/axiscal/cases/positioning_input.hpp"
 
 #include <nlohmann/json.hpp>

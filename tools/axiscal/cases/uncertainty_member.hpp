@@ -2,7 +2,7 @@
 // The member "uncertainty" of a positioning case: reads it, and adds to the result of the case what
 // it asks for. Pure.
 
-#include "analysis/positioning_accuracy.hpp"
+#include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/uncertainty/budget.hpp"
 #include "tools/axiscal/cases/monte_carlo_member.hpp"
 

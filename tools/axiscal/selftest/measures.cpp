@@ -1,7 +1,7 @@
 // The measurements themselves: one disk, one timer, one pseudo terminal.
-#include "acquisition/journal/durable_file.hpp"
-#include "acquisition/journal/run_file.hpp"
-#include "drivers/link/serial_link.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "drivers/wire/serial_link.hpp"
 #include "tools/axiscal/selftest/selftest.hpp"
 
 #include <array>

@@ -3,7 +3,7 @@
 
 #include "config/settings.hpp"
 #include "drivers/instrument.hpp"
-#include "drivers/link/tape_link.hpp"
+#include "drivers/recording/tape_link.hpp"
 
 #include <string>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
-#include "analysis/certificate.hpp"
+#include "analysis/positioning/positioning_certificate.hpp"
 #include "tests/unit/analysis/simulated_run.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
 

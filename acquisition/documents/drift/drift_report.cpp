@@ -1,0 +1,33 @@
+#include "acquisition/documents/drift/drift_report.hpp"
+
+#include "acquisition/documents/drift/drift_pages.hpp"
+#include "acquisition/documents/pdf/front_parts.hpp"
+#include "acquisition/documents/pdf/wording.hpp"
+
+namespace axiscal {
+namespace {
+
+std::string title_of(const DriftDocument& document) {
+    return "Drift test " + stated(document.run.statements.certificate_number) + ", " +
+           drift_subject_words(document);
+}
+
+PageFrame frame_of(const DriftDocument& document) {
+    PageFrame frame = page_frame_of(document.run, document.run_file_sha256);
+    frame.subject += ", " + drift_subject_words(document) + ", drift test";
+    return frame;
+}
+
+} // namespace
+
+Result<std::string> render_drift_pdf(const DriftDocument& document) {
+    return render_pages({title_of(document), drift_standards(document.drift),
+                         iso8601_utc(document.run.closed.utc_ns)},
+                        frame_of(document), [&](Sheet& sheet) {
+                            const auto shortened = draw_drift_front_page(sheet, document);
+                            draw_drift_channels(sheet, document.drift);
+                            draw_drift_conditions(sheet, document, shortened);
+                        });
+}
+
+} // namespace axiscal

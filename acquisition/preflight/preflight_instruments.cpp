@@ -1,0 +1,85 @@
+// What is asked of the instruments: that they speak, their signal, their certificates.
+#include "acquisition/preflight/preflight_checks.hpp"
+
+#include "acquisition/capture/wording.hpp"
+
+#include <algorithm>
+
+namespace axiscal::preflight_checks {
+PreflightRecord check_instruments(const PreflightFacts& facts) {
+    constexpr Duration length_limit = std::chrono::seconds{2};
+    std::string wrong;
+    for (const std::string& name : facts.unavailable)
+        join(wrong, name + " is not there");
+    for (const InstrumentConfig& instrument : facts.config.instruments)
+        if (!instrument.tape.empty())
+            join(wrong, instrument.name + " is a tape, no instrument (no reason overrides this)");
+    for (const SensorFacts& sensor : facts.sensors)
+        if (!sensor.fresh)
+            join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
+    // At rest a ballbar may be out of its range: that it speaks is enough.
+    const auto& age = facts.circular ? facts.bar_age : facts.laser_age;
+    if (!facts.polygon && (!age || *age > length_limit))
+        join(wrong, "the " + length_word_of(facts) + " gives no fresh reading");
+    if (facts.faces_read && (!facts.face_age || *facts.face_age > length_limit))
+        join(wrong, "the autocollimator does not answer");
+    if (wrong.empty())
+        return passed("instruments", "Every instrument is there and its readings are fresh.");
+    return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
+}
+
+PreflightRecord check_strength(const PreflightFacts& facts) {
+    const double limit = facts.config.preflight.least_strength_percent;
+    std::optional<double> lowest;
+    for (const SensorFacts& strength : facts.strengths)
+        if (const auto found = strength.log->lowest())
+            lowest = std::min(lowest.value_or(*found), *found);
+    if (facts.polygon)
+        return passed("strength",
+                      facts.faces_read
+                          ? "The autocollimator does not tell the strength of its light."
+                          : "A person reads the autocollimator.");
+    if (!lowest)
+        return passed("strength", "The " + length_word_of(facts) +
+                                      " does not tell the strength of its signal.");
+    const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
+    if (*lowest >= limit) return passed("strength", seen + ".");
+    return failed("strength", seen + "; " + plain_number(limit, 0) +
+                                  " % are asked. Align the beam over the whole travel.");
+}
+
+/// A date that is past blocks. What is not stated does not, for a shop may have no certificates: it
+/// is named, and the certificate says so.
+PreflightRecord check_certificates(const PreflightFacts& facts) {
+    std::string expired, silent;
+    for (const InstrumentConfig& instrument : facts.config.instruments) {
+        if (std::ranges::find(facts.in_use, instrument.name) == facts.in_use.end()) continue;
+        for (const ChannelConfig& channel : instrument.channels)
+            if (!channel.calibration.due_on.empty() && channel.calibration.due_on < facts.today)
+                join(expired, instrument.name + "/" + channel.channel +
+                                  " was due for calibration on " + channel.calibration.due_on);
+        if (!instrument.due_on.empty() && instrument.due_on < facts.today)
+            join(expired, instrument.name + " was due for calibration on " + instrument.due_on);
+        else if (instrument.certificate_number.empty())
+            join(silent, instrument.name + " has no certificate_number in the station file");
+        else if (instrument.due_on.empty())
+            join(silent, instrument.name + " has no due_on in the station file");
+    }
+    if (facts.config.axis.angle && !facts.circular) {
+        const InstrumentRecord& artefact = facts.config.axis.angle->artefact;
+        if (!artefact.due_on.empty() && artefact.due_on < facts.today)
+            join(expired, artefact.name + " was due for calibration on " + artefact.due_on);
+        else if (artefact.certificate_number.empty())
+            join(silent, artefact.name + " has no certificate_number in the station file");
+    }
+    const std::string unknown =
+        silent.empty() ? "" : silent + ". Whether it is calibrated and in date is not known.";
+    if (!expired.empty())
+        return failed("certificates", expired +
+                                          ". Have it calibrated, or enter the new certificate." +
+                                          (unknown.empty() ? "" : " Besides: " + unknown));
+    if (!unknown.empty()) return warned("certificates", unknown);
+    return passed("certificates", "Every instrument has a certificate that is in date.");
+}
+
+} // namespace axiscal::preflight_checks

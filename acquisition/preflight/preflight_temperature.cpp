@@ -1,0 +1,188 @@
+// What is asked of temperatures, and of the environment they stand for.
+#include "acquisition/preflight/preflight_checks.hpp"
+
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/preflight/environment_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axiscal::preflight_checks {
+namespace {
+
+/// Below this the air is too steady to tell whether a sensor follows it.
+constexpr double telling_change_K = 0.03;
+/// Of the two residuals: below it they move by chance.
+constexpr double telling_correlation = 0.8;
+/// Fewer readings tell nothing about who follows whom.
+constexpr std::size_t fewest_readings = 10;
+
+std::string in_kelvin(double kelvins) {
+    return plain_number(kelvins, 3) + " K";
+}
+
+/// Fitted change over the soak window, or how much of the window there is.
+struct Soak {
+    std::optional<double> change_K;
+    Duration covered{};
+};
+Soak soak_of(const SensorFacts& sensor, const PreflightFacts& facts) {
+    const Duration window = facts.config.preflight.soak_window;
+    const DriftSeries series = sensor.log->last(window, facts.now);
+    Soak soak;
+    soak.covered = sensor.log->covered(window, facts.now);
+    if (series.times.size() >= 2 && seconds_of(soak.covered) >= seconds_of(window) * nearly_whole)
+        soak.change_K = slope_of(series) * seconds_of(window);
+    return soak;
+}
+
+/// Residuals of a series about its own straight line, at its own times.
+std::vector<double> residuals_of(const std::vector<double>& times,
+                                 const std::vector<double>& readings) {
+    const auto n = static_cast<double>(times.size());
+    double mean_t = 0, mean_x = 0, tt = 0, tx = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        mean_t += times[i] / n, mean_x += readings[i] / n;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        tt += (times[i] - mean_t) * (times[i] - mean_t);
+        tx += (times[i] - mean_t) * (readings[i] - mean_x);
+    }
+    const double slope = tt > 0 ? tx / tt : 0;
+    std::vector<double> residuals;
+    residuals.reserve(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i)
+        residuals.push_back(readings[i] - mean_x - slope * (times[i] - mean_t));
+    return residuals;
+}
+
+double value_at(const DriftSeries& series, double time) {
+    const auto after = std::ranges::lower_bound(series.times, time);
+    if (after == series.times.begin()) return series.readings.front();
+    if (after == series.times.end()) return series.readings.back();
+    const auto i = static_cast<std::size_t>(after - series.times.begin());
+    const double share = (time - series.times[i - 1]) / (series.times[i] - series.times[i - 1]);
+    return series.readings[i - 1] + share * (series.readings[i] - series.readings[i - 1]);
+}
+
+bool too_few(const DriftSeries& series) {
+    return series.times.size() < fewest_readings;
+}
+
+/// Share of the air's swings that the sensor shows; empty when nothing can be told.
+std::optional<double> air_share_of(const DriftSeries& material, const DriftSeries& air) {
+    std::vector<double> beside;
+    beside.reserve(material.times.size());
+    for (const double time : material.times)
+        beside.push_back(value_at(air, time));
+    const auto sensor = residuals_of(material.times, material.readings);
+    const auto driver = residuals_of(material.times, beside);
+    double aa = 0, as = 0, ss = 0;
+    for (std::size_t i = 0; i < sensor.size(); ++i) {
+        aa += driver[i] * driver[i];
+        as += driver[i] * sensor[i];
+        ss += sensor[i] * sensor[i];
+    }
+    const bool moves = std::sqrt(aa / static_cast<double>(sensor.size())) >= telling_change_K;
+    if (!moves || ss <= 0 || as / std::sqrt(aa * ss) < telling_correlation) return std::nullopt;
+    return as / aa;
+}
+
+} // namespace
+
+PreflightRecord check_soak(const PreflightFacts& facts) {
+    const PreflightConfig& limits = facts.config.preflight;
+    if (limits.soak_window <= Duration{})
+        return passed("soak", "Not asked: preflight.soak_window is 0.");
+    const double limit_K = limits.soak_change.in(kelvin);
+    std::string wrong;
+    double largest_K = 0;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.kind != ChannelKind::temperature) continue;
+        const Soak soak = soak_of(sensor, facts);
+        if (!soak.change_K)
+            join(wrong, sensor.name + " has been read for " + in_minutes(soak.covered) + " of " +
+                            in_minutes(limits.soak_window));
+        else if (std::fabs(*soak.change_K) > limit_K)
+            join(wrong, sensor.name + " changes by " + in_kelvin(*soak.change_K) + " in " +
+                            in_minutes(limits.soak_window) + ", " + in_kelvin(limit_K) +
+                            " are allowed");
+        else
+            largest_K = std::max(largest_K, std::fabs(*soak.change_K));
+    }
+    if (wrong.empty())
+        return passed("soak", "Every temperature changes by " + in_kelvin(largest_K) +
+                                  " or less in " + in_minutes(limits.soak_window) + ".");
+    return failed("soak", wrong + ". Let sensors and machine come to rest, and wait.");
+}
+
+PreflightRecord check_sensors(const PreflightFacts& facts) {
+    const double limit_K = facts.config.preflight.sensor_difference.in(kelvin);
+    const SensorFacts *lowest = nullptr, *highest = nullptr;
+    int compared = 0;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.medium != Medium::material || sensor.on_scale || !sensor.log->newest()) continue;
+        ++compared;
+        if (lowest == nullptr || *sensor.log->newest() < *lowest->log->newest()) lowest = &sensor;
+        if (highest == nullptr || *sensor.log->newest() > *highest->log->newest())
+            highest = &sensor;
+    }
+    if (lowest == nullptr && facts.config.axis.angle)
+        return passed("sensors", "No material sensor: an angle does not expand.");
+    if (lowest == nullptr && facts.circular)
+        return passed("sensors", "No material sensor: F and D stand as measured.");
+    if (lowest == nullptr) return failed("sensors", "No material sensor gives a reading.");
+    const double apart_K = *highest->log->newest() - *lowest->log->newest();
+    if (compared == 1)
+        return passed("sensors", "One material sensor alone: nothing to compare it with.");
+    if (apart_K <= limit_K)
+        return passed("sensors", "The material sensors agree within " + in_kelvin(apart_K) + ".");
+    return failed("sensors", highest->name + " shows " + in_kelvin(apart_K) + " more than " +
+                                 lowest->name + "; " + in_kelvin(limit_K) +
+                                 " are allowed. One of them does not touch the machine, or its "
+                                 "correction is wrong.");
+}
+
+PreflightRecord check_contact(const PreflightFacts& facts) {
+    const PreflightConfig& limits = facts.config.preflight;
+    const Duration window = limits.soak_window;
+    if (window <= Duration{}) return passed("contact", "Not asked: preflight.soak_window is 0.");
+    const auto air = std::ranges::find_if(facts.sensors, [](const SensorFacts& sensor) {
+        return sensor.medium == Medium::air && sensor.kind == ChannelKind::temperature;
+    });
+    if (air == facts.sensors.end())
+        return passed("contact", "There is no air sensor to compare with.");
+    const DriftSeries air_series = air->log->last(window, facts.now);
+    std::string wrong, unread;
+    for (const SensorFacts& sensor : facts.sensors) {
+        if (sensor.medium != Medium::material) continue;
+        const DriftSeries series = sensor.log->last(window, facts.now);
+        if (too_few(series) || too_few(air_series)) {
+            join(unread, sensor.name);
+            continue;
+        }
+        const auto share = air_share_of(series, air_series);
+        if (share && *share >= limits.air_share)
+            join(wrong, sensor.name + " shows " + plain_number(*share * 100, 0) +
+                            " % of each change of " + air->name);
+    }
+    if (!wrong.empty())
+        return failed("contact",
+                      wrong + ". It reads the air: press it on with paste and cover it.");
+    if (!unread.empty())
+        return passed("contact", "Not judged for " + unread + ": within " + in_minutes(window) +
+                                     " (preflight.soak_window) there are fewer than " +
+                                     std::to_string(fewest_readings) +
+                                     " readings of it or of the air.");
+    return passed("contact", "No material sensor follows the air.");
+}
+
+PreflightRecord check_environment(const PreflightFacts& facts) {
+    const EnvironmentLimits& limits = facts.config.environment;
+    if (!limits.stated())
+        return passed("environment", "The station file states no limits of the environment.");
+    const std::string outside = outside_limits(limits, facts.sensors, facts.now);
+    if (outside.empty()) return passed("environment", "Air and machine are within their limits.");
+    return failed("environment", outside + ". Wait until it is back, or mend what drives it.");
+}
+
+} // namespace axiscal::preflight_checks

@@ -1,0 +1,340 @@
+#include "analysis/positioning/positioning_certificate.hpp"
+
+#include "analysis/record/certificate_expiry.hpp"
+#include "analysis/record/channel_correction.hpp"
+#include "analysis/record/preflight_remarks.hpp"
+#include "analysis/record/run_clock.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+bool is_environment(const ChannelRecord& channel) {
+    return channel.kind != ChannelKind::displacement && channel.kind != ChannelKind::strength &&
+           channel.kind != ChannelKind::angle;
+}
+
+std::vector<EnvironmentReading> readings_of(const RunRecord& run, int channel) {
+    std::vector<EnvironmentReading> readings;
+    for (const EnvironmentReading& reading : run.environment)
+        if (reading.channel == channel) readings.push_back(reading);
+    return readings;
+}
+
+EnvironmentSummary summarise(const ChannelRecord& channel,
+                             const ChannelCalibration* calibration,
+                             const std::vector<EnvironmentReading>& readings) {
+    EnvironmentSummary summary;
+    summary.channel = channel.name;
+    summary.place = channel.place;
+    summary.kind = channel.kind;
+    summary.medium = channel.medium;
+    summary.correction = channel.correction;
+    summary.by_table = calibration && !calibration->corrections.empty();
+    summary.readings = static_cast<int>(readings.size());
+    if (readings.empty()) return summary;
+    const auto [low, high] = std::ranges::minmax(readings, {}, &EnvironmentReading::value);
+    summary.first = readings.front().value;
+    summary.last = readings.back().value;
+    summary.minimum = low.value;
+    summary.maximum = high.value;
+    return summary;
+}
+
+EnvironmentTrace trace_of(const ChannelRecord& channel,
+                          const std::vector<EnvironmentReading>& readings,
+                          MonotonicTime origin) {
+    EnvironmentTrace trace;
+    trace.channel = channel.name;
+    trace.kind = channel.kind;
+    trace.medium = channel.medium;
+    for (const EnvironmentReading& reading : readings) {
+        trace.seconds.push_back(seconds_of(reading.at - origin));
+        trace.values.push_back(reading.value);
+    }
+    return trace;
+}
+
+std::string list_of_steps(const std::vector<int>& steps) {
+    constexpr std::size_t most = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(steps.size(), most); ++i)
+        text += (i ? ", " : "") + std::to_string(steps[i] + 1);
+    return steps.size() > most ? text + ", ..." : text;
+}
+
+void remark_on_events(const RunRecord& run, std::vector<std::string>& remarks) {
+    const auto utc = [&](const EventRecord& event) {
+        return iso8601_utc(event.utc_ns ? event.utc_ns : run.opened.utc_ns_at(event.at));
+    };
+    for (const EventRecord& event : run.events) {
+        const std::string tail = event.text.empty() ? "." : ": " + event.text;
+        if (event.kind == EventKind::interrupted)
+            remarks.push_back("The run was interrupted at " + utc(event) + tail);
+        else if (event.kind == EventKind::resumed)
+            remarks.push_back("The run was resumed at " + utc(event) + tail);
+        else if (event.kind == EventKind::skipped)
+            remarks.push_back("Skipped at " + utc(event) + tail);
+    }
+}
+
+void remark_on_manual_points(const RunRecord& run, std::vector<std::string>& remarks) {
+    std::vector<int> steps;
+    for (const PointRecord& point : run.points)
+        if (point.origin == TriggerOrigin::manual) steps.push_back(point.planned.step);
+    if (steps.empty()) return;
+    remarks.push_back(std::to_string(steps.size()) + " of " + std::to_string(run.points.size()) +
+                      " points were captured by hand (steps " + list_of_steps(steps) + ").");
+}
+
+std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSummary& summary) {
+    std::vector<std::string> remarks;
+    if (!run.plan.remark.empty()) remarks.push_back(run.plan.remark);
+    if (run.plan.pass == "stretch")
+        remarks.emplace_back("This pass covers a stretch of the axis in its working area, tested "
+                             "like a short axis.");
+    if (run.plan.cycle == CycleKind::step)
+        remarks.emplace_back("Step cycle: all approaches of a target follow each other, which "
+                             "hides slow drift.");
+    remark_on_events(run, remarks);
+    remark_on_manual_points(run, remarks);
+    for (const std::string& remark : summary.remarks)
+        remarks.push_back(remark);
+    return remarks;
+}
+
+std::string approach_in_words(const PlannedPoint& point) {
+    return place_of(point.target_index, point.direction) + " " + std::to_string(point.approach + 1);
+}
+
+/// "3 readings were replaced ... (P2 ↑ 1, P3 ↑ 1: reason; ...)".
+std::string listed(const std::vector<SetAside>& set_aside, bool superseded) {
+    std::string text, places, reason;
+    const auto flush = [&] {
+        if (!places.empty()) text += (text.empty() ? "" : "; ") + places + ": " + reason;
+        places.clear();
+    };
+    for (const SetAside& reading : set_aside) {
+        if (reading.superseded != superseded) continue;
+        if (reading.reason != reason) flush();
+        reason = reading.reason;
+        places += (places.empty() ? "" : ", ") + approach_in_words(reading.planned);
+    }
+    flush();
+    return text;
+}
+
+std::ptrdiff_t excluded_readings(const std::vector<SetAside>& set_aside) {
+    return std::ranges::count(set_aside, false, &SetAside::superseded);
+}
+
+bool rows_are_equal(const RunAt20C& deviations) {
+    const auto n = static_cast<std::size_t>(fewest_readings(deviations));
+    const auto has_n = [n](const std::vector<double>& row) { return row.size() == n; };
+    return std::ranges::all_of(deviations.forward(), has_n) &&
+           std::ranges::all_of(deviations.backward(), has_n);
+}
+
+/// Axes above 2000 mm, or one turn, take one approach in each direction (ISO 230-2:2014, 4.3.4).
+bool is_long_axis(const RunPlan& plan) {
+    const auto [low, high] = std::ranges::minmax(plan.targets);
+    return high - low > (plan.axis_kind == AxisKind::linear ? mm(2000) : mm(360));
+}
+
+void remark_on_number_of_readings(const Certificate& certificate,
+                                  std::vector<std::string>& remarks) {
+    constexpr int asked = 5; // ISO 230-2:2014, 4.3.3, axes up to 2000 mm
+    const RunPlan& plan = certificate.run.plan;
+    const int fewest = fewest_readings(certificate.deviations);
+    if (fewest >= asked || (fewest == plan.approaches && is_long_axis(plan))) return;
+    const std::string left = fewest == 1 ? "one reading" : std::to_string(fewest) + " readings";
+    remarks.push_back("At least one target and direction has " + left +
+                      ". ISO 230-2 asks for five: the figures are not those of a complete test by "
+                      "this standard.");
+}
+
+void remark_on_revisions(const Certificate& certificate, std::vector<std::string>& remarks) {
+    const auto& set_aside = certificate.set_aside;
+    const auto excluded = excluded_readings(set_aside);
+    const auto replaced = std::ssize(set_aside) - excluded;
+    if (replaced > 0)
+        remarks.push_back("Readings replaced by new ones: " + std::to_string(replaced) + " (" +
+                          listed(set_aside, true) +
+                          "). The replaced ones stay in the run file and are drawn as crosses; no "
+                          "figure uses them.");
+    if (excluded > 0)
+        remarks.push_back("Readings excluded: " + std::to_string(excluded) + " (" +
+                          listed(set_aside, false) +
+                          "). Rule: an excluded reading is drawn and counted and enters no figure; "
+                          "mean and s of its target and direction are of the n readings that "
+                          "remain (s with n - 1), at least two. The uncertainty budget takes the "
+                          "smallest of these n; "
+                          "the simulated uncertainty is left out.");
+}
+
+/// Recorded values bear their correction: a table's ends lie where its corrected ends do.
+void remark_on_calibrations(const RunRecord& run, std::vector<std::string>& remarks) {
+    for (const ChannelCalibration& calibration : run.calibrations) {
+        const auto channel =
+            std::ranges::find(run.channels, calibration.channel, &ChannelRecord::id);
+        if (channel == run.channels.end()) continue;
+        const auto readings = readings_of(run, calibration.channel);
+        const auto beyond = std::ranges::count_if(readings, [&](const EnvironmentReading& reading) {
+            return beyond_corrected(calibration.corrections, reading.value);
+        });
+        if (beyond > 0)
+            remarks.push_back("Channel \"" + channel->name + "\": " + std::to_string(beyond) +
+                              " of " + std::to_string(readings.size()) +
+                              " readings lie beyond the table of its certificate; the correction "
+                              "at the table's end was used.");
+        if (has_expired(calibration.due_on, run_date_of(run)))
+            remarks.push_back("Channel \"" + channel->name + "\": its certificate was due on " +
+                              calibration.due_on + ", before the run.");
+    }
+}
+
+void fill_environment(Certificate& certificate) {
+    const RunRecord& run = certificate.run;
+    const MonotonicTime origin =
+        std::ranges::min_element(run.points, {}, &PointRecord::window_begin)->window_begin;
+    for (const ChannelRecord& channel : run.channels) {
+        if (!is_environment(channel)) continue;
+        const auto readings = readings_of(run, channel.id);
+        certificate.environment.push_back(
+            summarise(channel, calibration_of(run, channel.id), readings));
+        certificate.traces.push_back(trace_of(channel, readings, origin));
+    }
+}
+
+void fill_dates(Certificate& certificate) {
+    const RunRecord& run = certificate.run;
+    certificate.started_utc = iso8601_utc(run.opened.utc_ns);
+    certificate.finished_utc = iso8601_utc(run.closed.utc_ns);
+    certificate.issued_on = certificate.finished_utc.substr(0, 10);
+    certificate.next_due = next_due_of(run.statements, run.closed.utc_ns);
+}
+
+/// Of a run that is still open: it ends, as far as anybody knows, with its last reading.
+ClockTie tie_of_last_point(const RunRecord& run) {
+    const auto last = std::ranges::max_element(run.points, {}, &PointRecord::window_end);
+    const MonotonicTime at = last->window_end;
+    return {at, tie_of_points(run.opened, run.events).utc_ns_at(at), at};
+}
+
+/// What a certificate alone may bear.
+void forgo_number(Certificate& certificate) {
+    certificate.run.statements.certificate_number.clear();
+    certificate.next_due.clear();
+    if (certificate.run.uncertainty) certificate.run.uncertainty->targets.clear();
+}
+
+/// Appends figures in the form of canonical_bytes(). Pure.
+class CanonicalWriter {
+public:
+    void text(std::string_view words) {
+        for (const char c : words)
+            bytes_.push_back(static_cast<std::byte>(c));
+    }
+    void figure(double value) {
+        bytes_.push_back(std::byte{1});
+        const auto bits = std::bit_cast<std::uint64_t>(value);
+        for (unsigned shift = 0; shift < 64; shift += 8)
+            bytes_.push_back(static_cast<std::byte>(bits >> shift & 0xffu));
+    }
+    void figure(const std::optional<double>& value) {
+        if (value) return figure(*value);
+        bytes_.push_back(std::byte{0});
+    }
+    [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+} // namespace
+
+Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256) {
+    return make_certificate(std::move(run), {}, std::move(run_file_sha256));
+}
+
+Result<Certificate>
+make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256) {
+    AXISCAL_TRY(Compensated compensated, compensate_to_20C(run, revisions));
+    if (!run.complete && run.closed.utc_ns == 0) run.closed = tie_of_last_point(run);
+    const Duration clock_off =
+        tell_times_by_one_clock(run.opened, run.events, revisions.retakes, run.closed);
+    tell_orders_by_one_clock(run.opened, run.events, revisions.orders);
+    PositioningResult result = evaluate_positioning(compensated.deviations);
+    withhold_from_partial(result, compensated.deviations, run.plan, compensated.completeness);
+    Certificate certificate{std::move(run),
+                            std::move(result),
+                            std::move(compensated.deviations),
+                            std::move(compensated.summary),
+                            {},
+                            {},
+                            std::move(run_file_sha256),
+                            {},
+                            {},
+                            {},
+                            {},
+                            {},
+                            true,
+                            {},
+                            {},
+                            std::move(revisions),
+                            std::move(compensated.set_aside),
+                            std::move(compensated.completeness),
+                            std::move(compensated.targets),
+                            {}};
+    fill_environment(certificate);
+    fill_dates(certificate);
+    if (certificate.completeness.partial()) forgo_number(certificate);
+    certificate.remarks = remarks_on_completeness(certificate.run, certificate.completeness);
+    for (std::string& remark : remarks_on(certificate.run, certificate.compensation))
+        certificate.remarks.push_back(std::move(remark));
+    if (std::string remark = remark_on_clock(clock_off); !remark.empty())
+        certificate.remarks.push_back(std::move(remark));
+    remark_on_revisions(certificate, certificate.remarks);
+    remark_on_number_of_readings(certificate, certificate.remarks);
+    remark_on_preflight(certificate.revisions.preflight, certificate.remarks);
+    remark_on_calibrations(certificate.run, certificate.remarks);
+    certificate.uncertainty =
+        uncertainty_of(certificate.run, certificate.result.cover_factor,
+                       {fewest_readings(certificate.deviations), certificate.completeness.targets});
+    if (excluded_readings(certificate.set_aside) == 0 && rows_are_equal(certificate.deviations))
+        simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
+                     certificate.result); // draws the same n of each
+    certificate.preliminary = !certificate.uncertainty.missing.empty();
+    for (const std::string& remark : certificate.uncertainty.remarks)
+        certificate.remarks.push_back(remark);
+    return certificate;
+}
+
+std::vector<std::byte> canonical_bytes(const PositioningResult& result) {
+    CanonicalWriter out;
+    out.text("axiscal.canonical/1");
+    out.figure(result.cover_factor);
+    out.figure(static_cast<double>(result.approaches));
+    const PositioningParameters& p = result.parameters;
+    for (const auto& figure : {p.A, p.A_forward, p.A_backward, p.E, p.E_forward, p.E_backward, p.M,
+                               p.R, p.R_forward, p.R_backward, p.B, p.B_mean})
+        out.figure(figure);
+    out.figure(static_cast<double>(result.positions.size()));
+    for (const PositionRow& row : result.positions) {
+        out.figure(row.target);
+        out.figure(row.mean_forward);
+        for (const auto& figure :
+             {row.mean_backward, row.mean, row.reversal, row.s_forward, row.s_backward,
+              row.repeatability_forward, row.repeatability_backward, row.repeatability})
+            out.figure(figure);
+    }
+    return out.take();
+}
+
+} // namespace axiscal
