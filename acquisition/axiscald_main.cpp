@@ -1,6 +1,6 @@
 // The daemon: configuration refused before any device opens; loop, doors, watchdog, orderly end.
 #include "acquisition/console/api_token.hpp"
-#include "acquisition/console/http_face.hpp"
+#include "acquisition/console/http_server.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/folder_owner.hpp"
 #include "acquisition/runfile/signing_key.hpp"
@@ -151,7 +151,7 @@ struct Daemon {
     RealLinkOpener links{scheduler};
     ConsoleConfig console_config;
     Station station;
-    HttpFace console;
+    HttpServer console;
     int code = exit_ok;
 };
 

@@ -76,18 +76,19 @@ void SettingsDocument::State::entitle(const std::string& path,
 }
 
 std::string SettingsDocument::State::shown_key(const std::string& key) const {
-    std::string shown, told;                   // the part of the key that `shown` stands for
+    std::string shown, replaced;               // the part of the key that `shown` stands for
     for (const auto& [path, title] : titles) { // "a[0]" comes before "a[0].b[1]"
         const bool holds = key == path || key.starts_with(path + ".");
-        if (!holds || !path.starts_with(told)) continue;
+        if (!holds || !path.starts_with(replaced)) continue;
         const auto last = path.rfind('.');
         const std::string before = last == std::string::npos ? "" : path.substr(0, last);
         const std::string above =
-            told.empty() ? before : shown + before.substr(std::min(told.size(), before.size()));
+            replaced.empty() ? before
+                             : shown + before.substr(std::min(replaced.size(), before.size()));
         shown = joined_path(above, title);
-        told = path;
+        replaced = path;
     }
-    return shown + key.substr(told.size());
+    return shown + key.substr(replaced.size());
 }
 
 void SettingsDocument::State::refuse_unread(const TomlNode& table, const std::string& path) {

@@ -176,7 +176,7 @@ WindowSearch StillWindowSearch::look(const SampleHistory& history, MonotonicTime
     return search;
 }
 
-Error give_up(const WindowSearch& search, Duration waited) {
+Error not_still(const WindowSearch& search, Duration waited) {
     if (search.failure) return *search.failure;
     const auto fault =
         search.verdict.fault == Fault::none ? Fault::not_still : search.verdict.fault;

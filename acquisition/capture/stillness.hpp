@@ -77,6 +77,6 @@ private:
 };
 
 /// The error to give when the deadline passed without a window.
-Error give_up(const WindowSearch& search, Duration waited);
+Error not_still(const WindowSearch& search, Duration waited);
 
 } // namespace axiscal

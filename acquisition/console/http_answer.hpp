@@ -1,6 +1,6 @@
 #pragma once
 // Between the bytes of HTTP and access.hpp: the head that is judged, and the answer. Pure. Beast is
-// heavy: of the daemon only http_answer.cpp and http_face.cpp include this.
+// heavy: of the daemon only http_answer.cpp and http_server.cpp include this.
 
 #include "acquisition/console/access.hpp"
 #include "analysis/quantity/result.hpp"

@@ -65,8 +65,8 @@ void take_as_open(RunRecord& run) {
 /// With its length and place, where the pre-flight check told them.
 std::string source_of_eve(const Certificate& certificate) {
     const auto& checks = certificate.revisions.preflight;
-    const auto told = std::ranges::find(checks, "eve", &PreflightRecord::name);
-    if (told != checks.end()) return told->verdict;
+    const auto check = std::ranges::find(checks, "eve", &PreflightRecord::name);
+    if (check != checks.end()) return check->verdict;
     return "E_VE is the range of the drift test " + certificate.attachments.eve_source + ".";
 }
 

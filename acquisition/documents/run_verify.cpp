@@ -124,7 +124,7 @@ Json findings_json(const ChainReport& chain) {
     return list;
 }
 
-std::string state_in_words(const ChainReport& chain) {
+std::string state_text(const ChainReport& chain) {
     if (!chain.closed) return "the run is still open";
     return chain.complete ? "the run is complete" : "the run was closed as incomplete";
 }
@@ -206,7 +206,7 @@ Result<VerifyReport> verify_run(const std::string& run_file, const VerifyAgainst
     if (!report.chain.intact()) {
         report.no_figures = "rows are not what they were";
     } else if (!report.chain.closed) {
-        report.no_figures = state_in_words(report.chain);
+        report.no_figures = state_text(report.chain);
     } else if (auto made = recomputed(run_file)) {
         right = *std::move(made);
         report.result_digest = right->digest;
@@ -251,7 +251,7 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
 
 namespace {
 
-std::string in_words(SignatureVerdict verdict) {
+std::string as_phrase(SignatureVerdict verdict) {
     return verdict == SignatureVerdict::unknown_key ? "of an unknown key"
                                                     : std::string{name_of(verdict)};
 }
@@ -278,7 +278,7 @@ std::string to_text(const VerifyReport& report) {
     if (!report.certificate_findings.empty())
         line(report.certificate + " does NOT say what the run file gives.");
     line(report.run_file + ": " + std::to_string(report.chain.links) +
-         " rows, each as it was written; " + state_in_words(report.chain) + ".");
+         " rows, each as it was written; " + state_text(report.chain) + ".");
     line("  chain   " + report.chain.chain_head);
     line("  file    " + report.file_sha256);
     line(report.result_digest.empty() ? "  figures none: " + report.no_figures.value_or("")
@@ -287,7 +287,7 @@ std::string to_text(const VerifyReport& report) {
         line("  no certificate.json beside it was held against it");
     else if (report.certificate_findings.empty())
         line("  " + report.certificate + " says the same");
-    line("  signature " + in_words(report.signature.verdict) + ": " + report.signature.sentence);
+    line("  signature " + as_phrase(report.signature.verdict) + ": " + report.signature.sentence);
     line("  anchor " + std::string{name_of(report.anchor.verdict)} + ": " + report.anchor.sentence);
     return text;
 }

@@ -17,7 +17,7 @@ bool is_share_lost(const Error& error) {
     return error.fault == Fault::io && error.field == whole_share;
 }
 
-std::string publishing_words(const Error& error) {
+std::string publishing_text(const Error& error) {
     if (!is_share_lost(error)) return describe(error);
     return error.cause ? error.detail + " (" + error.cause.message() + ")" : error.detail;
 }

@@ -18,7 +18,7 @@ using Progress = std::function<void()>;
 tl::unexpected<Error> share_lost(std::string detail, int error = 0);
 bool is_share_lost(const Error& error);
 /// The sentence of a lost share with the system's word; describe() of any other error.
-std::string publishing_words(const Error& error);
+std::string publishing_text(const Error& error);
 
 /// @errors of every call: share_lost(), or Fault::io when it is about this path alone. Both name
 /// place and way out.

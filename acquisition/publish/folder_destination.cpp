@@ -81,7 +81,7 @@ std::string FolderDestination::at(const std::string& path) const {
 
 Result<void> FolderDestination::check_mount() const {
     if (const auto absent = absent_mount(root_, mounts_))
-        return share_lost(absent_mount_words(*absent));
+        return share_lost(absent_mount_text(*absent));
     return {};
 }
 

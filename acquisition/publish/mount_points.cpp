@@ -181,13 +181,13 @@ std::optional<AbsentMount> absent_mount(const std::string& folder, const MountPl
     return std::nullopt;
 }
 
-std::string not_mounted_words(const AbsentMount& absent) {
+std::string not_mounted_text(const AbsentMount& absent) {
     return "nothing is mounted at " + absent.point + ", a mount point of " + absent.named_in +
            "; mount it: " + absent.way_out;
 }
 
-std::string absent_mount_words(const AbsentMount& absent) {
-    return "The share is away: " + not_mounted_words(absent);
+std::string absent_mount_text(const AbsentMount& absent) {
+    return "The share is away: " + not_mounted_text(absent);
 }
 
 std::string file_system_of(const std::string& folder, const MountPlaces& places) {

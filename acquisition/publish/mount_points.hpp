@@ -30,8 +30,8 @@ struct AbsentMount {
 /// no mount. Where the list of mounts cannot be read nothing counts as mounted.
 std::optional<AbsentMount> absent_mount(const std::string& folder, const MountPlaces& places = {});
 /// For people: mount point, who names it, way out. The second one as a sentence about the share.
-std::string not_mounted_words(const AbsentMount& absent);
-std::string absent_mount_words(const AbsentMount& absent);
+std::string not_mounted_text(const AbsentMount& absent);
+std::string absent_mount_text(const AbsentMount& absent);
 
 /// "fuse.rclone", as the kernel calls the file system that carries the folder; "" where unknown.
 std::string file_system_of(const std::string& folder, const MountPlaces& places = {});

@@ -114,7 +114,7 @@ Result<std::string> bring_over(const Removal& removal) {
 }
 
 /// Folders that left the outbox by name. Listed before the sync, so that whatever goes had its
-/// rename on disk, also that of a second hand; what does not go now goes with the next one.
+/// rename on disk, also that of an upload worker; what does not go now goes with the next one.
 Result<void> sweep_moved(const std::string& outbox) {
     std::vector<fs::path> moved;
     std::error_code error;
@@ -153,7 +153,7 @@ make_archive(const fs::path& outbox, const std::string& published, const MountPl
     const auto leads_to = error ? fs::path{published} : outbox.parent_path() / link;
     const auto absent = absent_mount(leads_to.string(), mounts);
     if (absent && !absent_mount(outbox.string(), mounts))
-        return fail(Fault::io, not_mounted_words(*absent));
+        return fail(Fault::io, not_mounted_text(*absent));
     if (!error && !fs::exists(published, error))
         return fail(Fault::io, published + " is a link to " + link.string() +
                                    ", which is not there: mount that disk or make the folder");

@@ -9,12 +9,12 @@ namespace axiscal {
 std::size_t Publisher::pass() {
     const auto run_ids = entry_names(settings_.outbox);
     if (run_ids.empty() || !is_due("")) return run_ids.size();
-    const auto hand = second_hand_for(run_ids);
+    const auto helper = upload_worker_for(run_ids);
     if (!destination_ready()) return run_ids.size();
     mark_ = mark_of(settings_.outbox);
-    const bool may_go_on = !hand || publish_beside(*hand, run_ids);
-    // What the second hand left is done here, where its trouble is remembered and told.
-    if (may_go_on) publish_all(hand ? entry_names(settings_.outbox) : run_ids);
+    const bool may_go_on = !helper || publish_beside(*helper, run_ids);
+    // What the worker left is done here, where its trouble is remembered and reported.
+    if (may_go_on) publish_all(helper ? entry_names(settings_.outbox) : run_ids);
     const auto left = entry_names(settings_.outbox);
     // Moves that a power cut undoes are made again: the receipts are on disk.
     if (left != run_ids) static_cast<void>(sync_outbox(settings_.outbox));
@@ -22,20 +22,22 @@ std::size_t Publisher::pass() {
 }
 
 /// Where there is enough for a session of its own and nothing is wrong.
-std::unique_ptr<Helper> Publisher::second_hand_for(const std::vector<std::string>& run_ids) const {
+std::unique_ptr<UploadHelper>
+Publisher::upload_worker_for(const std::vector<std::string>& run_ids) const {
     constexpr std::size_t worth_a_session = 16;
-    if (!settings_.second_hand || !troubles_.empty() || run_ids.size() < worth_a_session) return {};
-    return settings_.second_hand(run_ids);
+    if (!settings_.upload_worker || !troubles_.empty() || run_ids.size() < worth_a_session)
+        return {};
+    return settings_.upload_worker(run_ids);
 }
 
-bool Publisher::publish_beside(Helper& hand, const std::vector<std::string>& run_ids) {
+bool Publisher::publish_beside(UploadHelper& helper, const std::vector<std::string>& run_ids) {
     bool may_go_on = true;
     while (may_go_on) {
-        const auto index = hand.claim();
+        const auto index = helper.claim();
         if (!index) break;
         may_go_on = attend_to(run_ids.at(*index));
     }
-    hand.wait();
+    helper.wait();
     return may_go_on;
 }
 
@@ -96,7 +98,7 @@ void Publisher::remember(const std::string& run_id, const Error& why) {
     const bool first = trouble.last_words.empty();
     trouble.pause = first ? settings_.retry : std::min(2 * trouble.pause, 16 * settings_.retry);
     trouble.due = clock_.now() + trouble.pause;
-    const auto words = publishing_words(why);
+    const auto words = publishing_text(why);
     if (words != trouble.last_words) listener_.waiting(run_id, why);
     trouble.last_words = words;
 }

@@ -13,13 +13,13 @@
 
 namespace axiscal {
 
-/// Publishes entries of a list beside its owner (SecondHand); may leave any as it was.
-class Helper {
+/// Publishes entries of a list beside its owner (UploadWorker); may leave any as it was.
+class UploadHelper {
 public:
-    Helper() = default;
-    virtual ~Helper() = default;
-    Helper(const Helper&) = delete;
-    Helper& operator=(const Helper&) = delete;
+    UploadHelper() = default;
+    virtual ~UploadHelper() = default;
+    UploadHelper(const UploadHelper&) = delete;
+    UploadHelper& operator=(const UploadHelper&) = delete;
     /// Index of an entry that is the owner's from now on; empty when each has somebody.
     virtual std::optional<std::size_t> claim() = 0;
     /// Until it has done what it claimed.
@@ -30,8 +30,8 @@ struct PublisherSettings {
     std::string outbox;
     Duration retry = std::chrono::seconds{5}; ///< first pause; doubles up to sixteen times that
     /// May answer null. Called before anything is said to the destination in that pass.
-    using Beginner = std::function<std::unique_ptr<Helper>(const std::vector<std::string>&)>;
-    Beginner second_hand = nullptr; ///< null: one hand does all
+    using Beginner = std::function<std::unique_ptr<UploadHelper>(const std::vector<std::string>&)>;
+    Beginner upload_worker = nullptr; ///< null: the publisher does all
 };
 
 /// Time as the publisher needs it; a call to a share may have taken long.
@@ -80,11 +80,11 @@ private:
         MonotonicTime due{};
     };
     bool destination_ready();
-    [[nodiscard]] std::unique_ptr<Helper>
-    second_hand_for(const std::vector<std::string>& run_ids) const;
+    [[nodiscard]] std::unique_ptr<UploadHelper>
+    upload_worker_for(const std::vector<std::string>& run_ids) const;
     // Each returns false when the pass ends here: the destination is lost, or the listener says
     // stop.
-    bool publish_beside(Helper& hand, const std::vector<std::string>& run_ids);
+    bool publish_beside(UploadHelper& helper, const std::vector<std::string>& run_ids);
     bool publish_all(const std::vector<std::string>& run_ids);
     bool attend_to(const std::string& run_id);
     [[nodiscard]] bool is_due(const std::string& run_id) const;

@@ -61,7 +61,7 @@ CircleResume decide_circle_resume(const RecordedCircles& from, const BarNow& now
                        "The station file was changed since the run was opened.");
     if (!is_same_boot(now.boot_id, from.run.boot_id))
         return closing(Fault::incomplete_run, "While circles were driven " +
-                                                  restart_in_words(from.run.boot_id, now.boot_id) +
+                                                  restart_text(from.run.boot_id, now.boot_id) +
                                                   ": start the test anew.");
     if (!now.speaks)
         return closing(Fault::link_timeout,

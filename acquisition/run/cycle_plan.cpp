@@ -83,8 +83,8 @@ Result<RunPlan> build_pass(const Pass& pass) {
     plan.near_tolerance = near_tolerance_of(config, targets);
     AXISCAL_TRY(plan.datum, datum_of(config, targets.positions.front()));
     plan.targets = std::move(targets.positions);
-    if (auto told = check_near_tolerance(plan, config); !told)
-        return tl::unexpected<Error>(told.error());
+    if (auto checked = check_near_tolerance(plan, config); !checked)
+        return tl::unexpected<Error>(checked.error());
     if (const std::string missing = principal_positions_left_out(pass, plan); !missing.empty())
         plan.remark = "No target stands at the principal positions " + missing + " degrees.";
     plan.points = order_points(plan.cycle, static_cast<int>(plan.targets.size()), plan.approaches,

@@ -58,7 +58,7 @@ ResumeVerdict judge_datum(const RunRecord& run, const StationNow& now) {
                 "The station went down before the datum was tied; nothing was measured yet."};
     // The air and the temperatures kept so far count by a clock that has begun anew.
     const bool same_boot = is_same_boot(now.boot_id, run.boot_id);
-    const std::string restart = same_boot ? "" : restart_in_words(run.boot_id, now.boot_id);
+    const std::string restart = same_boot ? "" : restart_text(run.boot_id, now.boot_id);
     if (run.datums.empty() && !same_boot)
         return {ResumeDecision::close_never_armed, Fault::no_run_armed,
                 begun_large(restart) + " before the datum was tied; nothing was measured yet."};

@@ -20,7 +20,7 @@ double counts_per_mm(AxisKind kind) {
     return kind == AxisKind::rotary ? 1e5 : 1e4;
 }
 
-std::string in_words(const RunPlan& plan, const PlannedPoint& point, bool again) {
+std::string as_phrase(const RunPlan& plan, const PlannedPoint& point, bool again) {
     return "target index " + std::to_string(point.target_index) + " at " +
            in_axis_unit(plan.axis_kind,
                         plan.targets[static_cast<std::size_t>(point.target_index)]) +
@@ -30,7 +30,7 @@ std::string in_words(const RunPlan& plan, const PlannedPoint& point, bool again)
 }
 
 /// What is off by whole steps is the table, not the axis.
-std::string artefact_in_words(const RotarySetup& setup, Length beside) {
+std::string artefact_phrase(const RotarySetup& setup, Length beside) {
     constexpr double share_of_step = 0.1;
     if (setup.method == AngleMethod::polygon) return {};
     const double steps = beside.in(mm) / setup.step_deg;
@@ -118,7 +118,7 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
     const auto& plan = setup_.plan;
     const PlannedPoint point = planned_at(step);
     const std::string next =
-        "; the plan's next point is " + in_words(plan, point, step != point.step) + ".";
+        "; the plan's next point is " + as_phrase(plan, point, step != point.step) + ".";
     if (event.target_index && *event.target_index != point.target_index)
         return Error{Fault::wrong_target,
                      "The CNC claims target index " + std::to_string(*event.target_index) + next,
@@ -204,7 +204,7 @@ void RunMachine::accept_datum(const Capture& capture, RunActions& out) {
     out.push_back(CommitDatum{datum, capture.synchronisation});
 }
 
-std::string RunMachine::place_in_words(Length position, Length target) const {
+std::string RunMachine::place_text(Length position, Length target) const {
     const auto shown = [this](Length at) { return in_axis_unit(setup_.plan.axis_kind, at); };
     std::string text = "The axis stands at " + shown(position) + ", " +
                        shown(abs(position - target)) + " from the target at " + shown(target) +
@@ -212,7 +212,7 @@ std::string RunMachine::place_in_words(Length position, Length target) const {
     for (const auto other : setup_.plan.targets)
         if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
             text += "; it stands at the target at " + shown(other);
-    if (setup_.rotary) text += artefact_in_words(*setup_.rotary, position - target);
+    if (setup_.rotary) text += artefact_phrase(*setup_.rotary, position - target);
     return text + ".";
 }
 
@@ -226,7 +226,7 @@ Result<Length> RunMachine::position_of(Length reading, Length target) const {
 std::optional<Error> RunMachine::objection_to_place(Length position, Length target) const {
     if (abs(position - target) <= setup_.plan.near_tolerance) return std::nullopt;
     if (setup_.rotary || static_cast<std::size_t>(view().done) >= diagnosed_targets)
-        return Error{Fault::outside_window, place_in_words(position, target), {}, {}};
+        return Error{Fault::outside_window, place_text(position, target), {}, {}};
     auto claims = first_claims_;
     claims.push_back({target, position});
     return diagnose_first_targets(datum_->coordinate, claims);

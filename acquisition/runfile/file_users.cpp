@@ -48,7 +48,7 @@ std::string name_of(pid_t process) {
 
 } // namespace
 
-std::string file_users_in_words(const std::string& path, const std::string& list) {
+std::string file_users_text(const std::string& path, const std::string& list) {
     struct stat file {};
     if (::stat(path.c_str(), &file) != 0) return "another program";
     std::string words;

@@ -9,6 +9,6 @@ namespace axiscal {
 /// "process 1234 (sqlite3)", several with "and"; the name is left out where this user must not see
 /// it. "another program" where no other process is found: the file system numbers its files
 /// otherwise there (btrfs), or the list cannot be read.
-std::string file_users_in_words(const std::string& path, const std::string& list = "/proc/locks");
+std::string file_users_text(const std::string& path, const std::string& list = "/proc/locks");
 
 } // namespace axiscal

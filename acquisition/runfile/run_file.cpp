@@ -30,7 +30,7 @@ Blob blob_of(const Digest& digest) {
 }
 
 tl::unexpected<Error> held_by_others(const std::string& path) {
-    return fail(Fault::busy, path + " is read by " + file_users_in_words(path) +
+    return fail(Fault::busy, path + " is read by " + file_users_text(path) +
                                  ": the station goes on as soon as that program is ended");
 }
 

@@ -48,7 +48,7 @@ std::string about(const Table& table, const Row& row) {
     return column + "=" + value;
 }
 
-std::string place_in_words(const StoredRow& row) {
+std::string place_text(const StoredRow& row) {
     return "row " + std::to_string(row.link) + " (table " + std::string{row.table->name} + ", " +
            about(*row.table, row.row) + ")";
 }
@@ -181,7 +181,7 @@ private:
         settle_suspect(fit == Fit::computed ? "its hash was changed" : "");
         if (fit == Fit::no) suspect_ = row;
         if (fit == Fit::no && previous_ && !doubtful)
-            suspicion_ = "it does not continue " + place_in_words(*previous_) +
+            suspicion_ = "it does not continue " + place_text(*previous_) +
                          ": this row was changed, or that one was replaced with a fitting hash";
         if (fit != Fit::no && !row.misfit.empty()) changed(row, row.misfit);
         const auto& anchor = fit == Fit::computed ? computed_ : stored_;
@@ -211,11 +211,11 @@ private:
     void changed(const StoredRow& row, const std::string& how) {
         find({RowDamage::changed, std::string{row.table->name}, row.link,
               about(*row.table, row.row),
-              place_in_words(row) + " was changed after it was written: " + how});
+              place_text(row) + " was changed after it was written: " + how});
     }
     void added(const StoredRow& row, const std::string& how) {
         find({RowDamage::added, std::string{row.table->name}, row.link, about(*row.table, row.row),
-              place_in_words(row) + " was added later: it " + how});
+              place_text(row) + " was added later: it " + how});
     }
 
     ChainReport& report_;

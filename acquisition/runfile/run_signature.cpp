@@ -108,7 +108,7 @@ std::string unsigned_part(const SignedFile& file) {
     return {};
 }
 
-std::string keys_in_words(const SignedFile& file) {
+std::string keys_text(const SignedFile& file) {
     std::vector<std::string> names;
     for (const Row& row : file.signatures)
         if (const auto key = bytes_from<PublicKey>(row[3])) names.push_back(short_name_of(*key));
@@ -210,7 +210,7 @@ Result<SignatureReport> check_signatures(const std::string& run_file,
     if (known.empty())
         return SignatureReport{
             SignatureVerdict::unknown_key,
-            "signed with the key " + keys_in_words(file) +
+            "signed with the key " + keys_text(file) +
                 "; --public-key with the station's public-keys.pem tells whether "
                 "it is the station's"};
     for (const Row& row : file.signatures)
@@ -218,7 +218,7 @@ Result<SignatureReport> check_signatures(const std::string& run_file,
             return SignatureReport{SignatureVerdict::bad, std::move(why)};
     if (std::string why = unsigned_part(file); !why.empty())
         return SignatureReport{SignatureVerdict::bad, std::move(why)};
-    return SignatureReport{SignatureVerdict::good, "signed with the key " + keys_in_words(file)};
+    return SignatureReport{SignatureVerdict::good, "signed with the key " + keys_text(file)};
 }
 
 Result<AnchorReport> compare_with_anchor(const std::string& run_file, const ClosingMark& anchor) {

@@ -51,8 +51,8 @@ public:
         const std::uint64_t step = word - std::exchange(last_, word);
         return folded(step - std::exchange(step_, step));
     }
-    std::uint64_t back(std::uint64_t told) {
-        step_ += unfolded(told);
+    std::uint64_t back(std::uint64_t folded) {
+        step_ += unfolded(folded);
         return last_ += step_;
     }
 

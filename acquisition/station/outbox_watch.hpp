@@ -56,8 +56,8 @@ private:
 };
 
 /// "12 results wait", "1 result waits".
-std::string waiting_words(int count);
+std::string waiting_text(int count);
 /// "40 s", "22 min", "5 h", "3 d".
-std::string age_words(double seconds);
+std::string age_phrase(double seconds);
 
 } // namespace axiscal

@@ -160,7 +160,7 @@ std::string free_run_id(const StationConfig& config,
     }
 }
 
-std::string taken_up_in_words(const RunRecord& run) {
+std::string taken_up_text(const RunRecord& run) {
     const std::string ours = software_version();
     const bool same = run.software_version == ours;
     return "Version " + ours + " goes on" +

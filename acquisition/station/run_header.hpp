@@ -3,7 +3,7 @@
 // the run's id, which looks at what is stored.
 
 #include "acquisition/station/roles.hpp"
-#include "acquisition/station/station_face.hpp"
+#include "acquisition/station/station_interface.hpp"
 #include "config/station_config.hpp"
 
 namespace axiscal {
@@ -34,7 +34,7 @@ std::string free_run_id(const StationConfig& config,
 
 /// "Version 0.2.0 goes on; version 0.1.0 opened the run. ": of an interrupted run, whose next points this program takes; the
 /// second half only where the versions differ.
-std::string taken_up_in_words(const RunRecord& run);
+std::string taken_up_text(const RunRecord& run);
 
 /// What the station file states of the certificates of `recorded`, in their order.
 std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,

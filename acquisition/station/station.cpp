@@ -119,7 +119,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , logged_(supervisor_.channels().size())
     , sensor_logs_{sensor_logs(supervisor_.channels(), config_)}
     , outbox_watch_{config_.state_directory, config_.publish}
-    , growing_old_{age_that_matters(config_)}
+    , stale_after_{age_that_matters(config_)}
     , bell_{scheduler.executor()} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
@@ -159,10 +159,10 @@ Task<Result<void>> Station::start() {
         open_port();
     } else if (taken.error().fault == Fault::not_durable) {
         waiting_for_disk_ = true;
-        std::string told = disk_in_words(taken.error());
-        note("What the last daemon left cannot be taken over yet: " + told +
+        std::string message = disk_text(taken.error());
+        note("What the last daemon left cannot be taken over yet: " + message +
              " The station tries again by itself; until then the trigger port stays shut.");
-        spawn(scheduler_, take_over_when_disk_is_back(std::move(told)));
+        spawn(scheduler_, take_over_when_disk_is_back(std::move(message)));
     } else {
         co_return taken;
     }
@@ -199,7 +199,7 @@ Task<void> Station::serve_port() {
 
 void Station::on_sample(const Sample& sample) {
     latest_[static_cast<std::size_t>(sample.channel)] = sample;
-    time_counts_until_ = sample.at + growing_old_;
+    time_counts_until_ = sample.at + stale_after_;
     if (asleep_) bell_.ring();
     if (sample.channel == roles_.laser) return take_reading(sample);
     if (sample.channel == roles_.autocollimator) return take_face(sample);
@@ -239,7 +239,7 @@ void Station::log_environment(int channel, const Sample& sample) {
     journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
 }
 
-std::string Station::state_words(const InstrumentView& view) {
+std::string Station::state_phrase(const InstrumentView& view) {
     const bool plays = view.state == InstrumentState::available && !view.tape.empty();
     return plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
 }
@@ -247,7 +247,7 @@ std::string Station::state_words(const InstrumentView& view) {
 void Station::on_instrument_state(const InstrumentView& view) {
     const auto id = roles_.autocollimator;
     const bool sees_faces = id && view.name == channel_of(*id).instrument_name;
-    const std::string how = sees_faces ? news_of_autocollimator(view) : state_words(view);
+    const std::string how = sees_faces ? news_of_autocollimator(view) : state_phrase(view);
     if (!how.empty()) record_instrument(view.name + " " + how + ".", Fault::none);
 }
 
@@ -293,17 +293,17 @@ void Station::on_cnc_silent(bool silent) {
 }
 
 void Station::on_port_note(Fault fault, std::string sentence) {
-    std::string told = describe({fault, std::move(sentence), {}, {}});
-    if (told == port_note_) return; // a taken address is tried again each second
-    note("Trigger port: " + told);
-    port_note_ = std::move(told);
+    std::string message = describe({fault, std::move(sentence), {}, {}});
+    if (message == port_note_) return; // a taken address is tried again each second
+    note("Trigger port: " + message);
+    port_note_ = std::move(message);
 }
 
 void Station::note(const std::string& sentence) {
-    std::string told = valid_text(sentence); // of errors, which may quote a client or a file
-    spdlog::info("{}", told);
+    std::string message = valid_text(sentence); // of errors, which may quote a client or a file
+    spdlog::info("{}", message);
     const ClockTie tie = scheduler_.clock_tie();
-    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + std::move(told));
+    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + std::move(message));
     if (notes_.size() > kept_notes) notes_.pop_front();
     bell_.ring(); // what was worth a word may be worth a look
 }

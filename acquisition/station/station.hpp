@@ -21,7 +21,7 @@
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/station/roles.hpp"
 #include "acquisition/station/sleep_lock.hpp"
-#include "acquisition/station/station_face.hpp"
+#include "acquisition/station/station_interface.hpp"
 #include "acquisition/station/supervisor.hpp"
 #include "config/station_config.hpp"
 #include "drivers/loop/doorbell.hpp"
@@ -53,7 +53,7 @@ struct StationParts {
     StationKey key; ///< signs what is closed
 };
 
-class Station final : public StationFace, private SupervisorListener, private TriggerSink {
+class Station final : public StationInterface, private SupervisorListener, private TriggerSink {
 public:
     Station(Scheduler& scheduler, LinkOpener& links, StationParts parts);
     ~Station() override;
@@ -87,8 +87,8 @@ private:
         RunRecord header; ///< without points
         std::string path;
         bool closing = false, closed = false;
-        bool shut = false;             ///< its closing row is durable
-        std::optional<Error> not_shut; ///< why it is closed, and its file is not
+        bool closing_row_durable = false;
+        std::optional<Error> closing_error; ///< why it is closed, and its file is not
         /// Why the reading could not be tied to the datum: the answer to who armed it.
         std::optional<Error> not_tied;
         std::function<bool()> orderer_has_gone; ///< while the datum is sought
@@ -113,7 +113,7 @@ private:
         bool closing = false, closed = false, complete = false;
         std::string reason, certificate;
         std::optional<Error> no_certificate;
-        std::optional<Error> not_shut; ///< why its file could not be closed
+        std::optional<Error> closing_error; ///< why its file could not be closed
     };
 
     // SupervisorListener, TriggerSink
@@ -218,7 +218,7 @@ private:
     Task<Result<void>>
     resume_circles(std::string path, RunFileContents contents, CircleResume verdict);
     Task<Result<void>> close_driven_circles(std::string path);
-    [[nodiscard]] std::string interruption_in_words(const RunFileContents& contents,
+    [[nodiscard]] std::string interruption_text(const RunFileContents& contents,
                                                     const CircleResume& verdict) const;
 
     // station_disk.cpp: the disk failed under an open run
@@ -226,7 +226,7 @@ private:
     Task<void> wait_for_disk();
     Task<Result<void>> try_disk(std::string path, MonotonicTime since);
     /// What the last daemon left, tried until the disk takes records; opens the port then.
-    Task<void> take_over_when_disk_is_back(std::string told);
+    Task<void> take_over_when_disk_is_back(std::string message);
     /// Why no file may grow where the runs are, if so.
     Task<std::optional<Error>> disk_trouble();
     Task<Result<void>> close_file(bool complete, std::string reason);
@@ -239,7 +239,7 @@ private:
     Task<Result<void>> close_after_disk();
     Task<Result<void>> finish_after_disk();
     /// What failed and what to do, without the fault's own sentence.
-    [[nodiscard]] std::string disk_in_words(const Error& error) const;
+    [[nodiscard]] std::string disk_text(const Error& error) const;
 
     // station_arm.cpp: opening and resuming
     Task<Result<std::string>> open_and_tie(ArmRequest request);
@@ -400,7 +400,7 @@ private:
     void log_environment(int channel, const Sample& sample);
     void log_environment_anew(); ///< the first point needs a reading before it
     void record_instrument(const std::string& sentence, Fault fault);
-    [[nodiscard]] static std::string state_words(const InstrumentView& view); ///< "is faulty"
+    [[nodiscard]] static std::string state_phrase(const InstrumentView& view); ///< "is faulty"
     void note(const std::string& sentence);
     /// A run takes records: neither closing nor closed.
     [[nodiscard]] bool recording() const;
@@ -448,7 +448,7 @@ private:
     std::string outbox_alarm_;         ///< as told in the notes
     int outbox_waiting_ = 0;           ///< at the last look of tick()
     MonotonicTime judged_{}, judged_outbox_{};
-    Duration growing_old_{};            ///< a sample may change what is shown or judged so long
+    Duration stale_after_{};            ///< a sample may change what is shown or judged so long
     MonotonicTime time_counts_until_{}; ///< at least: everything read has grown old by then
     bool asleep_ = false;               ///< tick() waits for the bell
     Doorbell bell_;

@@ -23,8 +23,8 @@ std::optional<Sample> Station::strength_told() const {
 }
 
 std::optional<double> Station::strength_now() const {
-    const auto told = strength_told();
-    return told ? told->value() : std::nullopt;
+    const auto strength = strength_told();
+    return strength ? strength->value() : std::nullopt;
 }
 
 /// A strength belongs to the reading that follows it, once: an instrument tells it a hundred times
@@ -32,10 +32,11 @@ std::optional<double> Station::strength_now() const {
 /// one.
 void Station::watch_alignment(const Sample& sample) {
     if (!aligning_) return;
-    const auto told = strength_told();
-    if (!told || told->at <= strength_placed_at_) return aligning_->take(sample, std::nullopt);
-    strength_placed_at_ = told->at;
-    aligning_->take(sample, told->value());
+    const auto strength = strength_told();
+    if (!strength || strength->at <= strength_placed_at_)
+        return aligning_->take(sample, std::nullopt);
+    strength_placed_at_ = strength->at;
+    aligning_->take(sample, strength->value());
 }
 
 AlignmentRecord Station::alignment_so_far() const {

@@ -9,7 +9,7 @@
 #include "acquisition/run/resume.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "acquisition/station/run_header.hpp"
 #include "analysis/record/run_clock.hpp"
 #include "drivers/loop/spawn.hpp"
@@ -167,7 +167,7 @@ void Station::note_orders_of_arming(const Orderer& by,
         journal_.note(order_of("override", by, check.name));
         overridden += (overridden.empty() ? ", overriding " : ", ") + check.name;
     }
-    note("Run " + run_->header.run_id + " was armed by " + in_words(by) + overridden + ".");
+    note("Run " + run_->header.run_id + " was armed by " + as_phrase(by) + overridden + ".");
 }
 
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
@@ -223,14 +223,14 @@ Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
     if (drift_open()) {
         if (drift_->closing) co_return fail(Fault::busy, "the drift test is being closed");
         journal_.note(order_of("abort", by));
-        note("The drift test was aborted by " + in_words(by) + ".");
+        note("The drift test was aborted by " + as_phrase(by) + ".");
         const std::string test = drift_->run_id;
         spawn(scheduler_, abort_drift(std::move(reason)));
         co_return co_await await_drift_closing(test);
     }
     if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     journal_.note(order_of("abort", by));
-    note("Run " + run_->header.run_id + " was aborted by " + in_words(by) + ".");
+    note("Run " + run_->header.run_id + " was aborted by " + as_phrase(by) + ".");
     if (circular_)
         end_circular({false, std::move(reason), Fault::none});
     else
@@ -254,13 +254,13 @@ Task<Result<RunEnding>> Station::await_closing(std::string path) {
     while (same() && !run_->closed && scheduler_.now() < limit && !stopping_)
         co_await scheduler_.sleep_for(look_every);
     if (!same()) co_return RunEnding{};
-    if (run_->closed && run_->shut)
+    if (run_->closed && run_->closing_row_durable)
         co_return RunEnding{run_->outcome->complete, run_->outcome->reason};
     if (!run_->closed) co_return not_closed_yet();
-    const Error& why = *run_->not_shut;
+    const Error& why = *run_->closing_error;
     co_return fail(Fault::not_durable,
                    "the run takes nothing more, but its file could not be closed: " +
-                       disk_in_words(why) + " The station closes it once the disk takes records",
+                       disk_text(why) + " The station closes it once the disk takes records",
                    why.cause);
 }
 
@@ -397,10 +397,10 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     run_->resumed = true;
     const std::string away = is_same_boot(run.boot_id, boot_id_)
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
-                                 : "while " + restart_in_words(run.boot_id, boot_id_);
+                                 : "while " + restart_text(run.boot_id, boot_id_);
     perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
                          "The station recorded nothing " + away + ". " +
-                             taken_up_in_words(run) + proof, Fault::none, 0}});
+                             taken_up_text(run) + proof, Fault::none, 0}});
     feed(EnvironmentNow{within_limits(live_scale_now())});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +

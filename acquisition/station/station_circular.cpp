@@ -139,9 +139,10 @@ void Station::take_bar(const Sample& sample) {
 void Station::keep_chunk(StreamChunk chunk) {
     if (journal_.note(std::move(chunk))) return;
     if (circular_->dropped++ > 0) return;
-    const std::string told = "The disk does not keep up: readings of the ballbar are dropped.";
-    note(told);
-    perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, told, Fault::not_durable, 0}});
+    const std::string message = "The disk does not keep up: readings of the ballbar are dropped.";
+    note(message);
+    perform(
+        RecordEvent{{EventKind::instrument, scheduler_.now(), 0, message, Fault::not_durable, 0}});
 }
 
 std::optional<Error> Station::take_circular(const TriggerEvent& event) {

@@ -4,8 +4,8 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/runfile/stream_packing.hpp"
-#include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "acquisition/station/time_limits.hpp"
 
 #include <algorithm>
 
@@ -106,10 +106,10 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
     co_return Result<void>{};
 }
 
-std::string Station::interruption_in_words(const RunFileContents& contents,
-                                           const CircleResume& verdict) const {
+std::string Station::interruption_text(const RunFileContents& contents,
+                                       const CircleResume& verdict) const {
     const std::string away = in_seconds(scheduler_.now() - last_sign_of(contents));
-    return "The station recorded nothing for " + away + ". " + taken_up_in_words(contents.run) +
+    return "The station recorded nothing for " + away + ". " + taken_up_text(contents.run) +
            verdict.sentence;
 }
 
@@ -120,7 +120,7 @@ Task<Result<void>>
 Station::resume_circles(std::string path, RunFileContents contents, CircleResume verdict) {
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
-    const std::string told = interruption_in_words(contents, verdict);
+    const std::string message = interruption_text(contents, verdict);
     const CircularSetup setup = *contents.circular;
     StreamChunker behind{0};
     if (!contents.blocks.empty())
@@ -128,10 +128,10 @@ Station::resume_circles(std::string path, RunFileContents contents, CircleResume
     begin_circular(std::move(contents.run), std::move(path), setup);
     circular_.emplace(setup, verdict.before, std::move(behind));
     run_->resumed = true;
-    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0, told, Fault::none, 0}});
+    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0, message, Fault::none, 0}});
     if (verdict.before.last == 0) port_->publish_armed();
     perform(SetState{PortState::armed});
-    note("Run " + run_->header.run_id + " goes on. " + told);
+    note("Run " + run_->header.run_id + " goes on. " + message);
     co_return co_await journal_.flush();
 }
 

@@ -5,7 +5,7 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/run/resume.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "analysis/record/run_clock.hpp"
 
 #include <utility>
@@ -50,7 +50,7 @@ void Station::mark_another_boot(const BootId& boot_of_run) {
     const bool certain = boot_of_run.known() && boot_id_.known();
     std::string sentence =
         certain ? "What follows was written after " : "What follows may count by another clock: ";
-    sentence += restart_in_words(boot_of_run, boot_id_) + ".";
+    sentence += restart_text(boot_of_run, boot_id_) + ".";
     perform(
         RecordEvent{{EventKind::note, scheduler_.now(), 0, std::move(sentence), Fault::none, 0}});
 }
@@ -109,7 +109,7 @@ Task<Result<void>> Station::take_over_closed_run() {
         co_return fail(Fault::busy, "somebody else is at it just now");
     CurrentRun last;
     last.path = newest.path;
-    last.closed = last.shut = last.taken_over = true;
+    last.closed = last.closing_row_durable = last.taken_over = true;
     last.outcome = Close{true, contents.run.closing_reason, Fault::none};
     RunSetup setup = setup_of(contents.run);
     last.limits_waived = waives_limits(contents.revisions.preflight);

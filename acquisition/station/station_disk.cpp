@@ -21,7 +21,7 @@ int points_asked(const RunRevisions& orders) {
 
 } // namespace
 
-std::string Station::disk_in_words(const Error& error) const {
+std::string Station::disk_text(const Error& error) const {
     const std::string advice = way_out(error.cause, config_.state_directory);
     const std::string cause = error.cause ? " (" + error.cause.message() + ")" : "";
     return error.detail + cause + "." + (advice.empty() ? "" : " " + advice);
@@ -31,7 +31,7 @@ Task<void> Station::wait_for_disk() {
     const MonotonicTime since = scheduler_.now();
     const std::string path = run_->path;
     if (const auto why = journal_.failure())
-        note(std::string{fault_sentence(why->fault)} + " " + disk_in_words(*why));
+        note(std::string{fault_sentence(why->fault)} + " " + disk_text(*why));
     while (!stopping_) {
         co_await scheduler_.sleep_for(try_every);
         if (run_->closing) continue; // its own attempt to close is under way
@@ -46,10 +46,10 @@ Task<Result<void>> Station::close_file(bool complete, std::string reason) {
     for (;;) {
         Result<void> closed = co_await journal_.close(complete, reason);
         const bool is_read = !closed && closed.error().fault == Fault::busy;
-        const bool told = !reader_.empty();
+        const bool reported = !reader_.empty();
         reader_ = is_read ? closed.error().detail : "";
         if (!is_read || stopping_) co_return closed;
-        if (!told) note("The run is closed and safe. " + reader_ + ".");
+        if (!reported) note("The run is closed and safe. " + reader_ + ".");
         co_await scheduler_.sleep_for(try_every);
     }
 }
@@ -80,7 +80,7 @@ Task<std::optional<Error>> Station::disk_trouble() {
 }
 
 /// `told`: what was said of it. The same is not said again, however long it lasts.
-Task<void> Station::take_over_when_disk_is_back(std::string told) {
+Task<void> Station::take_over_when_disk_is_back(std::string message) {
     const MonotonicTime since = scheduler_.now();
     while (!stopping_) {
         co_await scheduler_.sleep_for(try_every);
@@ -89,9 +89,9 @@ Task<void> Station::take_over_when_disk_is_back(std::string told) {
         co_await journal_.let_go();
         const Result<void> taken = co_await take_over_stored_runs();
         if (!taken) {
-            std::string why = disk_in_words(taken.error());
-            if (why != told) note("What the last daemon left cannot be taken over yet: " + why);
-            told = std::move(why);
+            std::string why = disk_text(taken.error());
+            if (why != message) note("What the last daemon left cannot be taken over yet: " + why);
+            message = std::move(why);
             continue;
         }
         waiting_for_disk_ = false;
@@ -103,7 +103,7 @@ Task<void> Station::take_over_when_disk_is_back(std::string told) {
 
 /// One attempt. The first thing written is how long nothing was.
 Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
-    if (run_->shut) co_return co_await look_for_lost_order(std::move(path));
+    if (run_->closing_row_durable) co_return co_await look_for_lost_order(std::move(path));
     co_await journal_.let_go();
     const auto opened = co_await journal_.reopen(path);
     if (!opened && run_->closed && opened.error().fault == Fault::refused)
@@ -114,7 +114,7 @@ Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
                          "The disk took no records for " + in_seconds(scheduler_.now() - since) +
                              "; the file was verified and synced anew.",
                          Fault::not_durable, 0}});
-    if (auto told = co_await journal_.flush(); !told) co_return told;
+    if (auto flushed = co_await journal_.flush(); !flushed) co_return flushed;
     auto contents = co_await journal_.contents(path);
     if (!contents) co_return tl::unexpected<Error>(contents.error());
     note("The run file is written again.");
@@ -135,7 +135,7 @@ DiskBack Station::disk_back(RunFileContents contents) {
                             "and holds."
                           : "The run file can be written again, and nothing of the order is in it: "
                             "give it anew.");
-        back.reopened = asked && run_->shut && !contents.closed;
+        back.reopened = asked && run_->closing_row_durable && !contents.closed;
     }
     back.on_disk = std::make_shared<const RunRecord>(std::move(contents.run));
     back.orders = std::make_shared<const RunRevisions>(std::move(contents.revisions));
@@ -199,8 +199,8 @@ Task<Result<void>> Station::close_after_disk() {
 Task<Result<void>> Station::finish_after_disk() {
     const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
     if (!tidied) co_return tidied;
-    run_->shut = true;
-    run_->not_shut.reset();
+    run_->closing_row_durable = true;
+    run_->closing_error.reset();
     if (run_->outcome && run_->outcome->complete) co_await certify(run_->header.run_id, run_->path);
     co_return Result<void>{};
 }

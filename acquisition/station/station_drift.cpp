@@ -5,8 +5,8 @@
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/live_position.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/patience.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
@@ -198,7 +198,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
         id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}, {}});
     if (of_bar) drift_->bar.emplace(SampleHistory::Limits{2 * config_.capture.window});
     journal_.note(order_of("drift", request.by));
-    note("Drift test " + id + " has begun, ordered by " + in_words(request.by) + ": leave " +
+    note("Drift test " + id + " has begun, ordered by " + as_phrase(request.by) + ": leave " +
          (of_bar ? "machine and ballbar" : "the axis") + " alone.");
     spawn(scheduler_, record_drift(id));
     co_return id;
@@ -214,7 +214,7 @@ Task<void> Station::record_drift(std::string run_id) {
             co_await scheduler_.sleep_for(std::min(due - now, hear_every));
         if (goes_on() && drift_->recorder.zero_is_lost()) co_await close_drift(false, lost_zero);
         if (const auto why = journal_.failure(); why && goes_on())
-            co_await close_drift(false, disk_in_words(*why));
+            co_await close_drift(false, disk_text(*why));
     }
     if (goes_on()) co_await close_drift(true, "");
 }
@@ -231,8 +231,8 @@ Task<Result<void>> Station::close_drift(bool complete, std::string reason) {
     if (std::exchange(drift_->closing, true)) co_return Result<void>{};
     const Result<void> closed = co_await close_file(complete, reason);
     if (!closed) {
-        reason = "The run file could not be closed: " + disk_in_words(closed.error());
-        drift_->not_shut = closed.error();
+        reason = "The run file could not be closed: " + disk_text(closed.error());
+        drift_->closing_error = closed.error();
         co_await journal_.let_go(); // the next test or run has a file of its own
     }
     note("Drift test " + drift_->run_id +
@@ -257,8 +257,8 @@ Task<Result<RunEnding>> Station::await_drift_closing(std::string run_id) {
         co_await scheduler_.sleep_for(look_every);
     if (!same()) co_return RunEnding{};
     if (!drift_->closed) co_return not_closed_yet();
-    if (drift_->not_shut)
-        co_return fail(Fault::not_durable, drift_->reason, drift_->not_shut->cause);
+    if (drift_->closing_error)
+        co_return fail(Fault::not_durable, drift_->reason, drift_->closing_error->cause);
     co_return RunEnding{drift_->complete, drift_->reason};
 }
 

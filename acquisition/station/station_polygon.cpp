@@ -5,7 +5,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <utility>
@@ -78,7 +78,7 @@ std::string Station::news_of_autocollimator(const InstrumentView& view) {
     if (view.state == InstrumentState::faulty) return "answers, and sees no face";
     return before == InstrumentState::faulty && view.state == InstrumentState::available
                ? "sees a face"
-               : state_words(view);
+               : state_phrase(view);
 }
 
 /// On the way to its first face it sees none: that it speaks is enough.

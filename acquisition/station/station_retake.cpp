@@ -4,7 +4,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
@@ -101,7 +101,7 @@ void Station::find_out_about_order() {
 }
 
 void Station::run_is_open_again() {
-    run_->closed = run_->shut = false;
+    run_->closed = run_->closing_row_durable = false;
     run_->outcome.reset();
     run_->certificate.clear();
     run_->no_certificate.reset();
@@ -148,7 +148,7 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
             {point.step, run_->header.plan.points[static_cast<std::size_t>(point.planned_step)]});
     note(counted(static_cast<long>(answer.points.size()), "point") + " of run " +
          run_->header.run_id + " to be taken again: " + request.reason + "; ordered by " +
-         in_words(request.by));
+         as_phrase(request.by));
     co_return answer;
 }
 
@@ -168,17 +168,17 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
     }
     if (!kept) co_return tl::unexpected<Error>(kept.error());
     note(counted(count, "reading") + " of run " + run_->header.run_id +
-         " left out: " + request.reason + "; ordered by " + in_words(request.by));
+         " left out: " + request.reason + "; ordered by " + as_phrase(request.by));
     co_return count;
 }
 
 /// The run stays closed to the CNC; only its file was opened for a moment. Who ordered it does not
 /// wait for a reader of the file: its certificate does.
 Task<Result<void>> Station::close_again() {
-    run_->shut = false;
+    run_->closing_row_durable = false;
     auto closed = co_await close_file_for_now(true, run_->outcome->reason);
     if (!closed) co_return closed; // the disk is waited for
-    run_->shut = true;
+    run_->closing_row_durable = true;
     run_->certificate.clear();
     run_->no_certificate.reset();
     spawn(scheduler_, certify_once_unread(run_->header.run_id, run_->path));

@@ -4,7 +4,7 @@
 #include "acquisition/capture/capture.hpp"
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/station/certificate_writer.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <filesystem>
@@ -99,7 +99,7 @@ Task<void> Station::watch_window(OpenWindow window) {
             found = make_capture(history_, *search.window, claim, config_.capture);
         else if (now >= window.deadline)
             found = tl::unexpected(reads_faces() ? no_still_face(search.verdict)
-                                                 : give_up(search, now - window.from));
+                                                 : not_still(search, now - window.from));
         if (found || found.error().fault != Fault::none) {
             feed_with_air(WindowResult{window.window, std::move(found), now});
             co_return;
@@ -140,7 +140,7 @@ Task<void> Station::commit_event(CommitEvent action) {
 
 void Station::settle(Result<JournalReceipt> receipt) {
     const MonotonicTime now = scheduler_.now();
-    if (!receipt) return feed(CommitFailed{disk_in_words(receipt.error()), now});
+    if (!receipt) return feed(CommitFailed{disk_text(receipt.error()), now});
     last_receipt_ = *receipt;
     run_->refusal.reset();
     refused_note_.clear();
@@ -235,8 +235,8 @@ Task<void> Station::close_run(Close action) {
     run_->outcome = action;
     run_->closed = true;
     run_->closing = false;
-    run_->shut = closed.has_value();
-    if (!closed) run_->not_shut = closed.error();
+    run_->closing_row_durable = closed.has_value();
+    if (!closed) run_->closing_error = closed.error();
     set_up_lost_.clear();
     interruption_.clear();
     last_reading_.reset();

@@ -35,7 +35,7 @@ Task<void> Station::pause_before_looking() {
 }
 
 bool Station::time_counts() const {
-    const bool unwritten = run_ && !run_->shut;
+    const bool unwritten = run_ && !run_->closing_row_durable;
     return run_open() || unwritten || drift_open() || aligning_ || supervisor_.somebody_speaks() ||
            scheduler_.now() < time_counts_until_;
 }
@@ -48,7 +48,7 @@ std::optional<MonotonicTime> Station::outbox_due() const {
 
 /// While a person may still want the run: until its file is shut.
 void Station::keep_awake() {
-    sleep_lock_.want(run_open() || (run_ && !run_->shut) || drift_open());
+    sleep_lock_.want(run_open() || (run_ && !run_->closing_row_durable) || drift_open());
 }
 
 /// The lock may be refused, and root may suspend in spite of it.
@@ -57,11 +57,11 @@ void Station::notice_sleep() {
     const Duration slept = scheduler_.asleep() - slept_;
     if (slept < noticeable) return;
     slept_ += slept;
-    std::string told =
+    std::string message =
         "The computer was suspended for " + in_seconds(slept) + "; nothing was recorded meanwhile.";
     if (recording() || drift_open())
-        perform(RecordEvent{{EventKind::note, scheduler_.now(), 0, told, Fault::none, 0}});
-    note(std::move(told));
+        perform(RecordEvent{{EventKind::note, scheduler_.now(), 0, message, Fault::none, 0}});
+    note(std::move(message));
 }
 
 void Station::look_at_the_time() {
@@ -80,7 +80,8 @@ void Station::look_at_the_time() {
     }
     feed_with_air(Tick{now});
     publish_to_port();
-    if (run_ && !run_->shut && journal_.failure() && !std::exchange(waiting_for_disk_, true))
+    if (run_ && !run_->closing_row_durable && journal_.failure() &&
+        !std::exchange(waiting_for_disk_, true))
         spawn(scheduler_, wait_for_disk());
 }
 

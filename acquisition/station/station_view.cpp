@@ -4,7 +4,7 @@
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/live_position.hpp"
-#include "acquisition/station/patience.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "config/version.hpp"
 

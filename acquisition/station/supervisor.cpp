@@ -24,9 +24,9 @@ constexpr Duration silence = std::chrono::seconds{10}; // slowest sensor reports
 
 /// The way to the links, which remembers what could not be opened. The first place decides: a
 /// driver that asks several devices for their serial number ends at a place where nothing is.
-class RememberingOpener final : public LinkOpener, public ClosedLineListener {
+class TrackedOpener final : public LinkOpener, public ClosedLineListener {
 public:
-    explicit RememberingOpener(LinkOpener& links)
+    explicit TrackedOpener(LinkOpener& links)
         : links_{links} {}
     Task<Result<std::unique_ptr<ByteLink>>> open(const LinkSettings& settings,
                                                  MonotonicTime deadline) override {
@@ -214,7 +214,7 @@ struct Supervisor::Seat final : SampleSink {
 
     Supervisor& supervisor;
     std::unique_ptr<SeatedTape> tape; ///< null: an instrument
-    RememberingOpener links;
+    TrackedOpener links;
     std::unique_ptr<Instrument> instrument;
     int first_channel = 0;
     InstrumentView view;

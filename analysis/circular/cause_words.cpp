@@ -52,7 +52,7 @@ std::string words_for_scale_mismatch(double mismatch, const WordsContext& contex
 
 namespace {
 
-std::string time_words(double seconds) {
+std::string time_text(double seconds) {
     const TimeUnit unit = time_unit(seconds);
     return digits(std::fabs(seconds) * unit.a_second) + " " + unit.word;
 }
@@ -70,7 +70,7 @@ std::string words_for_servo_lag(double difference_s, const WordsContext& context
     const int slower = difference_s > 0 ? 0 : 1;
     const bool first = slower == 0;
     return moving(slower, context) + " lags " + other(slower, context) + " by " +
-           time_words(difference_s) + ": an ellipse with its long axis at " +
+           time_text(difference_s) + ": an ellipse with its long axis at " +
            (first ? "45/225" : "135/315") + " deg in counter-clockwise and at " +
            (first ? "135/315" : "45/225") + " deg in clockwise sense, growing with the feed.";
 }

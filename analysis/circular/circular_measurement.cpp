@@ -12,7 +12,7 @@
 namespace axiscal {
 namespace {
 
-std::string filter_words(const CircularCapture& capture) {
+std::string filter_text(const CircularCapture& capture) {
     std::string words;
     std::array<char, 64> text{};
     if (capture.low_pass_hz) {
@@ -26,14 +26,14 @@ std::string filter_words(const CircularCapture& capture) {
     return words.empty() ? "none" : words;
 }
 
-std::string feed_in_words(const CircularPlan& plan) {
+std::string feed_phrase(const CircularPlan& plan) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "radial, %.6g mm from %s the circle", plan.feed_in_mm,
                   plan.feed_in_outside ? "outside" : "inside");
     return text.data();
 }
 
-std::string angle_words(const CircularRun& run) {
+std::string angle_text(const CircularRun& run) {
     const bool step = std::ranges::any_of(run.circles, [](const CircleCapture& circle) {
         return circle.start == StartMethod::feed_step;
     });
@@ -46,21 +46,21 @@ std::string angle_words(const CircularRun& run) {
 }
 
 CircularConditions conditions_of(const CircularRun& run) {
-    CircularConditions told;
-    told.centre_mm = run.plan.centre_mm;
-    told.tool_offset = run.plan.tool_offset;
-    told.work_offset = run.plan.work_offset;
-    if (run.capture.sample_rate_hz > 0) told.sample_rate_hz = run.capture.sample_rate_hz;
-    told.filter = filter_words(run.capture);
-    told.angle_origin = angle_words(run);
-    told.overshoot_deg = run.plan.overshoot_deg;
-    told.feed_in = feed_in_words(run.plan);
-    told.repeats = run.plan.repeats;
-    told.warm_up = run.plan.warm_up;
-    told.air = run.air_temperature;
-    told.bar = run.bar_temperature;
-    told.machine = run.machine_temperature;
-    return told;
+    CircularConditions conditions;
+    conditions.centre_mm = run.plan.centre_mm;
+    conditions.tool_offset = run.plan.tool_offset;
+    conditions.work_offset = run.plan.work_offset;
+    if (run.capture.sample_rate_hz > 0) conditions.sample_rate_hz = run.capture.sample_rate_hz;
+    conditions.filter = filter_text(run.capture);
+    conditions.angle_origin = angle_text(run);
+    conditions.overshoot_deg = run.plan.overshoot_deg;
+    conditions.feed_in = feed_phrase(run.plan);
+    conditions.repeats = run.plan.repeats;
+    conditions.warm_up = run.plan.warm_up;
+    conditions.air = run.air_temperature;
+    conditions.bar = run.bar_temperature;
+    conditions.machine = run.machine_temperature;
+    return conditions;
 }
 
 CircularUncertaintyStatement statement_of(const CircularRun& run) {

@@ -109,7 +109,7 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
     return remarks;
 }
 
-std::string approach_in_words(const PlannedPoint& point) {
+std::string approach_text(const PlannedPoint& point) {
     return place_of(point.target_index, point.direction) + " " + std::to_string(point.approach + 1);
 }
 
@@ -124,7 +124,7 @@ std::string listed(const std::vector<SetAside>& set_aside, bool superseded) {
         if (reading.superseded != superseded) continue;
         if (reading.reason != reason) flush();
         reason = reading.reason;
-        places += (places.empty() ? "" : ", ") + approach_in_words(reading.planned);
+        places += (places.empty() ? "" : ", ") + approach_text(reading.planned);
     }
     flush();
     return text;

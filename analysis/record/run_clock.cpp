@@ -23,13 +23,13 @@ std::optional<std::int64_t> utc_by(const ClockTie& tie, MonotonicTime at) {
 
 /// Puts one row on the clock of `tie`; `farthest` grows with what the row's own clock was off.
 void put_on(const ClockTie& tie, MonotonicTime at, std::int64_t& utc_ns, Duration& farthest) {
-    const auto told = utc_by(tie, at);
-    if (!told) return;
+    const auto utc = utc_by(tie, at);
+    if (!utc) return;
     std::int64_t off = 0;
-    const bool stated = utc_ns != 0 && !__builtin_sub_overflow(utc_ns, *told, &off);
+    const bool stated = utc_ns != 0 && !__builtin_sub_overflow(utc_ns, *utc, &off);
     if (stated && off != std::numeric_limits<std::int64_t>::min())
         farthest = std::max(farthest, Duration{std::abs(off)});
-    utc_ns = *told;
+    utc_ns = *utc;
 }
 
 ClockTie tie_of(const EventRecord& event) {
@@ -45,7 +45,7 @@ bool begins_another_boot(const EventRecord& event) {
            event.text.find(computer_restarted) != std::string::npos;
 }
 
-std::string restart_in_words(const BootId& earlier, const BootId& later) {
+std::string restart_text(const BootId& earlier, const BootId& later) {
     const bool certain = earlier.known() && later.known();
     return std::string{certain ? "" : "nobody can tell whether "}.append(computer_restarted);
 }

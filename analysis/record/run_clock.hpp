@@ -18,7 +18,7 @@ bool begins_another_boot(const EventRecord& event);
 
 /// computer_restarted, or, where one of the two is unknown, that nobody can tell whether it was;
 /// these words hold computer_restarted, too. For boots that are not the same.
-std::string restart_in_words(const BootId& earlier, const BootId& later);
+std::string restart_text(const BootId& earlier, const BootId& later);
 
 /// The UTC of each row within the boot of the opening follows from the row's monotonic time and the
 /// triple of the opening, that of a later boot from its first event. Where neither reaches (a time

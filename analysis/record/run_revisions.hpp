@@ -60,7 +60,7 @@ struct OrderRecord {
 };
 
 /// "Jo Miller (user jo, uid 1000)", "user jo, uid 1000", "Jo Miller (token)", "not known".
-std::string in_words(const Orderer& by);
+std::string as_phrase(const Orderer& by);
 
 struct RunRevisions {
     std::vector<PreflightRecord> preflight;

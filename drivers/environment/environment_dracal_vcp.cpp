@@ -142,8 +142,8 @@ Task<Result<void>> DracalVcp::run(InstrumentContext context) {
     const Duration silence = poll_period_ * missed_readings;
     for (int asked = 0; asked < tries; ++asked) {
         if (asked > 0) ++counters_.timeouts;
-        const auto told = co_await ask(*link, context);
-        if (!told) co_return told;
+        const auto answered = co_await ask(*link, context);
+        if (!answered) co_return answered;
         heard_at_ = context.scheduler->now();
         const MonotonicTime asked_at = heard_at_;
         while (context.scheduler->now() - heard_at_ < silence) {

@@ -227,8 +227,8 @@ Task<Result<void>> TemperSerial::run(InstrumentContext context) {
     const std::unique_ptr<ByteLink> link = *std::move(opened);
     const auto known = co_await identify(*link, context);
     if (!known) co_return known;
-    const auto told = co_await ask_calibration(*link, context);
-    if (!told) co_return told;
+    const auto answered = co_await ask_calibration(*link, context);
+    if (!answered) co_return answered;
     requests_.forget();
     probe_may_follow_ = false;
     asked_at_ = context.scheduler->now(); // no reading is older

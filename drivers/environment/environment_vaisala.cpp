@@ -240,8 +240,8 @@ Task<Result<void>> Vaisala::run(InstrumentContext context) {
     LineFramer framer{longest_line};
     std::uint64_t wrong_before = 0;
     for (int answers = 1; answers > 0;) {
-        const auto told = co_await prepare(*link, context, framer);
-        if (!told) co_return told;
+        const auto prepared = co_await prepare(*link, context, framer);
+        if (!prepared) co_return prepared;
         wrong_before = counters_.checksum_errors;
         AXISCAL_CO_TRY(answers, co_await ask_while_heard(*link, context, framer));
     }

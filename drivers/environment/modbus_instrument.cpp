@@ -153,9 +153,9 @@ Task<Result<bool>> ModbusInstrument::check_settings(ModbusBus& bus, SampleSink& 
             if (fault == Fault::link_closed) co_return tl::unexpected<Error>(reply.error());
             co_return false;
         }
-        const auto told = reply ? settings_.take(block, reply->words)
-                                : settings_.refuse(block, reply.error().detail);
-        for (const std::string& text : told)
+        const auto complaints = reply ? settings_.take(block, reply->words)
+                                      : settings_.refuse(block, reply.error().detail);
+        for (const std::string& text : complaints)
             sink.note(reply ? Fault::bad_configuration : Fault::refused, text);
     }
     co_return true;

@@ -37,7 +37,7 @@ void StatedSettings::forget() {
     seen_.assign(settings_.size(), Seen{});
 }
 
-std::string StatedSettings::in_words(const ModbusSetting& setting) const {
+std::string StatedSettings::as_phrase(const ModbusSetting& setting) const {
     return model_ + ": " + setting.name + " (" + place_of(setting.field) + ")";
 }
 
@@ -45,7 +45,7 @@ std::string StatedSettings::complaint(const ModbusSetting& setting, const std::s
     std::string spoilt;
     for (const std::size_t channel : setting.channels)
         spoilt += (spoilt.empty() ? "" : ", ") + channels_.at(channel);
-    return in_words(setting) + " is " + is + " and must be " + number_text(setting.must_be) +
+    return as_phrase(setting) + " is " + is + " and must be " + number_text(setting.must_be) +
            ": no value of " + spoilt +
            " meanwhile. Set it there; if the instrument was calibrated with it, state it as "
            "must_be in a copy of the profile";
@@ -53,7 +53,7 @@ std::string StatedSettings::complaint(const ModbusSetting& setting, const std::s
 
 std::vector<std::string> StatedSettings::take(const RegisterBlock& block,
                                               std::span<const std::uint16_t> words) {
-    std::vector<std::string> told;
+    std::vector<std::string> complaints;
     for (const std::size_t place : block.places) {
         const ModbusSetting& setting = settings_.at(place);
         Seen& seen = seen_.at(place);
@@ -64,26 +64,27 @@ std::vector<std::string> StatedSettings::take(const RegisterBlock& block,
         }
         const bool known = seen.state == State::wrong && seen.number == number;
         seen = {State::wrong, number};
-        if (!known) told.push_back(complaint(setting, number ? number_text(*number) : "no number"));
+        if (!known)
+            complaints.push_back(complaint(setting, number ? number_text(*number) : "no number"));
     }
-    return told;
+    return complaints;
 }
 
 std::vector<std::string> StatedSettings::refuse(const RegisterBlock& block,
                                                 const std::string& reason) {
-    std::vector<std::string> told;
+    std::vector<std::string> complaints;
     for (const std::size_t place : block.places) {
         const ModbusSetting& setting = settings_.at(place);
         Seen& seen = seen_.at(place);
         if (seen.state == State::hidden || (seen.state == State::wrong && !seen.number)) continue;
         const bool never_shown = seen.state == State::unread;
         seen = {never_shown ? State::hidden : State::wrong, {}};
-        told.push_back(never_shown
-                           ? in_words(setting) +
-                                 " cannot be read, and is taken as the profile states it: " + reason
-                           : complaint(setting, "hidden"));
+        complaints.push_back(
+            never_shown ? as_phrase(setting) +
+                              " cannot be read, and is taken as the profile states it: " + reason
+                        : complaint(setting, "hidden"));
     }
-    return told;
+    return complaints;
 }
 
 bool StatedSettings::spoils(std::size_t channel) const {

@@ -23,9 +23,9 @@ std::optional<IdsValue> value_of(const Json& node) {
 }
 
 std::string words_of(const Json& error) {
-    const bool told =
+    const bool has_text =
         error.is_object() && error.contains("message") && error["message"].is_string();
-    return told ? error["message"].get<std::string>() : json_text(error);
+    return has_text ? error["message"].get<std::string>() : json_text(error);
 }
 
 std::string written(double index) {

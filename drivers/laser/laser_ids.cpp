@@ -209,7 +209,7 @@ Task<Result<void>> Ids::introduce() {
 
 /// Until it measures there is no value; the mode is told when it changes.
 Task<Result<void>> Ids::await_measurement() {
-    std::string told;
+    std::string reported;
     bool started = false;
     for (;;) {
         const auto asked = co_await ask("com.attocube.ids.system.getCurrentMode");
@@ -219,7 +219,7 @@ Task<Result<void>> Ids::await_measurement() {
         context_.sink->take(
             Sample::bad(ids_displacement, asked->placed.at, Quality::absent, 0, epoch_));
         const bool idle = mode == "system idle";
-        if (std::exchange(told, mode) != mode)
+        if (std::exchange(reported, mode) != mode)
             context_.sink->note(Fault::signal_error,
                                 "the IDS does not measure: " + mode +
                                     (idle && !setup_.start ? "; start it by its web page, or state "

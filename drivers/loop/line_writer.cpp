@@ -11,8 +11,8 @@
 namespace axiscal {
 
 /// What both sides know. The thread holds it, too: it may outlive its writer.
-struct LineWriter::Desk {
-    explicit Desk(int to)
+struct LineWriter::Queue {
+    explicit Queue(int to)
         : descriptor{to} {}
 
     void put(std::string_view line);
@@ -54,7 +54,7 @@ void write_all(int descriptor, std::string_view text) {
 } // namespace
 
 /// A line longer than all that may be kept is kept alone.
-void LineWriter::Desk::put(std::string_view line) {
+void LineWriter::Queue::put(std::string_view line) {
     {
         const std::lock_guard lock{mutex};
         if (finishing) return;
@@ -66,7 +66,7 @@ void LineWriter::Desk::put(std::string_view line) {
 }
 
 /// A sixteenth of the room at once: dropped one by one, each line would move all the others.
-void LineWriter::Desk::drop_oldest() {
+void LineWriter::Queue::drop_oldest() {
     const std::size_t newline = kept.find('\n', std::min(most_kept_bytes / 16, kept.size() - 1));
     const auto end = kept.begin() + static_cast<std::ptrdiff_t>(
                                         newline == std::string::npos ? kept.size() : newline + 1);
@@ -75,7 +75,7 @@ void LineWriter::Desk::drop_oldest() {
 }
 
 /// Waits for lines. False when there are none and will be none.
-bool LineWriter::Desk::take(std::string& batch) {
+bool LineWriter::Queue::take(std::string& batch) {
     std::unique_lock lock{mutex};
     wake.wait(lock, [this] { return finishing || !kept.empty(); });
     batch.clear();
@@ -86,7 +86,7 @@ bool LineWriter::Desk::take(std::string& batch) {
     return !ended;
 }
 
-void LineWriter::Desk::serve() {
+void LineWriter::Queue::serve() {
     std::string batch;
     while (take(batch))
         write_all(descriptor, batch);
@@ -94,14 +94,14 @@ void LineWriter::Desk::serve() {
 }
 
 LineWriter::LineWriter(int descriptor)
-    : desk_{std::make_shared<Desk>(descriptor)}
-    , thread_{[desk = desk_] { desk->serve(); }} {}
+    : queue_{std::make_shared<Queue>(descriptor)}
+    , thread_{[queue = queue_] { queue->serve(); }} {}
 
 LineWriter::~LineWriter() {
-    std::unique_lock lock{desk_->mutex};
-    desk_->finishing = true;
-    desk_->wake.notify_one();
-    const bool ended = desk_->left.wait_for(lock, last_words, [this] { return desk_->ended; });
+    std::unique_lock lock{queue_->mutex};
+    queue_->finishing = true;
+    queue_->wake.notify_one();
+    const bool ended = queue_->left.wait_for(lock, last_words, [this] { return queue_->ended; });
     lock.unlock();
     if (ended)
         thread_.join();
@@ -110,7 +110,7 @@ LineWriter::~LineWriter() {
 }
 
 void LineWriter::put(std::string_view line) {
-    desk_->put(line);
+    queue_->put(line);
 }
 
 } // namespace axiscal

@@ -31,8 +31,8 @@ public:
     void put(std::string_view line);
 
 private:
-    struct Desk;
-    std::shared_ptr<Desk> desk_;
+    struct Queue;
+    std::shared_ptr<Queue> queue_;
     std::thread thread_;
 };
 

@@ -22,20 +22,20 @@ MirroredPort::MirroredPort(std::unique_ptr<RegisterMap> map, TriggerConfig confi
     : MappedPort{std::move(map), std::move(config)} {}
 
 Task<Result<void>> MirroredPort::run(TriggerContext context) {
-    desk_->attach(context);
+    server_->attach(context);
     try {
         auto talking = stay_connected(context.scheduler);
-        auto timing = desk_->keep_time(context.scheduler);
+        auto timing = server_->keep_time(context.scheduler);
         co_await (std::move(talking) || std::move(timing));
     } catch (const std::exception&) { // cancelled: the way a port ends
     }
-    desk_->detach();
+    server_->detach();
     co_return fail(Fault::link_closed, describe() + " was stopped.");
 }
 
 Task<void> MirroredPort::stay_connected(Scheduler* scheduler) {
     Duration pause = first_pause;
-    bool told = false;
+    bool reported = false;
     for (;;) {
         ModbusClient cnc{scheduler, config_.host, config_.port, config_.unit_id};
         last_written_.clear();
@@ -44,14 +44,14 @@ Task<void> MirroredPort::stay_connected(Scheduler* scheduler) {
             const MonotonicTime next = scheduler->now() + config_.poll_interval;
             outcome = co_await exchange(cnc, scheduler);
             if (!outcome) break;
-            if (told) ++desk_->counters.reconnects;
-            if (told) desk_->note(Fault::none, describe() + " is connected again.");
-            told = false;
+            if (reported) ++server_->counters.reconnects;
+            if (reported) server_->note(Fault::none, describe() + " is connected again.");
+            reported = false;
             pause = first_pause;
             co_await scheduler->sleep_until(next);
         }
-        if (!told) desk_->note(outcome.error().fault, axiscal::describe(outcome.error()));
-        told = true;
+        if (!reported) server_->note(outcome.error().fault, axiscal::describe(outcome.error()));
+        reported = true;
         co_await scheduler->sleep_for(pause);
         pause = std::min(2 * pause, longest_pause);
     }
@@ -67,30 +67,30 @@ Task<Result<void>> MirroredPort::read_request(ModbusClient& cnc, Scheduler* sche
     auto first = co_await cnc.read_holding(config_.base_address, cnc_words);
     AXISCAL_CO_TRY(const Words block, std::move(first));
     const MonotonicTime at = scheduler->now();
-    ++desk_->counters.requests;
+    ++server_->counters.requests;
     if (block[command_sequence] != last_sequence_) {
         auto second = co_await cnc.read_holding(config_.base_address, cnc_words);
         AXISCAL_CO_TRY(const Words again, std::move(second));
-        ++desk_->counters.requests;
+        ++server_->counters.requests;
         // the heartbeat in word 0 may move on meanwhile
         if (!std::equal(block.begin() + 1, block.end(), again.begin() + 1, again.end())) {
-            ++desk_->counters.torn_reads; // the CNC is still writing: the next poll sees it whole
+            ++server_->counters.torn_reads; // the CNC is still writing: the next poll sees it whole
             co_return Result<void>{};
         }
         last_sequence_ = block[command_sequence];
     }
     const ModbusRequest write{modbus_function::write_registers, 0, 0, 0, block};
-    desk_->write(write, at);
+    server_->write(write, at);
     co_return Result<void>{};
 }
 
 Task<Result<void>> MirroredPort::write_answer(ModbusClient& cnc, Scheduler* scheduler) {
-    const auto image = desk_->image(scheduler->now());
+    const auto image = server_->image(scheduler->now());
     Words ours(image.holding.begin() + daemon_heartbeat, image.holding.end());
     if (ours == last_written_) co_return Result<void>{};
     auto written = co_await cnc.write_registers(config_.base_address + daemon_heartbeat, ours);
     if (!written) co_return written;
-    ++desk_->counters.requests;
+    ++server_->counters.requests;
     last_written_ = std::move(ours);
     co_return Result<void>{};
 }

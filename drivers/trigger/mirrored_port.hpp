@@ -3,7 +3,7 @@
 // registers, from a base address on. Loop-bound.
 
 #include "drivers/trigger/modbus_client.hpp"
-#include "drivers/trigger/trigger_desk.hpp"
+#include "drivers/trigger/trigger_server.hpp"
 
 namespace axiscal {
 

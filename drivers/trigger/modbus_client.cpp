@@ -29,7 +29,7 @@ void put_word(std::vector<std::uint8_t>& bytes, int word) {
     bytes.push_back(static_cast<std::uint8_t>(word));
 }
 
-std::string exception_in_words(int code) {
+std::string exception_text(int code) {
     switch (code) {
     case 1: return "1 (it does not know this function)";
     case 2: return "2 (no such address: check base_address and the area it opens to Modbus)";
@@ -114,7 +114,7 @@ Task<Result<ModbusClient::Bytes>> ModbusClient::talk(Bytes pdu) {
     const ModbusReplyKind kind = kind_of_modbus_reply(in_, pdu[0]);
     if (kind == ModbusReplyKind::exception)
         co_return fail(Fault::refused, place() + " answers function " + std::to_string(pdu[0]) +
-                                           " with exception " + exception_in_words(in_[1]) + ".");
+                                           " with exception " + exception_text(in_[1]) + ".");
     if (kind == ModbusReplyKind::other)
         co_return fail(Fault::bad_frame, place() + " answers something else.");
     co_return in_;

@@ -50,30 +50,30 @@ public:
     RtuLine(TriggerConfig config,
             AddressSpace space,
             boost::asio::any_io_executor loop,
-            std::shared_ptr<TriggerDesk> desk,
+            std::shared_ptr<TriggerServer> server,
             std::shared_ptr<RtuMailbox> mailbox)
         : config_{std::move(config)}
         , space_{space}
         , loop_{std::move(loop)}
-        , desk_{std::move(desk)}
+        , server_{std::move(server)}
         , mailbox_{std::move(mailbox)} {}
 
     void work() {
         Duration pause = first_pause;
-        bool told = false;
+        bool reported = false;
         while (!mailbox_->stopped()) {
             if (open()) {
-                if (told) post_note(Fault::none, config_.serial_path + " is open again.");
-                told = false;
+                if (reported) post_note(Fault::none, config_.serial_path + " is open again.");
+                reported = false;
                 pause = first_pause;
                 serve();
                 if (mailbox_->stopped()) return;
             }
-            if (!told)
+            if (!reported)
                 post_note(Fault::link_closed, "The trigger line " + config_.serial_path +
                                                   " failed: " + modbus_strerror(errno) +
                                                   "; it is tried again and again.");
-            told = true;
+            reported = true;
             context_.reset();
             mailbox_->pause(pause);
             pause = std::min(2 * pause, longest_pause);
@@ -186,32 +186,32 @@ private:
 
     void post_look() {
         ++posted_;
-        boost::asio::post(loop_, [desk = desk_, mailbox = mailbox_] {
-            desk->look();
+        boost::asio::post(loop_, [server = server_, mailbox = mailbox_] {
+            server->look();
             mailbox->count();
         });
     }
     void post_write(const ModbusRequest& request, MonotonicTime at) {
         ++posted_;
-        boost::asio::post(loop_, [desk = desk_, mailbox = mailbox_, request, at] {
-            desk->write(request, at); // on_change puts the new image into the mailbox
+        boost::asio::post(loop_, [server = server_, mailbox = mailbox_, request, at] {
+            server->write(request, at); // on_change puts the new image into the mailbox
             mailbox->count();
         });
     }
     template <class Count> void post(Count count) {
-        boost::asio::post(loop_, [desk = desk_, count] { count(desk->counters); });
+        boost::asio::post(loop_, [server = server_, count] { count(server->counters); });
     }
     void post_note(Fault fault, std::string sentence) {
-        boost::asio::post(loop_, [desk = desk_, fault, text = std::move(sentence)] {
-            if (fault == Fault::none) ++desk->counters.reconnects;
-            desk->note(fault, text);
+        boost::asio::post(loop_, [server = server_, fault, text = std::move(sentence)] {
+            if (fault == Fault::none) ++server->counters.reconnects;
+            server->note(fault, text);
         });
     }
 
     TriggerConfig config_;
     AddressSpace space_;
     boost::asio::any_io_executor loop_;
-    std::shared_ptr<TriggerDesk> desk_; // used on the loop only, inside posts
+    std::shared_ptr<TriggerServer> server_; // used on the loop only, inside posts
     std::shared_ptr<RtuMailbox> mailbox_;
     ModbusContext context_;
     std::array<std::uint8_t, kernel_buffer> came_{};
@@ -229,19 +229,20 @@ ModbusRtuPort::~ModbusRtuPort() {
 
 void ModbusRtuPort::start(const TriggerContext& context) {
     mailbox_ = std::make_shared<RtuMailbox>();
-    desk_->attach(context);
-    // The desk outlives both in every post; a raw pointer keeps it from owning itself.
-    desk_->on_change = [desk = desk_.get(), mailbox = mailbox_, scheduler = context.scheduler] {
-        mailbox->put(desk->image(scheduler->now()));
+    server_->attach(context);
+    // The server outlives both in every post; a raw pointer keeps it from owning itself.
+    server_->on_change = [server = server_.get(), mailbox = mailbox_,
+                          scheduler = context.scheduler] {
+        mailbox->put(server->image(scheduler->now()));
     };
-    desk_->on_change();
-    RtuLine line{config_, desk_->space(), context.scheduler->executor(), desk_, mailbox_};
+    server_->on_change();
+    RtuLine line{config_, server_->space(), context.scheduler->executor(), server_, mailbox_};
     thread_ = std::thread{[line = std::move(line)]() mutable { line.work(); }};
 }
 
 void ModbusRtuPort::stop() {
-    desk_->detach();
-    desk_->on_change = nullptr;
+    server_->detach();
+    server_->on_change = nullptr;
     if (mailbox_) mailbox_->stop();
     if (thread_.joinable()) thread_.join();
 }
@@ -249,7 +250,7 @@ void ModbusRtuPort::stop() {
 Task<Result<void>> ModbusRtuPort::run(TriggerContext context) {
     start(context);
     try {
-        co_await desk_->keep_time(context.scheduler);
+        co_await server_->keep_time(context.scheduler);
     } catch (const std::exception&) { // cancelled: the way a port ends
     }
     stop();

@@ -3,7 +3,7 @@
 // so libmodbus waits for them on a thread of its own.
 
 #include "drivers/trigger/rtu_mailbox.hpp"
-#include "drivers/trigger/trigger_desk.hpp"
+#include "drivers/trigger/trigger_server.hpp"
 
 #include <thread>
 

@@ -37,11 +37,11 @@ asio::ip::address remote_of(const tcp::socket& socket) {
 /// One connection; lives as long as its coroutine.
 struct ModbusTcpPort::Client {
     Client(tcp::socket connected,
-           std::shared_ptr<TriggerDesk> served_desk,
+           std::shared_ptr<TriggerServer> served,
            std::shared_ptr<int> open_clients,
            Scheduler* its_scheduler,
            ClientPatience its_patience)
-        : desk{std::move(served_desk)}
+        : server{std::move(served)}
         , count{std::move(open_clients)}
         , scheduler{its_scheduler}
         , patience{its_patience}
@@ -54,7 +54,7 @@ struct ModbusTcpPort::Client {
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;
 
-    std::shared_ptr<TriggerDesk> desk; // kept while the last handlers run
+    std::shared_ptr<TriggerServer> server; // kept while the last handlers run
     std::shared_ptr<int> count;
     Scheduler* scheduler;
     ClientPatience patience;
@@ -96,14 +96,14 @@ Result<ModbusTcpPort::Acceptor> ModbusTcpPort::listen(const TriggerContext& cont
 Task<Result<void>> ModbusTcpPort::run(TriggerContext context) {
     AXISCAL_CO_TRY(Acceptor acceptor, listen(context));
     bound_port_ = acceptor.local_endpoint().port();
-    desk_->attach(context);
+    server_->attach(context);
     try {
         auto accepting = accept_clients(acceptor, context.scheduler);
-        auto timing = desk_->keep_time(context.scheduler);
+        auto timing = server_->keep_time(context.scheduler);
         co_await (std::move(accepting) || std::move(timing));
     } catch (const std::exception&) { // cancelled: the way a port ends
     }
-    desk_->detach();
+    server_->detach();
     hang_up_all();
     bound_port_ = 0;
     co_return fail(Fault::link_closed, describe() + " was stopped.");
@@ -125,9 +125,9 @@ bool ModbusTcpPort::is_stranger(const tcp::socket& socket, MonotonicTime now) {
     const auto remote = remote_of(socket);
     const std::string from = remote.is_unspecified() ? "" : remote.to_string();
     if (any_covers(config_.allowed_clients, from)) return false;
-    ++desk_->counters.strangers;
+    ++server_->counters.strangers;
     if (const auto words = strangers_.take(from, now))
-        desk_->note(Fault::refused, describe() + " turned " + *words +
+        server_->note(Fault::refused, describe() + " turned " + *words +
                                         ": trigger.allowed_clients does not name it.");
     return true;
 }
@@ -147,7 +147,7 @@ void ModbusTcpPort::make_room(const asio::ip::address& newcomer) {
     boost::system::error_code ignored; // closing cannot be refused
     leaves->lock()->socket.close(ignored);
     clients_.erase(leaves);
-    ++desk_->counters.refused;
+    ++server_->counters.refused;
 }
 
 void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
@@ -155,14 +155,14 @@ void ModbusTcpPort::admit(tcp::socket socket, Scheduler* scheduler) {
     make_room(remote_of(socket));
     auto answerer = ModbusAnswerer::open();
     if (!answerer) {
-        desk_->note(Fault::io, axiscal::describe(answerer.error()));
+        server_->note(Fault::io, axiscal::describe(answerer.error()));
         return;
     }
     boost::system::error_code ignored; // a client gone already shows at the first read
     socket.set_option(tcp::no_delay(true), ignored);
     socket.set_option(asio::socket_base::send_buffer_size(unread_answers), ignored);
     auto client =
-        std::make_shared<Client>(std::move(socket), desk_, open_clients_, scheduler, patience_);
+        std::make_shared<Client>(std::move(socket), server_, open_clients_, scheduler, patience_);
     client->answerer = std::move(*answerer);
     clients_.push_back(client);
     asio::co_spawn(scheduler->executor(), attend(std::move(client)), asio::detached);
@@ -173,7 +173,7 @@ Task<void> ModbusTcpPort::attend(std::shared_ptr<Client> client) {
     auto serving = serve(*client);
     auto watching = watch(*client);
     const auto ended = co_await (std::move(serving) || std::move(watching));
-    if (ended.index() == 1) ++client->desk->counters.hung_up;
+    if (ended.index() == 1) ++client->server->counters.hung_up;
 }
 
 Task<void> ModbusTcpPort::serve(Client& client) {
@@ -185,7 +185,7 @@ Task<void> ModbusTcpPort::serve(Client& client) {
         client.framer.feed({client.buffer.data(), length});
         if (!co_await answer_frames(client)) co_return;
         if (client.framer.broken()) {
-            ++client.desk->counters.hung_up;
+            ++client.server->counters.hung_up;
             co_return;
         }
     }
@@ -198,16 +198,16 @@ Task<bool> ModbusTcpPort::answer_frames(Client& client) {
     bool answered = false;
     while (const auto frame = client.framer.next()) {
         answered = true;
-        if (!client.desk->attached()) co_return false;
+        if (!client.server->attached()) co_return false;
         const std::span<const std::uint8_t> pdu{frame->data() + mbap_header,
                                                 frame->size() - mbap_header};
         const auto request = parse_modbus_request(pdu);
-        const auto verdict = request ? client.desk->space().check(*request) : request.error();
+        const auto verdict = request ? client.server->space().check(*request) : request.error();
         if (verdict == ModbusException::none && !request->values.empty())
-            client.desk->write(*request, at);
-        ++client.desk->counters.requests;
-        if (verdict != ModbusException::none) ++client.desk->counters.exceptions;
-        const RegisterImage image = client.desk->image(client.scheduler->now());
+            client.server->write(*request, at);
+        ++client.server->counters.requests;
+        if (verdict != ModbusException::none) ++client.server->counters.exceptions;
+        const RegisterImage image = client.server->image(client.scheduler->now());
         const auto at_once = client.answerer->answer_at_once(client.socket.native_handle(), *frame,
                                                              verdict, image);
         if (!at_once) co_return false;

@@ -2,7 +2,7 @@
 // The CNC is the Modbus TCP client, we are the server. Asio reads frames and writes answers, so a
 // slow, split, broken or never-reading client holds up nobody but itself. Loop-bound.
 
-#include "drivers/trigger/trigger_desk.hpp"
+#include "drivers/trigger/trigger_server.hpp"
 #include "drivers/turned_away.hpp"
 
 #include <boost/asio/ip/tcp.hpp>

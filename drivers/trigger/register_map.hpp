@@ -62,7 +62,7 @@ public:
     virtual void show(const PortStatus& status) = 0;
 
 protected:
-    friend class TriggerDesk; // the one way to `finish` leads through a JournalReceipt
+    friend class TriggerServer; // the one way to `finish` leads through a JournalReceipt
     virtual void finish(std::uint16_t sequence) = 0;
     /// Finished without a point, where the shape can say so.
     virtual void finish_skip(std::uint16_t sequence) { finish(sequence); }

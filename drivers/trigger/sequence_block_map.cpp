@@ -192,14 +192,14 @@ void SequenceBlockMap::show(const PortStatus& status) {
 void SequenceBlockMap::show_permission() {
     const std::uint16_t standing = words_[command_sequence];
     const bool refused = standing != 0 && words_[fault_sequence] == standing;
-    PortStatus told = shown_;
+    PortStatus status = shown_;
     if (refused || (shown_.run_broken_off && standing != 0)) {
-        told.may_move = false;
-        told.feed_hold = true;
+        status.may_move = false;
+        status.feed_hold = true;
     }
-    if (refused && told.state != PortState::error) told.state = PortState::hold;
-    words_[state] = static_cast<std::uint16_t>(told.state);
-    words_[permit] = permit_word(told);
+    if (refused && status.state != PortState::error) status.state = PortState::hold;
+    words_[state] = static_cast<std::uint16_t>(status.state);
+    words_[permit] = permit_word(status);
 }
 
 std::int32_t SequenceBlockMap::long_at(int word) const {

@@ -15,8 +15,8 @@ RealLinkOpener::RealLinkOpener(Scheduler& scheduler)
     , files_{scheduler.executor()} {}
 
 RealLinkOpener::~RealLinkOpener() {
-    for (auto& [path, porter] : porters_)
-        porter->forget_loop();
+    for (auto& [path, serial_opener] : serial_openers_)
+        serial_opener->forget_loop();
 }
 
 Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings& settings,
@@ -34,9 +34,10 @@ Task<Result<std::unique_ptr<ByteLink>>> RealLinkOpener::open(const LinkSettings&
     if (settings.kind == LinkSettings::Kind::files) co_return files_.open(settings.path);
     if (settings.kind == LinkSettings::Kind::usb || settings.kind == LinkSettings::Kind::can)
         co_return fail(Fault::internal, settings.describe() + " is no stream of bytes");
-    auto& porter = porters_[settings.path];
-    if (!porter) porter = std::make_shared<TtyPorter>(settings.describe(), scheduler_.executor());
-    auto opened = co_await open_serial(scheduler_, porter, settings, deadline);
+    auto& serial_opener = serial_openers_[settings.path];
+    if (!serial_opener)
+        serial_opener = std::make_shared<SerialOpener>(settings.describe(), scheduler_.executor());
+    auto opened = co_await open_serial(scheduler_, serial_opener, settings, deadline);
     co_return opened;
 }
 

@@ -6,7 +6,7 @@
 #include "drivers/wire/arrival.hpp"
 #include "drivers/wire/file_link.hpp"
 #include "drivers/wire/modbus_bus.hpp"
-#include "drivers/wire/tty_porter.hpp"
+#include "drivers/wire/serial_opener.hpp"
 
 #include <map>
 
@@ -33,7 +33,7 @@ public:
 
 private:
     Scheduler& scheduler_;
-    std::map<std::string, std::shared_ptr<TtyPorter>> porters_; ///< by path
+    std::map<std::string, std::shared_ptr<SerialOpener>> serial_openers_; ///< by path
     ModbusBuses buses_;
     FileLinks files_;
     WorkThreads threads_;

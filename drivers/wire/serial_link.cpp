@@ -148,14 +148,14 @@ Result<int> open_tty(const LinkSettings& settings) {
 }
 
 Task<Result<std::unique_ptr<ByteLink>>> open_serial(Scheduler& scheduler,
-                                                    std::shared_ptr<TtyPorter> porter,
+                                                    std::shared_ptr<SerialOpener> serial_opener,
                                                     LinkSettings settings,
                                                     MonotonicTime deadline) {
     TtyOpener opener = [settings] { return open_tty(settings); };
-    const auto tty = co_await porter->open(scheduler, std::move(opener), deadline);
+    const auto tty = co_await serial_opener->open(scheduler, std::move(opener), deadline);
     if (!tty) co_return tl::unexpected<Error>(tty.error());
     DescriptorKind kind = kind_of(settings);
-    kind.close = [porter](int descriptor) { porter->close(descriptor); };
+    kind.close = [serial_opener](int descriptor) { serial_opener->close(descriptor); };
     co_return std::make_unique<DescriptorLink>(scheduler, *tty, std::move(kind));
 }
 

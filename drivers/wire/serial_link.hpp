@@ -1,7 +1,7 @@
 #pragma once
 // Opening a serial line: raw, held alone, as the station file says. Works on ptys.
 
-#include "drivers/wire/tty_porter.hpp"
+#include "drivers/wire/serial_opener.hpp"
 
 #include <optional>
 
@@ -13,10 +13,10 @@ namespace axiscal {
 /// these line settings.
 Result<int> open_tty(const LinkSettings& settings);
 
-/// The same on the porter's thread, as a link that closes there, too. Loop-bound.
+/// The same on the thread of the serial opener, as a link that closes there, too. Loop-bound.
 /// @errors of open_tty; Fault::link_timeout when the kernel is not done at the deadline.
 Task<Result<std::unique_ptr<ByteLink>>> open_serial(Scheduler& scheduler,
-                                                    std::shared_ptr<TtyPorter> porter,
+                                                    std::shared_ptr<SerialOpener> serial_opener,
                                                     LinkSettings settings,
                                                     MonotonicTime deadline);
 

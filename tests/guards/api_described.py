@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/api.md describes each call that the station answers, and each key of the status, and no other.
 
-A call is a path that http_face.cpp compares the request with: in respond() it is read with GET, elsewhere in that file
+A call is a path that http_server.cpp compares the request with: in respond() it is read with GET, elsewhere in that file
 it changes with POST. The page's calls stand first in a row of its tables; any other page may name only calls that
 there are. The sentences of a 404 must list them too. Keys of the status and of the stream are those that the functions
 to_json() and trigger_json() write, compared table by table with the examples of the page.
@@ -28,7 +28,7 @@ TABLES = {"AxisView": "axis", "ChannelView": "channels", "InstrumentView": "inst
 
 def functions_of(source):
     """Name and body of each member function of the face."""
-    parts = re.split(r"^\S[^\n;]*HttpFace::Impl::(\w+)\(", source, flags=re.M)
+    parts = re.split(r"^\S[^\n;]*HttpServer::Impl::(\w+)\(", source, flags=re.M)
     return list(zip(parts[1::2], parts[2::2]))
 
 
@@ -104,13 +104,13 @@ def keys_complaints(writers, page):
     yield from differences("the status", whole, set(status))
 
 
-FACE = '''Task<Response> HttpFace::Impl::respond(Request request) {
+FACE = '''Task<Response> HttpServer::Impl::respond(Request request) {
     if (target == stream_path) x();
     if (request.target() == "/v1/status") y();
     answer(sentence(404, "known are GET /v1/status, GET /v1/stream, "
                          "POST /v1/run"));
 }
-Task<Response> HttpFace::Impl::change(Request request) {
+Task<Response> HttpServer::Impl::change(Request request) {
     if (target == "/v1/run") z();
     answer(sentence(404, "known are POST /v1/run"));
 }
@@ -172,8 +172,8 @@ def main():
     others = {str(path.relative_to(root)): path.read_text(encoding="utf-8")
               for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))]}
     writers = [writer for text in sources.values() for writer in WRITER.findall(text)]
-    found = [*calls_complaints(sources["http_face.cpp"], constants, page, others), *keys_complaints(writers, page)]
-    calls = calls_of(sources["http_face.cpp"], constants)
+    found = [*calls_complaints(sources["http_server.cpp"], constants, page, others), *keys_complaints(writers, page)]
+    calls = calls_of(sources["http_server.cpp"], constants)
     seen = set(TABLES) - {kind for kind, _ in writers}
     found += [f"no function writes {kind} any more: look at this guard" for kind in sorted(seen)]
     print("\n".join(found))

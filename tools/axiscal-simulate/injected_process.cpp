@@ -1,7 +1,7 @@
 #include "injected_process.hpp"
 
 #include "simulated_machine.hpp"
-#include "wire/sensor_faces.hpp"
+#include "wire/simulated_sensors.hpp"
 #include "wire/umd_counter.hpp"
 
 #include <algorithm>

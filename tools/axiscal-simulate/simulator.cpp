@@ -1,7 +1,7 @@
 #include "simulator.hpp"
 
 #include "truth.hpp"
-#include "wire/sensor_faces.hpp"
+#include "wire/simulated_sensors.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -41,22 +41,22 @@ Result<std::unique_ptr<Simulator>> Simulator::open(const Scenario& scenario) {
 Result<void> Simulator::open_faces() {
     const auto drive = [this](double seconds) { return axis_.position_mm(seconds); };
     if (scenario_.laser.kind == "ids3010") {
-        AXISCAL_TRY(auto face, IdsFace::open(scenario_, clock_, drive));
+        AXISCAL_TRY(auto face, SimulatedIds::open(scenario_, clock_, drive));
         ids_ = face.get();
         sensors_.push_back(std::move(face));
     } else if (!scenario_.laser.path.empty()) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
         const auto table = [this](double seconds) { return table_.position_mm(seconds); };
-        laser_ = std::make_unique<LaserFace>(scenario_, std::move(pty), clock_, drive, table);
+        laser_ = std::make_unique<SimulatedLaser>(scenario_, std::move(pty), clock_, drive, table);
     }
     const auto slide = [this] { return laser_ ? laser_->slide_mm() : 0.0; };
     for (const SensorScenario& sensor : scenario_.sensors) {
-        AXISCAL_TRY(auto face, open_sensor_face(scenario_, sensor, clock_, slide));
+        AXISCAL_TRY(auto face, open_simulated_sensor(scenario_, sensor, clock_, slide));
         sensors_.push_back(std::move(face));
     }
     if (scenario_.ballbar) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.ballbar->path));
-        auto bar = std::make_unique<BarFace>(scenario_, std::move(pty), clock_, plane_);
+        auto bar = std::make_unique<SimulatedBar>(scenario_, std::move(pty), clock_, plane_);
         bar_ = bar.get();
         sensors_.push_back(std::move(bar));
     }

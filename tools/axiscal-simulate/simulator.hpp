@@ -3,10 +3,10 @@
 
 #include "cnc/cnc_exchange.hpp"
 #include "cnc/cnc_runner.hpp"
-#include "wire/bar_face.hpp"
-#include "wire/ids_face.hpp"
-#include "wire/laser_face.hpp"
 #include "wire/serial_cable.hpp"
+#include "wire/simulated_bar.hpp"
+#include "wire/simulated_ids.hpp"
+#include "wire/simulated_laser.hpp"
 
 #include <condition_variable>
 #include <memory>
@@ -67,10 +67,10 @@ private:
     double told_position_ = 0;   ///< of the table, by a position stream
     CommandedPlane plane_;
     CncLines lines_;
-    std::unique_ptr<LaserFace> laser_;
-    std::vector<std::unique_ptr<Face>> sensors_;
-    BarFace* bar_ = nullptr;             ///< one of them
-    IdsFace* ids_ = nullptr;             ///< one of them: the laser in laser_'s place
+    std::unique_ptr<SimulatedLaser> laser_;
+    std::vector<std::unique_ptr<SimulatedDevice>> sensors_;
+    SimulatedBar* bar_ = nullptr;        ///< one of them
+    SimulatedIds* ids_ = nullptr;        ///< one of them: the laser in laser_'s place
     std::unique_ptr<SerialCable> cable_; ///< RTU: between the daemon's port and the CNC's
     std::unique_ptr<CncExchange> exchange_;
     CncClient* client_ = nullptr; ///< exchange_, where it is a client

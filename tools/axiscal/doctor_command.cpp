@@ -60,14 +60,14 @@ std::vector<Finding> findings_of(const tl::expected<LoadedStation, std::vector<R
     return found;
 }
 
-void ask_daemon(const StationClient& client, Patient& patient) {
+void ask_daemon(const StationClient& client, CheckedSystem& checked) {
     const auto reply = client.get("/v1/status");
-    patient.daemon_answers = reply && reply->status < 300;
-    if (!patient.daemon_answers) return;
+    checked.daemon_answers = reply && reply->status < 300;
+    if (!checked.daemon_answers) return;
     const Json status = Json::parse(reply->body, nullptr, false);
-    if (status.is_object()) patient.daemon_version = status.value("version", "");
+    if (status.is_object()) checked.daemon_version = status.value("version", "");
     if (status.is_object() && status.contains("trigger"))
-        patient.trigger_note = status["trigger"].value("note", "");
+        checked.trigger_note = status["trigger"].value("note", "");
 }
 
 StationWires wires_of(const std::string& file) {
@@ -85,22 +85,22 @@ std::vector<Finding> examine(const DoctorRequest& request) {
     };
     const std::int64_t utc_ns =
         std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
-    Patient patient;
-    patient.config = station ? &station->config : nullptr;
-    patient.wires = wires_of(request.station_file);
-    patient.service = service_account();
+    CheckedSystem checked;
+    checked.config = station ? &station->config : nullptr;
+    checked.wires = wires_of(request.station_file);
+    checked.service = service_account();
     const ConsoleConfig console = station ? station->config.console : ConsoleConfig{};
     const std::string socket = request.socket.empty() ? console.socket_path : request.socket;
     const StationClient client{{socket, "", ""}};
-    ask_daemon(client, patient);
-    add(check_account(patient));
-    add(check_wires(patient, request.places));
+    ask_daemon(client, checked);
+    add(check_account(checked));
+    add(check_wires(checked, request.places));
     if (station) add(check_certificates(station->config, utc_ns));
     add(check_clock(request.places));
-    add(check_disk(patient));
-    if (station) add(check_share(patient, utc_ns));
-    if (station) add(check_ports(patient));
-    add(check_modules(patient, request.places));
+    add(check_disk(checked));
+    if (station) add(check_share(checked, utc_ns));
+    if (station) add(check_ports(checked));
+    add(check_modules(checked, request.places));
     add(check_papers(request.places));
     return all;
 }

@@ -13,7 +13,7 @@ struct DeviationName {
 constexpr std::array circular_deviations{
     DeviationName{"G_ccw", "G CCW"}, DeviationName{"G_cw", "G CW"}, DeviationName{"G_b", "G(b)"}};
 
-std::string change_words(const CaptureEffect& effect) {
+std::string change_text(const CaptureEffect& effect) {
     std::string words;
     for (const auto& [key, name] : circular_deviations)
         if (const auto found = effect.done_again_mm.find(key); found != effect.done_again_mm.end())
@@ -23,7 +23,7 @@ std::string change_words(const CaptureEffect& effect) {
 }
 
 /// Of what G is: of the readings, or of the mean of several circles.
-std::string origin_words(const CircularCertificate& certificate) {
+std::string origin_text(const CircularCertificate& certificate) {
     const int repeats = certificate.measured.run.plan.repeats;
     if (repeats <= 1) return "G is that of the readings.";
     return "G is that of the mean circle of " + std::to_string(repeats) +
@@ -50,7 +50,7 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
     if (!is_changed(effect.capture)) {
         sheet.text("All readings count, spikes at reversals included. The station file states "
                    "neither averaging nor a filter of the bar's electronics. " +
-                       origin_words(certificate),
+                       origin_text(certificate),
                    note_style);
         return;
     }
@@ -62,13 +62,13 @@ void draw_capture_effect(Sheet& sheet, const CircularCertificate& certificate) {
         words += "1 % of the amplitude is lost at " +
                  compact_number(*effect.one_percent_per_revolution, 3) +
                  " undulations per revolution. ";
-    if (const std::string changes = change_words(effect); !changes.empty())
+    if (const std::string changes = change_text(effect); !changes.empty())
         words +=
             "Averaging and filtering the readings once more changes " + changes +
             ": about what the first time took of forms that keep most of their amplitude; what "
             "was lost altogether does not show. ";
     if (!effect.not_known.empty()) words += effect.not_known + " ";
-    sheet.text(words + origin_words(certificate), note_style);
+    sheet.text(words + origin_text(certificate), note_style);
 }
 
 } // namespace axiscal

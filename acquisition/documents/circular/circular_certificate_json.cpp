@@ -86,29 +86,29 @@ Json temperature_json(const CircularTemperature& from) {
     return object;
 }
 
-Json environment_of(const CircularConditions& told) {
+Json environment_of(const CircularConditions& conditions) {
     Json object;
-    object["air"] = temperature_json(told.air);
-    object["instrument"] = temperature_json(told.bar);
-    object["machine"] = temperature_json(told.machine);
+    object["air"] = temperature_json(conditions.air);
+    object["instrument"] = temperature_json(conditions.bar);
+    object["machine"] = temperature_json(conditions.machine);
     return object;
 }
 
 Json plan_of(const CircularMeasurement& measured) {
-    const CircularConditions& told = measured.conditions;
+    const CircularConditions& conditions = measured.conditions;
     Json object;
     object["plane"] = measured.axes[0] + measured.axes[1];
     object["axes"] = {measured.axes[0], measured.axes[1]};
     object["nominal_diameter_mm"] = 2 * measured.test.nominal_radius_mm;
     object["nominal_radius_mm"] = measured.test.nominal_radius_mm;
     object["feed_mm_per_s"] = measured.test.feed_mm_per_s;
-    object["centre_mm"] = stated_json(told.centre_mm);
-    object["tool_offset"] = stated_json(told.tool_offset);
-    object["work_offset"] = stated_json(told.work_offset);
-    object["repeats"] = stated_json(told.repeats);
-    object["warm_up_circles"] = stated_json(told.warm_up);
-    object["overshoot_deg"] = stated_json(told.overshoot_deg);
-    object["feed_in"] = stated_json(told.feed_in);
+    object["centre_mm"] = stated_json(conditions.centre_mm);
+    object["tool_offset"] = stated_json(conditions.tool_offset);
+    object["work_offset"] = stated_json(conditions.work_offset);
+    object["repeats"] = stated_json(conditions.repeats);
+    object["warm_up_circles"] = stated_json(conditions.warm_up);
+    object["overshoot_deg"] = stated_json(conditions.overshoot_deg);
+    object["feed_in"] = stated_json(conditions.feed_in);
     return object;
 }
 
@@ -136,14 +136,14 @@ Json effect_of(const CircularCertificate& certificate) {
 
 Json capture_of(const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
-    const CircularConditions& told = measured.conditions;
+    const CircularConditions& conditions = measured.conditions;
     Json object;
     object["source"] = measured.test.source == SignalSource::feedback ? "feedback" : "external";
     object["taken_elsewhere"] = measured.taken_elsewhere;
-    object["sample_rate_hz"] = stated_json(told.sample_rate_hz);
-    object["filter"] = stated_json(told.filter);
+    object["sample_rate_hz"] = stated_json(conditions.sample_rate_hz);
+    object["filter"] = stated_json(conditions.filter);
     object["effect_on_G"] = effect_of(certificate);
-    object["angle_origin"] = stated_json(told.angle_origin);
+    object["angle_origin"] = stated_json(conditions.angle_origin);
     object["missing_readings"] = measured.taken_elsewhere ? Json{} : Json(measured.run.missing);
     object["readings"] = Json::object();
     for (const CircularTrace& trace : measured.test.traces) {

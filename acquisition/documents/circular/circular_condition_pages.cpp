@@ -14,14 +14,14 @@ std::string or_not_stated(const std::optional<double>& value, const std::string&
     return value ? compact_number(*value) + unit : "not stated";
 }
 
-std::string centre_words(const CircularConditions& told) {
-    if (!told.centre_mm) return "not stated";
-    const auto& centre = *told.centre_mm;
+std::string centre_text(const CircularConditions& conditions) {
+    if (!conditions.centre_mm) return "not stated";
+    const auto& centre = *conditions.centre_mm;
     return "X " + compact_number(centre[0]) + ", Y " + compact_number(centre[1]) + ", Z " +
            compact_number(centre[2]) + " mm";
 }
 
-std::string count_words(const std::optional<int>& count) {
+std::string count_text(const std::optional<int>& count) {
     return count ? std::to_string(*count) + " of each sense" : "not stated";
 }
 
@@ -32,8 +32,8 @@ void add_senses(std::vector<StatedField>& fields, const CircularTest& test) {
             fields.push_back({std::string{key} + (trace.sense == Sense::ccw ? ", CCW" : ", CW"),
                               words_of(trace)});
     };
-    add("Start", start_words);
-    add("End", end_words);
+    add("Start", start_text);
+    add("End", end_text);
     add("Readings",
         [](const CircularTrace& trace) { return std::to_string(trace.angle_rad.size()); });
 }
@@ -54,28 +54,28 @@ std::string filter_on_paper(const CircularCertificate& certificate) {
 
 void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
-    const CircularConditions& told = measured.conditions;
+    const CircularConditions& conditions = measured.conditions;
     const Statements& said = measured.run.statements;
     std::vector<StatedField> fields{
         {"Nominal diameter", compact_number(2 * measured.test.nominal_radius_mm) + " mm"},
-        {"Feed along the path", feed_words(measured.test.feed_mm_per_s)},
+        {"Feed along the path", feed_text(measured.test.feed_mm_per_s)},
         {"Plane", measured.axes[0] + measured.axes[1] + ": CCW turns +" + measured.axes[0] +
                       " to +" + measured.axes[1]},
         {"Senses, as driven", senses_in_order(measured.test)},
-        {"Centre X, Y, Z", centre_words(told)},
-        {"Offset to the tool reference", stated(told.tool_offset)},
+        {"Centre X, Y, Z", centre_text(conditions)},
+        {"Offset to the tool reference", stated(conditions.tool_offset)},
         {"Positions of idle axes", stated(said.idle_axes)},
-        {"Offset to the workpiece reference", stated(told.work_offset)},
-        {"Circles evaluated", count_words(told.repeats)},
-        {"Circles to warm up", count_words(told.warm_up)},
-        {"Feed-in and feed-out", stated(told.feed_in)},
-        {"Overshoot before and after", or_not_stated(told.overshoot_deg, "°")},
+        {"Offset to the workpiece reference", stated(conditions.work_offset)},
+        {"Circles evaluated", count_text(conditions.repeats)},
+        {"Circles to warm up", count_text(conditions.warm_up)},
+        {"Feed-in and feed-out", stated(conditions.feed_in)},
+        {"Overshoot before and after", or_not_stated(conditions.overshoot_deg, "°")},
         {"Readings from", measured.test.source == SignalSource::feedback
                               ? "feedback signals of the machine"
                               : "an instrument outside the machine"},
-        {"Sampling rate", or_not_stated(told.sample_rate_hz, " Hz")},
+        {"Sampling rate", or_not_stated(conditions.sample_rate_hz, " Hz")},
         {"Filter, averaging", filter_on_paper(certificate)},
-        {"Angle of a reading", stated(told.angle_origin)},
+        {"Angle of a reading", stated(conditions.angle_origin)},
         {"Control compensation used", stated(said.control_compensation)},
         {"Warm-up", stated(said.warm_up)}};
     add_senses(fields, measured.test);
@@ -86,23 +86,23 @@ void draw_conditions(Sheet& sheet, const CircularCertificate& certificate) {
                    note_style);
 }
 
-std::string expansion_words(double alpha_per_K) {
+std::string expansion_text(double alpha_per_K) {
     constexpr double micro = 1e6;
     return compact_number(alpha_per_K * micro) + " µm/(m·K)";
 }
 
 void draw_temperatures(Sheet& sheet, const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
-    const CircularConditions& told = measured.conditions;
+    const CircularConditions& conditions = measured.conditions;
     sheet.heading("Temperatures and compensation to 20 °C", 60);
-    std::vector<StatedField> fields{{"Air", temperature_words(told.air)},
-                                    {"Instrument (bar)", temperature_words(told.bar)},
-                                    {"Machine", temperature_words(told.machine)}};
+    std::vector<StatedField> fields{{"Air", temperature_text(conditions.air)},
+                                    {"Instrument (bar)", temperature_text(conditions.bar)},
+                                    {"Machine", temperature_text(conditions.machine)}};
     if (const auto& bar = measured.expansion) {
         fields.push_back(
             {"Bar, calibrated length L", compact_number(bar->bar_length_mm, 9) + " mm"});
-        fields.push_back({"Bar, expansion α", expansion_words(bar->bar_alpha_per_K)});
-        fields.push_back({"Machine, expansion α", expansion_words(bar->machine_alpha_per_K)});
+        fields.push_back({"Bar, expansion α", expansion_text(bar->bar_alpha_per_K)});
+        fields.push_back({"Machine, expansion α", expansion_text(bar->machine_alpha_per_K)});
         fields.push_back(
             {"Correction in F and D",
              micrometres(certificate.parameters.correction_mm.value_or(0), 2, true) + " µm"});
@@ -116,7 +116,7 @@ void draw_temperatures(Sheet& sheet, const CircularCertificate& certificate) {
 }
 
 /// @param circles  at least one
-std::string synchronisation_words(const std::vector<CircleCapture>& circles) {
+std::string synchronisation_text(const std::vector<CircleCapture>& circles) {
     Synchronisation worst;
     for (const CircleCapture& circle : circles) {
         if (!circle.synchronisation)
@@ -152,7 +152,7 @@ void draw_circles(Sheet& sheet, const CircularCertificate& certificate) {
                 rows, 7);
     sheet.text("Path residual: time found from the begin to the end of the circle minus the "
                "programmed one, times the feed. " +
-                   synchronisation_words(certificate.measured.run.circles),
+                   synchronisation_text(certificate.measured.run.circles),
                note_style);
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double width_of_both_senses = 300, column_gap = 12, legend_of_both_senses = 40;
 constexpr Colour bar_colour{0.55, 0.62, 0.7};
 
-std::string senses_words(const CircularTest& test) {
+std::string senses_text(const CircularTest& test) {
     std::string words;
     for (const CircularTrace& trace : test.traces)
         words += (words.empty() ? "" : " and ") + sense_name(trace.sense);
@@ -25,7 +25,7 @@ std::string subject_of(const CircularCertificate& certificate) {
     const bool full = certificate.parameters.cover.full_circle;
     return std::string{"Circular test, ISO 230-4, plane "} + measured.axes[0] + measured.axes[1] +
            ", nominal radius " + compact_number(measured.test.nominal_radius_mm) + " mm, " +
-           feed_words(measured.test.feed_mm_per_s) + ", " + senses_words(measured.test) + ", " +
+           feed_text(measured.test.feed_mm_per_s) + ", " + senses_text(measured.test) + ", " +
            (full ? "full circle"
                  : "arc of " + fixed(certificate.parameters.cover.arc_deg, 0) + "°") +
            (measured.test.source == SignalSource::feedback ? "; feedback signals" : "");
@@ -71,7 +71,7 @@ double draw_figures(Canvas& canvas, PageBox column, const CircularCertificate& c
         canvas.text({value_right, y},
                     micrometres(line.value_mm, deviation_decimals(certificate), signed_value),
                     value, Align::right);
-        canvas.text({u_left, y}, uncertainty_words(certificate, line.key), small);
+        canvas.text({u_left, y}, uncertainty_text(certificate, line.key), small);
         canvas.paragraph({column.x, y + 3}, column.width, line.words, {6.5, false, grey}, 1);
         y += row;
     }
@@ -92,7 +92,7 @@ void draw_column(Canvas& canvas, PageBox column, const CircularCertificate& cert
     };
     const bool external = certificate.measured.test.source == SignalSource::external;
     tell("G by the minimum zone" +
-         (external ? "; " + radial_centre_words(certificate) + ". " + temperature_note(certificate)
+         (external ? "; " + radial_centre_text(certificate) + ". " + temperature_note(certificate)
                    : std::string{"."}));
     for (const std::string& reason : reasons_not_evaluated(certificate))
         tell(reason);

@@ -15,7 +15,7 @@ std::string pair_of(double x_mm, double y_mm, int decimals) {
     return micrometres(x_mm, decimals, true) + ", " + micrometres(y_mm, decimals, true) + " µm";
 }
 
-std::string radius_words(double above_mm, int decimals) {
+std::string radius_text(double above_mm, int decimals) {
     return "R " + std::string{above_mm < 0 ? "\u2212 " : "+ "} +
            micrometres(std::fabs(above_mm), decimals) + " µm";
 }
@@ -33,14 +33,14 @@ std::vector<StatedField> pairs_of(const CircularCertificate& certificate, Sense 
         pairs.push_back({"F max", micrometres(figures.F.max_mm, digits, true) + " µm"});
         pairs.push_back({"F min", micrometres(figures.F.min_mm, digits, true) + " µm"});
     }
-    pairs.push_back({"Zone, outer circle", radius_words(deviation.ring.outer_mm, digits)});
-    pairs.push_back({"Zone, inner circle", radius_words(deviation.ring.inner_mm, digits)});
-    pairs.push_back({"Least squares radius", radius_words(deviation.fitted.radius_mm, digits)});
+    pairs.push_back({"Zone, outer circle", radius_text(deviation.ring.outer_mm, digits)});
+    pairs.push_back({"Zone, inner circle", radius_text(deviation.ring.inner_mm, digits)});
+    pairs.push_back({"Least squares radius", radius_text(deviation.fitted.radius_mm, digits)});
     pairs.push_back({"Zone centre", pair_of(deviation.ring.x_mm, deviation.ring.y_mm, digits)});
     pairs.push_back({"Least squares (l. s.) centre",
                      pair_of(deviation.fitted.x_mm, deviation.fitted.y_mm, digits)});
-    pairs.push_back({"Start", start_words(trace)});
-    pairs.push_back({"End", end_words(trace)});
+    pairs.push_back({"Start", start_text(trace)});
+    pairs.push_back({"End", end_text(trace)});
     pairs.push_back({"Readings", std::to_string(trace.angle_rad.size())});
     pairs.push_back({"Arc covered", fixed(figures.cover.arc_deg, 1) + "°" +
                                         (figures.cover.full_circle ? ", full circle" : "")});

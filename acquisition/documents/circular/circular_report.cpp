@@ -6,18 +6,18 @@
 namespace axiscal {
 namespace {
 
-std::string plane_words(const CircularCertificate& certificate) {
+std::string plane_text(const CircularCertificate& certificate) {
     return "plane " + certificate.measured.axes[0] + certificate.measured.axes[1];
 }
 
 std::string title_of(const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
     return (measured.taken_elsewhere ? "Report of a circular test " : "Calibration certificate ") +
-           stated(measured.run.statements.certificate_number) + ", " + plane_words(certificate);
+           stated(measured.run.statements.certificate_number) + ", " + plane_text(certificate);
 }
 
 /// What is missing, in words that fit a page's head; empty when nothing is.
-std::string preliminary_words(const CircularCertificate& certificate) {
+std::string preliminary_text(const CircularCertificate& certificate) {
     if (!certificate.preliminary) return {};
     if (!certificate.budget) return "PRELIMINARY: no uncertainty budget";
     std::string names;
@@ -34,14 +34,14 @@ PageFrame frame_of(const CircularCertificate& certificate) {
     frame.laboratory = said.laboratory.empty() ? "Laboratory not stated" : said.laboratory;
     frame.certificate_number = stated(said.certificate_number);
     frame.subject = stated(said.machine) + ", serial " + stated(said.machine_serial) + ", " +
-                    plane_words(certificate);
+                    plane_text(certificate);
     frame.foot = (measured.taken_elsewhere ? "Case " : "Run ") + stated(measured.run.run_id) +
                  (measured.taken_elsewhere ? " · case file SHA-256 " : " · run file SHA-256 ") +
                  stated(certificate.file_sha256.substr(0, digits_of_hash)) + "… · axiscal " +
                  stated(measured.run.software_version);
     if (!certificate.replaces.empty())
         frame.certificate_number += ", replaces " + certificate.replaces;
-    frame.preliminary = preliminary_words(certificate);
+    frame.preliminary = preliminary_text(certificate);
     return frame;
 }
 

@@ -59,7 +59,7 @@ std::string symbol_with_index(const std::string& key, const CircularCertificate&
     return symbol + extreme + " " + plane_of(axes, sense_of(key));
 }
 
-std::string angle_words(double angle_rad) {
+std::string angle_text(double angle_rad) {
     const double hundredths = std::round(folded_angle(angle_rad) * degrees_per_radian * 100);
     return fixed(hundredths < 36000 ? hundredths / 100 : 0, 2) + "°"; // a whole turn less a bit
 }
@@ -79,7 +79,7 @@ std::vector<CircularFigureLine> figure_lines(const CircularCertificate& certific
     return lines;
 }
 
-std::string radial_centre_words(const CircularCertificate& certificate) {
+std::string radial_centre_text(const CircularCertificate& certificate) {
     std::string words;
     for (const CircularTrace& trace : certificate.measured.test.traces) {
         const RadialCentre centre = certificate.parameters.of(trace.sense)->F.centre;
@@ -128,7 +128,7 @@ std::string micrometres(double length_mm, int decimals, bool plus) {
     return (plus && length_mm > 0 && !unsigned_zero ? "+" : "") + digits;
 }
 
-std::string uncertainty_words(const CircularCertificate& certificate, const std::string& key) {
+std::string uncertainty_text(const CircularCertificate& certificate, const std::string& key) {
     const CircularFigureUncertainty* known = certificate.uncertainty_of(key);
     if (!known) return "U not evaluated";
     return "± " + fixed_up(known->expanded_mm * um_per_mm, deviation_decimals(certificate));
@@ -140,7 +140,7 @@ std::string compact_number(double value, int digits) {
     return (value < 0 ? "\u2212" : "") + std::string{text.data()};
 }
 
-std::string feed_words(double mm_per_s) {
+std::string feed_text(double mm_per_s) {
     constexpr double seconds_per_minute = 60;
     return compact_number(mm_per_s * seconds_per_minute) + " mm/min";
 }
@@ -153,21 +153,21 @@ std::string plane_of(const AxisNames& axes, Sense sense) {
     return sense == Sense::ccw ? axes[0] + axes[1] : axes[1] + axes[0];
 }
 
-std::string start_words(const CircularTrace& trace) {
+std::string start_text(const CircularTrace& trace) {
     constexpr double slightly = 1e-6;
     const double first = trace.angle_rad.front();
-    return angle_words(first) + ", into quadrant " +
+    return angle_text(first) + ", into quadrant " +
            std::to_string(quadrant_at(first + sign_of(trace.sense) * slightly));
 }
 
-std::string end_words(const CircularTrace& trace) {
+std::string end_text(const CircularTrace& trace) {
     constexpr double slightly = 1e-6;
     const double last = trace.angle_rad.back();
-    return angle_words(last) + ", out of quadrant " +
+    return angle_text(last) + ", out of quadrant " +
            std::to_string(quadrant_at(last - sign_of(trace.sense) * slightly));
 }
 
-std::string temperature_words(const CircularTemperature& temperature) {
+std::string temperature_text(const CircularTemperature& temperature) {
     if (!temperature.mean_degC) return "not stated";
     std::string words = fixed(*temperature.mean_degC, 2) + " °C";
     std::string range;

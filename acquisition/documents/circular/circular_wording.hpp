@@ -19,7 +19,7 @@ struct CircularFigureLine {
 /// Those that were evaluated, in the contract's order.
 std::vector<CircularFigureLine> figure_lines(const CircularCertificate& certificate);
 /// "F about the least squares centre"
-std::string radial_centre_words(const CircularCertificate& certificate);
+std::string radial_centre_text(const CircularCertificate& certificate);
 /// "Not evaluated: G(b), D: one sense only was measured"
 std::vector<std::string> reasons_not_evaluated(const CircularCertificate& certificate);
 
@@ -28,20 +28,20 @@ int deviation_decimals(const CircularCertificate& certificate);
 /// A length in micrometres, with sign where asked.
 std::string micrometres(double length_mm, int decimals, bool plus = false);
 /// "± 1.2" of U, rounded up; "U not evaluated" where a term is missing.
-std::string uncertainty_words(const CircularCertificate& certificate, const std::string& key);
+std::string uncertainty_text(const CircularCertificate& certificate, const std::string& key);
 
 /// At most `digits` digits, true minus: what somebody stated.
 std::string compact_number(double value, int digits = 6);
-std::string feed_words(double mm_per_s); ///< "1000 mm/min"
-std::string sense_name(Sense sense);     ///< "counter-clockwise"
+std::string feed_text(double mm_per_s); ///< "1000 mm/min"
+std::string sense_name(Sense sense);    ///< "counter-clockwise"
 /// "XY" counter-clockwise, "YX" clockwise: from the first to the second.
 std::string plane_of(const AxisNames& axes, Sense sense);
 /// "0.00°, into quadrant 1": where the reading goes on to.
-std::string start_words(const CircularTrace& trace);
+std::string start_text(const CircularTrace& trace);
 /// "359.50°, out of quadrant 4"
-std::string end_words(const CircularTrace& trace);
+std::string end_text(const CircularTrace& trace);
 /// "21.3 °C (21.2 to 21.5; bar)"; "not stated"
-std::string temperature_words(const CircularTemperature& temperature);
+std::string temperature_text(const CircularTemperature& temperature);
 /// Units of the diagnosis' sentences in the signs of paper.
 std::string sentence_on_paper(std::string words);
 

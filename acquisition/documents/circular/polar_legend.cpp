@@ -97,8 +97,8 @@ void draw_cross(Canvas& canvas, PagePoint at, double size, Stroke stroke) {
 double draw_polar_legend(Canvas& canvas, PageBox box, const PolarView& view) {
     const PolarScale scale = polar_place(canvas, box, view).scale;
     LegendLine legend{canvas, {box.x, box.bottom(), box.width, 0}};
-    legend.next("1 division = " + division_words(scale.division_mm()) + ", magnification " +
-                    magnification_words(scale.magnification) + " (10 mm of paper to a division)",
+    legend.next("1 division = " + division_text(scale.division_mm()) + ", magnification " +
+                    magnification_text(scale.magnification) + " (10 mm of paper to a division)",
                 -3);
     legend.next_line();
     tell_traces(canvas, legend, view);

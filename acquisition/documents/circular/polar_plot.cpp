@@ -57,9 +57,9 @@ std::vector<int> divisions_of(const PolarScale& scale) {
     return whole;
 }
 
-std::string ring_words(int k, double division_mm) {
+std::string ring_text(int k, double division_mm) {
     if (k == 0) return "0";
-    const std::string words = division_words(std::abs(k) * division_mm);
+    const std::string words = division_text(std::abs(k) * division_mm);
     return (k < 0 ? "\u2212" : "+") + words.substr(0, words.find(' '));
 }
 
@@ -113,7 +113,7 @@ void draw_ring_labels(Canvas& canvas,
     constexpr double height = 7;
     const double spoke = label_spoke(place, view);
     for (const int k : divisions_of(place.scale)) {
-        const std::string words = ring_words(k, place.scale.division_mm());
+        const std::string words = ring_text(k, place.scale.division_mm());
         const double width = canvas.width_of(words, ring_style) + 2;
         const PagePoint at =
             polar(place.centre, place.scale.radius_pt(k * place.scale.division_mm()), spoke);

@@ -204,7 +204,7 @@ PolarScale polar_scale(double plot_radius_pt, double low_mm, double high_mm) {
     return scale;
 }
 
-std::string magnification_words(double magnification) {
+std::string magnification_text(double magnification) {
     std::array<char, 32> text{};
     if (magnification >= 1)
         std::snprintf(text.data(), text.size(), "%.0f:1", magnification);
@@ -213,7 +213,7 @@ std::string magnification_words(double magnification) {
     return text.data();
 }
 
-std::string division_words(double division_mm) {
+std::string division_text(double division_mm) {
     constexpr double micrometres = 1e3;
     std::array<char, 32> text{};
     const bool large = division_mm >= 1;

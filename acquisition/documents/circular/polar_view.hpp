@@ -72,8 +72,8 @@ struct PolarScale {
 PolarScale polar_scale(double plot_radius_pt, double low_mm, double high_mm);
 
 /// "5000:1", "1:2"
-std::string magnification_words(double magnification);
+std::string magnification_text(double magnification);
 /// "2 µm", "0.5 mm"
-std::string division_words(double division_mm);
+std::string division_text(double division_mm);
 
 } // namespace axiscal

@@ -15,7 +15,7 @@ namespace {
 std::array<StatedField, 3> fields_of_laser(const RunRecord& run) {
     const bool ciddor = run.air.formula == AirFormula::ciddor;
     return {{{"Vacuum wavelength", fixed(run.laser.vacuum_wavelength.in(nm), 6) + " nm"},
-             {"Air formula", air_formula_words(ciddor ? "ciddor" : "edlen") + ", CO\u2082 " +
+             {"Air formula", air_formula_text(ciddor ? "ciddor" : "edlen") + ", CO\u2082 " +
                                  fixed(run.air.co2_ppm, 0) + " ppm unless measured"},
              {"Dead path L\u2080", fixed(run.laser.dead_path.in(mm), 1) + " mm"}}};
 }
@@ -40,7 +40,7 @@ std::array<StatedField, 3> fields_of_reference(const RunRecord& run) {
     return run.scale ? fields_of_scale(*run.scale) : fields_of_laser(run);
 }
 
-std::string carried_words(const RunRecord& run, bool of_bar) {
+std::string carried_text(const RunRecord& run, bool of_bar) {
     if (of_bar) return " and is taken as it is, as in a circular test. ";
     if (run.rotary)
         return " and becomes an angle as every point of a run does, with the reflectors taken as "
@@ -59,11 +59,11 @@ std::array<StatedField, 2> fields_of_material(const RunRecord& run) {
                                "; not turned during the test"}}};
     const auto& stated_u = run.material.standard_uncertainty;
     const auto u_per_K = stated_u ? std::optional{stated_u->si()} : std::nullopt;
-    return {{{"Expansion coefficient α", coefficient_words(run.material.coefficient.si(), u_per_K)},
+    return {{{"Expansion coefficient α", coefficient_text(run.material.coefficient.si(), u_per_K)},
              {"Feedback of the axis", stated(run.material.feedback)}}};
 }
 
-std::string drift_datum_words(const RunRecord& run) {
+std::string drift_datum_text(const RunRecord& run) {
     return fixed(run.plan.datum.in(mm), 4) + (run.rotary ? "°" : " mm");
 }
 
@@ -77,8 +77,8 @@ std::vector<StatedField> fields_of_bar_test(const DriftDocument& document) {
     const RunDrift& drift = document.drift;
     return {{"Ballbar", full_name_of(drift.reading)},
             {"Plane", stated(said.axis)},
-            {"Duration", duration_words(drift.setup.duration)},
-            {"Interval", duration_words(drift.setup.interval)},
+            {"Duration", duration_text(drift.setup.duration)},
+            {"Interval", duration_text(drift.setup.interval)},
             {"Readings of the length", readings_of_planned(drift)},
             {"Compensation", "none: as read"},
             {"Warm-up", stated(said.warm_up)},
@@ -93,16 +93,16 @@ std::vector<StatedField> fields_of_axis_test(const DriftDocument& document) {
     const RunDrift& drift = document.drift;
     const auto reference = fields_of_reference(run);
     const auto material = fields_of_material(run);
-    return {{"Place of rest", drift_place_words(document)},
-            {"Duration", duration_words(drift.setup.duration)},
-            {"Interval", duration_words(drift.setup.interval)},
+    return {{"Place of rest", drift_place_text(document)},
+            {"Duration", duration_text(drift.setup.duration)},
+            {"Interval", duration_text(drift.setup.interval)},
             {"Readings of the length", readings_of_planned(drift)},
             reference[0],
             reference[1],
             material[0],
             material[1],
             reference[2],
-            {"Axis datum", drift_datum_words(run)},
+            {"Axis datum", drift_datum_text(run)},
             {"Warm-up", stated(said.warm_up)},
             {"Positions of idle axes", stated(said.idle_axes)},
             {"Offsets of the measuring line", stated(said.offsets)},
@@ -121,7 +121,7 @@ void draw_setup(Sheet& sheet, const DriftDocument& document) {
     const std::string_view watched = of_bar ? "ballbar" : reference_word_of(run);
     sheet.text("Each reading of the " + std::string{watched} +
                    " is a mean over the capture window" + (of_bar ? "" : " of the station file") +
-                   carried_words(run, of_bar) + "Other channels are as last read in each interval.",
+                   carried_text(run, of_bar) + "Other channels are as last read in each interval.",
                note_style);
 }
 

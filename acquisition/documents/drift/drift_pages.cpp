@@ -19,7 +19,7 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const DriftDocument& docume
         fields.push_back({"Reference temperature", "none: taken as read"});
     } else {
         fields.push_back(
-            {"Axis", stated(run.statements.axis) + ", at rest at " + drift_place_words(document)});
+            {"Axis", stated(run.statements.axis) + ", at rest at " + drift_place_text(document)});
         fields.push_back({"Reference temperature", run.rotary ? "none: an angle does not expand"
                                                               : "20 °C; E_VE and ETVE hold there"});
     }
@@ -62,7 +62,7 @@ const char* surroundings_words(const RunRecord& run) {
     return run.scale ? "temperature of scale and material" : "air or material";
 }
 
-std::string refused_words(const RefusedReadings& refused) {
+std::string refused_text(const RefusedReadings& refused) {
     const bool one = refused.count == 1;
     const std::string from = fixed(refused.first_min, 2) + " min";
     return counted(refused.count, "reading") +
@@ -73,7 +73,7 @@ std::string refused_words(const RefusedReadings& refused) {
 }
 
 /// Intervals that the figures do not know.
-std::string gaps_words(const DriftDocument& document) {
+std::string gaps_text(const DriftDocument& document) {
     const RunDrift& drift = document.drift;
     std::string words;
     if (drift.missing > 0)
@@ -86,7 +86,7 @@ std::string gaps_words(const DriftDocument& document) {
             surroundings_words(document.run) +
             (drift.without_air == 1 ? " beside it is left out. " : " beside them are left out. ");
     for (const RefusedReadings& refused : drift.refused)
-        words += refused_words(refused);
+        words += refused_text(refused);
     if (!drift.refused.empty())
         words += "They may have been the extremes: E_VE and ETVE may be too small, and no budget "
                  "takes E_VE of this test.";
@@ -94,23 +94,23 @@ std::string gaps_words(const DriftDocument& document) {
 }
 
 /// @param by  of the paper that the budget follows
-std::string budget_words(const RunDrift& drift, const char* of_what, const std::string& by) {
+std::string budget_text(const RunDrift& drift, const char* of_what, const std::string& by) {
     const char* rest = " of this test is informative.";
     if (!drift.refused.empty()) return std::string{"Every figure and channel"} + rest;
     return std::string{"The budget of later "} + of_what + " takes E_VE (" + by +
            "); every other figure and channel" + rest;
 }
 
-std::string bar_rule_words(const DriftDocument& document) {
+std::string bar_rule_text(const DriftDocument& document) {
     return "E_VE: largest minus smallest reading of the ballbar at rest. ETVE: the same within an "
            "hour. Positive changes: the reading rises. It is taken as it is, as in a circular "
            "test; neither air nor expansion is taken out. All of it is the environment's share: "
            "machine, bar and set-up together. " +
-           budget_words(document.drift, "circular tests", drift_budget_by(document));
+           budget_text(document.drift, "circular tests", drift_budget_by(document));
 }
 
-std::string rule_words(const DriftDocument& document) {
-    if (document.drift.of_bar) return bar_rule_words(document);
+std::string rule_text(const DriftDocument& document) {
+    if (document.drift.of_bar) return bar_rule_text(document);
     const bool rotary = document.run.rotary.has_value();
     return std::string{"E_VE: largest minus smallest coordinate of the resting axis"} +
            (rotary ? "" : " at 20 °C") +
@@ -119,25 +119,25 @@ std::string rule_words(const DriftDocument& document) {
            (rotary ? "What is left after the air is taken out"
                    : "What is left after the compensation") +
            " is the environment's share: machine, set-up and sensors together. " +
-           budget_words(document.drift, "runs",
-                        std::string{"ISO 230-2, annex "} + (rotary ? "B" : "A"));
+           budget_text(document.drift, "runs",
+                       std::string{"ISO 230-2, annex "} + (rotary ? "B" : "A"));
 }
 
 void draw_rule(Sheet& sheet, const DriftDocument& document) {
     const RunDrift& drift = document.drift;
-    sheet.text(rule_words(document), note_style);
+    sheet.text(rule_text(document), note_style);
     const auto& times = drift.axis.times;
     if (times.back() - times.front() < drift.window_min)
         sheet.text("The test is shorter than " + fixed(drift.window_min, 0) +
                        " min: ETVE is the range of the whole test.",
                    note_style);
-    if (const std::string gaps = gaps_words(document); !gaps.empty())
+    if (const std::string gaps = gaps_text(document); !gaps.empty())
         sheet.text(gaps, {7.5, true, backward_vermilion});
 }
 
 } // namespace
 
-std::string duration_words(Duration duration) {
+std::string duration_text(Duration duration) {
     using namespace std::chrono_literals;
     constexpr std::pair<Duration, const char*> units[]{{1h, " h"}, {1min, " min"}, {1s, " s"}};
     for (const auto& [unit, name] : units)
@@ -146,13 +146,13 @@ std::string duration_words(Duration duration) {
     return fixed(seconds_of(duration), 3) + " s";
 }
 
-std::string drift_subject_words(const DriftDocument& document) {
+std::string drift_subject_text(const DriftDocument& document) {
     const std::string axis = stated(document.run.statements.axis);
     if (!document.drift.of_bar) return "axis " + axis;
     return "ballbar, plane " + axis;
 }
 
-std::string drift_place_words(const DriftDocument& document) {
+std::string drift_place_text(const DriftDocument& document) {
     return fixed(document.drift.setup.place.in(mm), 3) + (document.run.rotary ? "°" : " mm");
 }
 
@@ -164,8 +164,8 @@ std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument
                                             : "(ISO 230-2) and ETVE (ISO 230-3) of a linear axis";
     draw_front_title(sheet, {"Drift test", run.statements.state,
                              "Environmental variation E_VE " + rested + " at rest, " +
-                                 duration_words(drift.setup.duration) + ", a reading each " +
-                                 duration_words(drift.setup.interval)});
+                                 duration_text(drift.setup.duration) + ", a reading each " +
+                                 duration_text(drift.setup.interval)});
     auto shortened = draw_identity(sheet, document);
     draw_front_instruments(sheet, run.instruments, run_date_of(run), shortened);
     draw_figures(sheet, drift);

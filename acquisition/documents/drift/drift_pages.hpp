@@ -23,13 +23,13 @@ void draw_drift_conditions(Sheet& sheet,
                            const std::vector<StatedField>& shortened);
 
 /// What rested: "axis X", "ballbar, plane XY". Pure.
-std::string drift_subject_words(const DriftDocument& document);
+std::string drift_subject_text(const DriftDocument& document);
 
 /// Where the axis rests: "900.000 mm", of a rotary axis "-2.000°". Pure.
-std::string drift_place_words(const DriftDocument& document);
+std::string drift_place_text(const DriftDocument& document);
 
 /// "30 min", "90 s", "12 h": the largest unit in which it is whole, else seconds with a point.
 /// Pure.
-std::string duration_words(Duration duration);
+std::string duration_text(Duration duration);
 
 } // namespace axiscal

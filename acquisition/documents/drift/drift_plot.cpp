@@ -18,7 +18,7 @@ std::string drift_figure(const RunDrift& drift, double range) {
     return fixed(range, length_decimals(range)) + (unit == "µm" ? " " : "") + unit;
 }
 
-std::string resting_axis_words(const RunDrift& drift) {
+std::string resting_axis_text(const RunDrift& drift) {
     if (drift.of_bar) return "Ballbar at rest, change of its reading";
     return std::string{"Axis at rest, change of its coordinate"} +
            (drift.unit == "um" ? " at 20 °C" : "");
@@ -76,7 +76,7 @@ void draw_drift_plot(Canvas& canvas, PageBox box, const RunDrift& drift) {
     frame.y = ticks_around(low, high, 6, least_span_um);
     const double labels = widest(canvas, frame.y) + 6;
     constexpr double title = 14;
-    canvas.text({box.x, box.y + 8}, resting_axis_words(drift) + ", " + drift_unit_on_paper(drift),
+    canvas.text({box.x, box.y + 8}, resting_axis_text(drift) + ", " + drift_unit_on_paper(drift),
                 {7.5, true});
     frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_range,
                  box.height - title - room_of_times};

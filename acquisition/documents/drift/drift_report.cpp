@@ -9,12 +9,12 @@ namespace {
 
 std::string title_of(const DriftDocument& document) {
     return "Drift test " + stated(document.run.statements.certificate_number) + ", " +
-           drift_subject_words(document);
+           drift_subject_text(document);
 }
 
 PageFrame frame_of(const DriftDocument& document) {
     PageFrame frame = page_frame_of(document.run, document.run_file_sha256);
-    frame.subject += ", " + drift_subject_words(document) + ", drift test";
+    frame.subject += ", " + drift_subject_text(document) + ", drift test";
     return frame;
 }
 

@@ -11,7 +11,7 @@ namespace axiscal {
 namespace {
 
 /// Lengths in micrometres; the others as their readings are printed.
-std::string uncertainty_words(const ChannelCalibration& given, const ChannelRecord& channel) {
+std::string uncertainty_text(const ChannelCalibration& given, const ChannelRecord& channel) {
     constexpr double um_per_m = 1e6;
     const bool length = channel.kind == ChannelKind::displacement;
     const ChannelPaper paper = paper_of(channel.kind, channel.medium);
@@ -25,7 +25,7 @@ std::string uncertainty_words(const ChannelCalibration& given, const ChannelReco
     return words.empty() ? "not stated" : words + ", k = " + as_stated(given.coverage);
 }
 
-std::string table_words(const ChannelCalibration& given, const ChannelRecord& channel) {
+std::string table_phrase(const ChannelCalibration& given, const ChannelRecord& channel) {
     const ChannelPaper paper = paper_of(channel.kind, channel.medium);
     std::string words;
     for (const auto& [reading, correction] : given.corrections) {
@@ -36,7 +36,7 @@ std::string table_words(const ChannelCalibration& given, const ChannelRecord& ch
     return words.empty() ? "none" : words;
 }
 
-std::string due_words(const std::string& due_on, const std::string& run_date) {
+std::string due_text(const std::string& due_on, const std::string& run_date) {
     return stated(due_on) + (has_expired(due_on, run_date) ? " (expired)" : "");
 }
 
@@ -53,9 +53,9 @@ void draw_calibrations(Sheet& sheet,
         const auto channel = std::ranges::find(channels, calibration.channel, &ChannelRecord::id);
         if (channel == channels.end()) continue;
         rows.push_back({channel->name, stated(calibration.certificate_number),
-                        stated(calibration.calibrated_on), due_words(calibration.due_on, run_date),
-                        uncertainty_words(calibration, *channel),
-                        table_words(calibration, *channel)});
+                        stated(calibration.calibrated_on), due_text(calibration.due_on, run_date),
+                        uncertainty_text(calibration, *channel),
+                        table_phrase(calibration, *channel)});
     }
     sheet.heading("Certificates of channels", 60);
     sheet.table({{"Channel", "", Align::left, true},

@@ -198,7 +198,7 @@ std::string synchronisation_amount(const RunRecord& run, double error_um) {
 
 } // namespace
 
-std::string synchronisation_words(const Certificate& certificate) {
+std::string synchronisation_text(const Certificate& certificate) {
     const SynchronisationSummary over =
         summarize_synchronisation(certificate.run, certificate.attachments.synchronisation);
     if (!over.largest)
@@ -218,24 +218,24 @@ std::string synchronisation_words(const Certificate& certificate) {
     return words;
 }
 
-std::string refractivity_words(const CompensationSummary& done) {
+std::string refractivity_text(const CompensationSummary& done) {
     return fixed(done.refractive_index_minus_1_first * 1e6, 3) + " → " +
            fixed(done.refractive_index_minus_1_last * 1e6, 3) + " ×10\u207b\u2076";
 }
 
-std::string air_formula_words(const std::string& name) {
+std::string air_formula_text(const std::string& name) {
     if (name == "ciddor") return "Ciddor (1996)";
     if (name == "edlen") return "Edlén, modified by Birch and Downs (1994)";
     return stated(name);
 }
 
-std::string expansion_form_words(const std::string& name) {
+std::string expansion_form_text(const std::string& name) {
     if (name == "first_order") return "first order";
     return stated(name);
 }
 
-std::string coefficient_words(double per_K,
-                              const std::optional<double>& standard_uncertainty_per_K) {
+std::string coefficient_text(double per_K,
+                             const std::optional<double>& standard_uncertainty_per_K) {
     const std::string words = fixed(per_K * 1e6, 2) + " µm/(m·K)";
     if (!standard_uncertainty_per_K) return words + ", uncertainty not stated";
     return words + ", standard uncertainty " + fixed(*standard_uncertainty_per_K * 1e6, 2);

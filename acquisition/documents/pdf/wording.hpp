@@ -81,14 +81,13 @@ ChannelPaper paper_of(ChannelKind kind, Medium medium);
 
 /// What the uncertain time of the samples adds at most, in one or two sentences; "not stated" where
 /// nothing tells.
-std::string synchronisation_words(const Certificate& certificate);
+std::string synchronisation_text(const Certificate& certificate);
 
 /// "271.375 → 271.402 ×10⁻⁶": n − 1 at the first and at the last point.
-std::string refractivity_words(const CompensationSummary& done);
-std::string air_formula_words(const std::string& name);
-std::string expansion_form_words(const std::string& name);
+std::string refractivity_text(const CompensationSummary& done);
+std::string air_formula_text(const std::string& name);
+std::string expansion_form_text(const std::string& name);
 /// "11.50 µm/(m·K), standard uncertainty 0.60", or ", uncertainty not stated".
-std::string coefficient_words(double per_K,
-                              const std::optional<double>& standard_uncertainty_per_K);
+std::string coefficient_text(double per_K, const std::optional<double>& standard_uncertainty_per_K);
 
 } // namespace axiscal

@@ -56,14 +56,14 @@ void draw_compensation_summary(Sheet& sheet, const Certificate& certificate) {
     const PaperUnits units = paper_units_of(certificate);
     const RunRecord& run = certificate.run;
     const std::string alpha =
-        coefficient_words(done.expansion_per_K, done.expansion_standard_uncertainty_per_K);
+        coefficient_text(done.expansion_per_K, done.expansion_standard_uncertainty_per_K);
     sheet.fields({{"Vacuum wavelength", fixed(done.vacuum_wavelength_nm, 6) + " nm"},
-                  {"Refractivity n − 1, first → last", refractivity_words(done)},
-                  {"Air formula", air_formula_words(done.air_formula) + ", CO\u2082 " +
+                  {"Refractivity n − 1, first → last", refractivity_text(done)},
+                  {"Air formula", air_formula_text(done.air_formula) + ", CO\u2082 " +
                                       fixed(run.air.co2_ppm, 0) + " ppm unless measured"},
                   {"Material, first → last", fixed(done.material_first_degC, 2) + " → " +
                                                  fixed(done.material_last_degC, 2) + " °C"},
-                  {"Expansion to 20 °C", expansion_form_words(done.expansion_form)},
+                  {"Expansion to 20 °C", expansion_form_text(done.expansion_form)},
                   {"Expansion coefficient α", alpha},
                   {"Feedback of the axis", stated(run.material.feedback)},
                   {"Dead path L\u2080", fixed(done.dead_path_mm, 1) + " mm"},
@@ -158,28 +158,28 @@ void draw_compensation_table(Sheet& sheet, const Certificate& certificate) {
 // ---- cycle, instruments, remarks ------------------------------------------------------------
 
 /// "12.500 mm", or "12.500°" of a rotary axis.
-std::string coordinate_words(const RunPlan& plan, Length coordinate, int decimals) {
+std::string coordinate_text(const RunPlan& plan, Length coordinate, int decimals) {
     return fixed(coordinate.in(mm), decimals) + (plan.axis_kind == AxisKind::rotary ? "°" : " mm");
 }
 
 std::string target_rule(const RunPlan& plan) {
     if (!plan.seed) return "given list of positions";
-    return "P\u1d62 = (i − 1) p + r, p = " + coordinate_words(plan, plan.interval, 3) +
+    return "P\u1d62 = (i − 1) p + r, p = " + coordinate_text(plan, plan.interval, 3) +
            ", r random from seed " + std::to_string(*plan.seed);
 }
 
-std::string datum_words(const RunRecord& run) {
+std::string datum_text(const RunRecord& run) {
     if (run.datums.empty()) return "not stated";
     const DatumRecord& datum = run.datums.back();
-    return coordinate_words(run.plan, datum.coordinate, 4) + ", id " + stated(datum.id);
+    return coordinate_text(run.plan, datum.coordinate, 4) + ", id " + stated(datum.id);
 }
 
-std::string approach_travel_words(const RunPlan& plan) {
-    return plan.overrun > Length{} ? coordinate_words(plan, plan.overrun, 3) : "not stated";
+std::string approach_travel_text(const RunPlan& plan) {
+    return plan.overrun > Length{} ? coordinate_text(plan, plan.overrun, 3) : "not stated";
 }
 
 /// The scale stands under the compensation.
-std::string beam_words(const RunRecord& run) {
+std::string beam_text(const RunRecord& run) {
     if (run.scale) return "none: the reference is a linear scale";
     const LaserSetup& laser = run.laser;
     return fixed(laser.optical_fold, 0) + " passes, count " + (laser.sign > 0 ? "rises" : "falls") +
@@ -195,22 +195,22 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
          {"Approaches n", std::to_string(run.plan.approaches) +
                               (run.plan.bidirectional ? " in each direction" : " forward")},
          {"Targets", target_rule(run.plan)},
-         {"Over-travel", approach_travel_words(run.plan)},
+         {"Over-travel", approach_travel_text(run.plan)},
          {"Feed", stated(said.feed)},
          {"Dwell", stated(said.dwell)},
-         {"Datum", datum_words(run)},
-         {"Capture tolerance", "±" + coordinate_words(run.plan, run.plan.near_tolerance, 3)},
+         {"Datum", datum_text(run)},
+         {"Capture tolerance", "±" + coordinate_text(run.plan, run.plan.near_tolerance, 3)},
          {"Warm-up", stated(said.warm_up)},
          {"Offsets of the measuring line", stated(said.offsets)},
          {"Positions of idle axes", stated(said.idle_axes)},
          {"Note on the sensors", stated(said.sensor_note)},
          {"Station", stated(run.station)},
-         {"Beam", beam_words(run)},
+         {"Beam", beam_text(run)},
          {"Alignment of the beam",
           certificate.attachments.alignment ? "recorded: see below" : "not recorded"}},
         2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    sheet.text(synchronisation_words(certificate), {7, false, grey});
+    sheet.text(synchronisation_text(certificate), {7, false, grey});
 }
 
 } // namespace

@@ -24,7 +24,7 @@ void draw_title(Sheet& sheet, const Certificate& certificate) {
                     (bidirectional ? " in each direction" : " in the forward direction only")});
 }
 
-std::string axis_words(const Certificate& certificate) {
+std::string axis_text(const Certificate& certificate) {
     const PaperUnits units = paper_units_of(certificate);
     const auto [low, high] = std::ranges::minmax(certificate.deviations.targets());
     return stated(certificate.run.statements.axis) + ", targets " + units.of_position(low) +
@@ -35,7 +35,7 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certific
     const std::string measured = measured_span(certificate.started_utc, certificate.finished_utc);
     auto fields = identity_fields(certificate.run.statements,
                                   {measured, certificate.issued_on, certificate.next_due});
-    fields.push_back({"Axis", axis_words(certificate)});
+    fields.push_back({"Axis", axis_text(certificate)});
     fields.push_back(
         certificate.run.rotary
             ? StatedField{"Run-out of the set-up", stated(certificate.run.rotary->run_out)}

@@ -14,7 +14,7 @@ std::string title_of(const Certificate& certificate) {
 }
 
 /// What is missing, in words that fit a page's head; empty when nothing is.
-std::string preliminary_words(const Certificate& certificate) {
+std::string preliminary_text(const Certificate& certificate) {
     const Completeness& readings = certificate.completeness;
     if (readings.partial())
         return "PARTIAL: " + std::to_string(readings.used) + " of " +
@@ -32,7 +32,7 @@ PageFrame frame_of(const Certificate& certificate) {
     frame.subject += ", axis " + stated(certificate.run.statements.axis);
     if (!certificate.replaces.empty())
         frame.certificate_number += ", replaces " + certificate.replaces;
-    frame.preliminary = preliminary_words(certificate);
+    frame.preliminary = preliminary_text(certificate);
     frame.numbered = !certificate.completeness.partial();
     return frame;
 }

@@ -18,7 +18,7 @@ std::string words_of(const DeviceLimit& limit) {
     return words;
 }
 
-std::string device_words(const UncertaintySetup& setup, const UncertaintyStatement& s) {
+std::string device_phrase(const UncertaintySetup& setup, const UncertaintyStatement& s) {
     const bool stated_here = setup.device_U.stated() || setup.device_width.stated();
     if (!stated_here)
         return "U = " + fixed(s.device_U.value_or(0), 3) +
@@ -29,19 +29,19 @@ std::string device_words(const UncertaintySetup& setup, const UncertaintyStateme
     return "R_D = " + words_of(setup.device_width);
 }
 
-std::string alignment_words(const UncertaintySetup& setup) {
+std::string alignment_phrase(const UncertaintySetup& setup) {
     if (setup.misalignment) return "e = " + as_stated(setup.misalignment->in(mm)) + " mm over L";
     if (!setup.misalignment_angle) return {};
     return "δ = " + as_stated(setup.misalignment_angle->in(radian)*1e3) + " mrad";
 }
 
-std::string temperature_words(const UncertaintySetup& setup, const UncertaintyStatement& s) {
+std::string temperature_text(const UncertaintySetup& setup, const UncertaintyStatement& s) {
     const double width_K = s.temperature_width_K.value_or(0);
     return "α = " + as_stated(s.alpha_um_per_m_K.value_or(0)) + " µm/(m·K), R(θ) = " +
            (setup.temperature_width ? as_stated(width_K) : fixed(width_K, 3)) + " K";
 }
 
-std::string expansion_words(const UncertaintyStatement& s) {
+std::string expansion_text(const UncertaintyStatement& s) {
     return "ΔT = " + fixed(s.temperature_offset_K.value_or(0), 2) +
            " K, R(α) = " + fixed(s.alpha_width_um_per_m_K.value_or(0), 2) + " µm/(m·K)";
 }
@@ -51,7 +51,7 @@ std::string unit_of(const Certificate& certificate) {
 }
 
 /// Annex B: what a rotary axis has.
-std::string angle_device_words(const UncertaintySetup& setup) {
+std::string angle_device_text(const UncertaintySetup& setup) {
     if (setup.device_U.fixed)
         return "U_cal = " + as_stated(arcsec_of(*setup.device_U.fixed)) +
                "″, k = " + as_stated(setup.device_k);
@@ -86,13 +86,13 @@ std::vector<TermLine> term_lines(const Certificate& certificate) {
     const UncertaintyStatement& s = certificate.uncertainty.statement;
     using enum UncertaintyTerm;
     if (certificate.run.rotary)
-        return {{device, "Instrument, artefact and set-up u_D", angle_device_words(setup)},
+        return {{device, "Instrument, artefact and set-up u_D", angle_device_text(setup)},
                 {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + "″"}};
     std::vector<TermLine> lines{
-        {device, "Laser system u_D", device_words(setup, s)},
-        {misalignment, "Misalignment of the beam u_MIS", alignment_words(setup)},
-        {machine_temperature, "Temperature of the material u_M,M", temperature_words(setup, s)},
-        {machine_expansion, "Expansion coefficient u_E,M", expansion_words(s)},
+        {device, "Laser system u_D", device_phrase(setup, s)},
+        {misalignment, "Misalignment of the beam u_MIS", alignment_phrase(setup)},
+        {machine_temperature, "Temperature of the material u_M,M", temperature_text(setup, s)},
+        {machine_expansion, "Expansion coefficient u_E,M", expansion_text(s)},
         {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};
     if (certificate.run.scale) add_terms_of_scale(lines, s);
     return lines;

@@ -15,7 +15,7 @@ std::string feed_of_probing(const ProbingRecord& record) {
     return as_stated(record.feed_mm_per_min) + " mm/min";
 }
 
-std::string tick_words(const ProbingRecord& record) {
+std::string tick_text(const ProbingRecord& record) {
     const double tick_um = feed_mm_per_ms(record) * um_a_mm;
     return fixed(tick_um, length_decimals(tick_um)) + " µm";
 }
@@ -29,7 +29,7 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const ProbingDocument& docu
     auto fields = identity_fields(run.statements, dates);
     fields.push_back({"Probing feed", feed_of_probing(record)});
     fields.push_back({"Probe", stated(record.probe)});
-    fields.push_back({"Feed × 1 ms", tick_words(record)});
+    fields.push_back({"Feed × 1 ms", tick_text(record)});
     fields.push_back({"Signal path", stated(record.signal_path)});
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
@@ -48,7 +48,7 @@ TableRow figures_row(const ProbingDelay& found, int decimals) {
         return value_mm ? fixed(*value_mm * um_a_mm, digits) : std::string{"–"};
     };
     return {found.symbol,
-            direction_words(found.unit_direction),
+            direction_text(found.unit_direction),
             std::to_string(found.touches),
             in_um(found.variation_mm, decimals),
             fixed(found.variation_ms, 3),
@@ -89,7 +89,7 @@ void draw_meaning(Sheet& sheet, const ProbingDocument& document) {
                "references rings.",
                note_style);
     sheet.text("Servo tick: at " + feed_of_probing(document.record) + " the tip moves " +
-                   tick_words(document.record) +
+                   tick_text(document.record) +
                    " in 1 ms. A control that latches at ticks of 1 ms alone shows up to that with "
                    "a probe without fault; its own cycle shows as a saw-tooth.",
                {7.5});
@@ -126,7 +126,7 @@ std::vector<TableRow> touch_rows(const ProbingTrace& trace, const ProbingDocumen
         const auto at = trace.offset_um.begin() + static_cast<std::ptrdiff_t>(i);
         const bool varies = *low < *high;
         rows.push_back({std::to_string(trace.first_touch + i + 1),
-                        direction_words(trace.figures->unit_direction),
+                        direction_text(trace.figures->unit_direction),
                         touch.reference ? "reference" : "touch", fixed(touch.approach.in(mm), 4),
                         fixed(touch.latched[0].in(mm), 6), fixed(touch.latched[1].in(mm), 6),
                         fixed(touch.latched[2].in(mm), 6), fixed(*at, 3), fixed(*at / um_per_ms, 3),

@@ -113,7 +113,7 @@ void draw_probing_panel(Canvas& canvas, PageBox box, const ProbingPanel& panel) 
     PlotFrame frame = frame_of_panel(panel);
     const double labels = widest(canvas, frame.y) + 6;
     canvas.text({box.x, box.y + 8},
-                "Direction " + direction_words(figures.unit_direction) +
+                "Direction " + direction_text(figures.unit_direction) +
                     ": offset of the latched point, µm",
                 {7.5, true});
     frame.box = {box.x + labels, box.y + title, box.width - labels - room_of_range,
@@ -126,7 +126,7 @@ void draw_probing_panel(Canvas& canvas, PageBox box, const ProbingPanel& panel) 
                 Align::right);
 }
 
-std::string direction_words(const std::array<double, 3>& unit_direction) {
+std::string direction_text(const std::array<double, 3>& unit_direction) {
     const auto moves = [](double part) { return part != 0; };
     const auto found = std::ranges::find_if(unit_direction, moves);
     if (std::ranges::count_if(unit_direction, moves) == 1) {

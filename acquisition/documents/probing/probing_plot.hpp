@@ -41,6 +41,6 @@ inline constexpr double least_panel_height = 88;
 void draw_probing_panel(Canvas& canvas, PageBox box, const ProbingPanel& panel);
 
 /// "−X" along an axis, else the three components of the unit vector.
-std::string direction_words(const std::array<double, 3>& unit_direction);
+std::string direction_text(const std::array<double, 3>& unit_direction);
 
 } // namespace axiscal

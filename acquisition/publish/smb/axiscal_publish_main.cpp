@@ -5,7 +5,7 @@
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
 #include "acquisition/publish/publisher_report.hpp"
-#include "acquisition/publish/second_hand.hpp"
+#include "acquisition/publish/upload_worker.hpp"
 #include "acquisition/publish/smb/smb_destination.hpp"
 #include "config/json_text.hpp"
 #include "config/station_config.hpp"
@@ -80,7 +80,7 @@ public:
         be("publishing", "");
     }
     void waiting(const std::string& run_id, const Error& why) override {
-        const std::string words = publishing_words(why);
+        const std::string words = publishing_text(why);
         spdlog::warn("{}{}; tried again until it works", run_id.empty() ? "" : run_id + ": ",
                      words);
         print({{"event", "waiting"}, {"run_id", run_id}, {"reason", words}});
@@ -177,7 +177,7 @@ int serve(const Options& options) {
     const PublisherClock clock{[] { return monotonic_from_ns(clock_ns(CLOCK_MONOTONIC)); },
                                [] { return clock_ns(CLOCK_REALTIME); }};
     Speaker speaker{options.json_lines, options.outbox, (*destination)->place()};
-    SecondHand second{options.outbox, clock.utc_ns, **destination,
+    UploadWorker second{options.outbox, clock.utc_ns, **destination,
                       [&] { return make_destination(options.publish); }, speaker};
     const auto begin_second = [&](const std::vector<std::string>& run_ids) {
         speaker.be("publishing", ""); // before the fork: the report has one writer

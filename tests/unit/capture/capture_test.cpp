@@ -21,7 +21,7 @@ Result<Capture> capture_here(AxisSignal& signal,
     const auto trigger = signal.now();
     signal.stand(0.7);
     const auto search = find_still_window(signal.history, trigger, signal.now(), quiet_config());
-    if (!search.window) return tl::unexpected<Error>(give_up(search, {}));
+    if (!search.window) return tl::unexpected<Error>(not_still(search, {}));
     return make_capture(signal.history, *search.window,
                         ApproachClaim{direction, sign, overrun, since}, quiet_config());
 }

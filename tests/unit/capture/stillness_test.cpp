@@ -168,7 +168,7 @@ TEST(FindStillWindow, TellsAtTheDeadlineWhyNothingWasStill) {
     const auto trigger = signal.now();
     signal.stand(2);
     const auto search = find_still_window(signal.history, trigger, signal.now(), quiet_config());
-    const auto error = give_up(search, std::chrono::seconds{2});
+    const auto error = not_still(search, std::chrono::seconds{2});
     EXPECT_EQ(error.fault, Fault::not_still);
     EXPECT_NE(error.detail.find("within 2 s. The readings spread over"), std::string::npos)
         << error.detail;
@@ -178,7 +178,7 @@ TEST(FindStillWindow, TellsThatTheLaserIsSilent) {
     const SampleHistory nothing;
     const auto search = find_still_window(nothing, at_s(1), at_s(11), quiet_config());
     EXPECT_FALSE(search.window);
-    EXPECT_EQ(give_up(search, std::chrono::seconds{10}).fault, Fault::link_timeout);
+    EXPECT_EQ(not_still(search, std::chrono::seconds{10}).fault, Fault::link_timeout);
 }
 
 } // namespace

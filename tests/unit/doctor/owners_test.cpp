@@ -69,11 +69,11 @@ TEST_F(DoctorOwners, FindingStandsAmongThoseOfTheDisk) {
     add("lock", 0640);
     StationConfig config;
     config.state_directory = folder_;
-    Patient patient;
-    patient.config = &config;
-    patient.service = service_;
+    CheckedSystem checked;
+    checked.config = &config;
+    checked.service = service_;
     std::string told;
-    for (const Finding& finding : check_disk(patient))
+    for (const Finding& finding : check_disk(checked))
         told += finding.what + "\n";
     EXPECT_NE(told.find("may not write lock"), std::string::npos) << told;
 }

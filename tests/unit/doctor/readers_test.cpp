@@ -13,10 +13,10 @@ namespace {
 class DoctorReaders : public ::testing::Test {
 protected:
     DoctorReaders() {
-        patient_.config = &config_;
-        patient_.service.name = "axiscal";
-        patient_.service.user = ::geteuid();
-        patient_.service.groups = {::getegid()};
+        checked_.config = &config_;
+        checked_.service.name = "axiscal";
+        checked_.service.user = ::geteuid();
+        checked_.service.groups = {::getegid()};
         config_.state_directory = scratch_.path();
         config_.publish.destination = scratch_.path();
         config_.publish.group = ::getgrgid(::getegid())->gr_name;
@@ -24,14 +24,14 @@ protected:
     /// The finding that speaks of the group.
     [[nodiscard]] Finding finding(mode_t folder) const {
         EXPECT_EQ(::chmod(scratch_.path().c_str(), folder), 0);
-        for (const Finding& found : check_share(patient_, 0))
+        for (const Finding& found : check_share(checked_, 0))
             if (found.what.find("group " + config_.publish.group) != std::string::npos)
                 return found;
         return {Health::note, "none", "", ""};
     }
     testing::ScratchFolder scratch_;
     StationConfig config_;
-    Patient patient_;
+    CheckedSystem checked_;
 };
 
 TEST_F(DoctorReaders, ReadWhatTheFolderPassesItsGroupTo) {

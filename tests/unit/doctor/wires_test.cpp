@@ -15,16 +15,16 @@ constexpr std::string_view health_letters = "gnb"; // good, note, broken
 class DoctorWires : public ::testing::Test {
 protected:
     DoctorWires() {
-        patient.service.name = "axiscal";
-        patient.service.user = ::geteuid() + 1; // owns no node, is in no group
+        checked.service.name = "axiscal";
+        checked.service.user = ::geteuid() + 1; // owns no node, is in no group
     }
     void add(const std::string& name, const std::string& driver, const std::string& link) {
-        patient.wires.instruments.push_back({name, driver, link, {}});
+        checked.wires.instruments.push_back({name, driver, link, {}});
     }
     [[nodiscard]] std::vector<Finding> findings() const {
         DoctorPlaces places;
         places.kernel = {tree.sysfs(), tree.dev()};
-        return check_wires(patient, places);
+        return check_wires(checked, places);
     }
     /// One letter for each finding, in their order.
     [[nodiscard]] std::string health() const {
@@ -41,7 +41,7 @@ protected:
         ASSERT_EQ(::chmod(node.c_str(), allowed ? 0666 : 0600), 0);
     }
     testing::SysfsTree tree;
-    Patient patient;
+    CheckedSystem checked;
 };
 
 /// The block of docs/instruments/labjack-u6.md on a U6 as the kernel sees it: without a number.
@@ -129,7 +129,7 @@ TEST_F(DoctorWires, InterfaceThatIsDownIsBroken) {
 
 TEST_F(DoctorWires, LineOfTheCncIsLookedAtLikeAnInstrument) {
     const std::string line = tree.dev() + "/ttyS0";
-    patient.wires.trigger_line = line;
+    checked.wires.trigger_line = line;
     ASSERT_EQ(health(), "b");
     EXPECT_NE(findings()[0].what.find("the CNC's serial line " + line + " is not there"),
               std::string::npos);

@@ -3,7 +3,7 @@
 #include "acquisition/journal/journal.hpp"
 #include "drivers/trigger/dwell_trigger_port.hpp"
 #include "drivers/trigger/single_register_map.hpp"
-#include "drivers/trigger/trigger_desk.hpp"
+#include "drivers/trigger/trigger_server.hpp"
 #include "tests/support/port_bench.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
@@ -78,16 +78,16 @@ protected:
 };
 
 TEST_F(ReceiptToCnc, IsTheOnlyWayToMoveDone) {
-    TriggerDesk desk{std::make_unique<SingleRegisterMap>()};
-    desk.arm();
-    const auto done = [&] { return desk.image(scheduler.now()).input[0]; };
-    desk.write(ModbusRequest{modbus_function::write_register, 0, 0, 0, {7}}, scheduler.now());
+    TriggerServer server{std::make_unique<SingleRegisterMap>()};
+    server.arm();
+    const auto done = [&] { return server.image(scheduler.now()).input[0]; };
+    server.write(ModbusRequest{modbus_function::write_register, 0, 0, 0, {7}}, scheduler.now());
     EXPECT_EQ(done(), 0);
-    store(7, [&](const JournalReceipt& receipt) { desk.acknowledge(receipt); });
+    store(7, [&](const JournalReceipt& receipt) { server.acknowledge(receipt); });
     EXPECT_EQ(done(), 7) << "the number of the durable point, not a count";
-    desk.refuse(8, Fault::not_still);
+    server.refuse(8, Fault::not_still);
     EXPECT_EQ(done(), 7);
-    desk.arm();
+    server.arm();
     EXPECT_EQ(done(), 0);
 }
 

@@ -171,9 +171,9 @@ TEST(FileUsers, AreTheOthersOfThatFileAndNoneWhoOnlyWaits) {
                         << "1: -> POSIX  ADVISORY  WRITE 4194306 " << here << " 1 2\n"
                         << "2: POSIX  ADVISORY  WRITE " << ::getpid() << " " << here << " 1 2\n"
                         << "3: FLOCK  ADVISORY  WRITE 4194307 00:00:1 0 EOF\n";
-    EXPECT_EQ(file_users_in_words(path, list), "process " + none);
-    EXPECT_EQ(file_users_in_words(path, scratch.file("missing")), "another program");
-    EXPECT_EQ(file_users_in_words(scratch.file("gone"), list), "another program");
+    EXPECT_EQ(file_users_text(path, list), "process " + none);
+    EXPECT_EQ(file_users_text(path, scratch.file("missing")), "another program");
+    EXPECT_EQ(file_users_text(scratch.file("gone"), list), "another program");
 }
 
 } // namespace

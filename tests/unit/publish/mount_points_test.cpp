@@ -158,7 +158,7 @@ struct Told final : PublisherListener {
     std::vector<std::string> lines;
     void published(const PublishReceipt& receipt) override { lines.push_back(receipt.run_id); }
     void waiting(const std::string& run_id, const Error& why) override {
-        lines.push_back(run_id + ": " + publishing_words(why));
+        lines.push_back(run_id + ": " + publishing_text(why));
     }
     void destination_back() override { lines.emplace_back("back"); }
     void progress() override {

@@ -65,7 +65,7 @@ private:
 
 /// What second hands did: claims every other entry, and ends when it is waited for.
 struct SecondsWork {
-    class Hand final : public Helper {
+    class Hand final : public UploadHelper {
     public:
         Hand(SecondsWork& work, std::vector<std::string> run_ids)
             : work_{work}
@@ -89,7 +89,7 @@ struct SecondsWork {
         std::vector<std::string> run_ids_;
         std::size_t next_ = 0;
     };
-    std::unique_ptr<Helper> begin(const std::vector<std::string>& run_ids) {
+    std::unique_ptr<UploadHelper> begin(const std::vector<std::string>& run_ids) {
         ++begun;
         return std::make_unique<Hand>(*this, run_ids);
     }
@@ -104,9 +104,9 @@ struct Post {
     Heard heard;
     int second = 0;
     ShakyDestination share{destination};
-    SecondsWork second_hand;
+    SecondsWork upload_worker;
     Publisher publisher{{outbox, std::chrono::seconds{1},
-                         [this](const auto& run_ids) { return second_hand.begin(run_ids); }},
+                         [this](const auto& run_ids) { return upload_worker.begin(run_ids); }},
                         {[this] { return MonotonicTime{std::chrono::seconds{second}}; },
                          [] { return std::int64_t{0}; }},
                         share,
@@ -203,23 +203,23 @@ Lines many(Post& post, int count) {
 TEST(Publisher, LeavesASecondHandWhatItClaims) {
     Post post;
     const Lines all = many(post, 17);
-    post.second_hand.does = [&](const std::string& run_id) {
+    post.upload_worker.does = [&](const std::string& run_id) {
         std::filesystem::remove_all(post.outbox + "/" + run_id);
     };
     EXPECT_EQ(post.pass_at(0), 0U);
     Lines own, claimed;
     for (std::size_t i = 0; i < all.size(); ++i)
         (i % 2 == 0 ? own : claimed).push_back((i % 2 == 0 ? "published " : "") + all[i]);
-    EXPECT_EQ(post.second_hand.claimed, claimed);
+    EXPECT_EQ(post.upload_worker.claimed, claimed);
     EXPECT_EQ(post.heard.lines, own);
-    EXPECT_EQ(post.second_hand.waited_for, 1);
+    EXPECT_EQ(post.upload_worker.waited_for, 1);
 }
 
 TEST(Publisher, DoesItselfWhatTheSecondHandLeaves) {
     Post post;
     many(post, 16);
     EXPECT_EQ(post.pass_at(0), 0U);
-    EXPECT_EQ(post.second_hand.claimed.size(), 8U);
+    EXPECT_EQ(post.upload_worker.claimed.size(), 8U);
     EXPECT_EQ(post.heard.lines.size(), 16U);
     EXPECT_EQ(post.heard.lines.back(), "published run-115");
 }
@@ -230,7 +230,7 @@ TEST(Publisher, ClaimsNoMoreOnceTheShareIsLostButWaitsForTheSecondHand) {
     post.share.answer = share_lost("frozen").value();
     EXPECT_EQ(post.pass_at(0), 20U);
     EXPECT_EQ(post.share.writes, 1);
-    EXPECT_EQ(post.second_hand.waited_for, 1);
+    EXPECT_EQ(post.upload_worker.waited_for, 1);
 }
 
 TEST(Publisher, EndsTheSecondHandWhereTheDestinationIsNotThere) {
@@ -238,16 +238,16 @@ TEST(Publisher, EndsTheSecondHandWhereTheDestinationIsNotThere) {
     many(post, 16);
     std::filesystem::remove_all(post.destination);
     EXPECT_EQ(post.pass_at(0), 16U);
-    EXPECT_EQ(post.second_hand.begun, 1);
-    EXPECT_EQ(post.second_hand.ended, 1);
-    EXPECT_EQ(post.second_hand.waited_for, 0);
+    EXPECT_EQ(post.upload_worker.begun, 1);
+    EXPECT_EQ(post.upload_worker.ended, 1);
+    EXPECT_EQ(post.upload_worker.waited_for, 0);
 }
 
 TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
     Post few;
     many(few, 15);
     EXPECT_EQ(few.pass_at(0), 0U);
-    EXPECT_EQ(few.second_hand.begun, 0);
+    EXPECT_EQ(few.upload_worker.begun, 0);
     Post troubled;
     std::filesystem::create_directories(troubled.outbox + "/empty");
     many(troubled, 4);
@@ -255,7 +255,7 @@ TEST(Publisher, TroubleAndFewEntriesNeedNoSecondHand) {
     for (int run = 200; run < 230; ++run)
         ASSERT_TRUE(stage_entry(troubled.outbox, "run-" + std::to_string(run), {{"a", "x"}}));
     EXPECT_EQ(troubled.pass_at(1), 1U);
-    EXPECT_EQ(troubled.second_hand.begun, 0);
+    EXPECT_EQ(troubled.upload_worker.begun, 0);
 }
 
 } // namespace

@@ -84,7 +84,7 @@ TEST_F(CircularReport, HoldsEveryFigureWithItsU) {
     for (const CircularFigureLine& line : lines) {
         EXPECT_THAT(page, HasSubstr(micrometres(line.value_mm, 1))) << line.key;
         EXPECT_THAT(page, HasSubstr(line.words));
-        EXPECT_THAT(page, HasSubstr(uncertainty_words(certificate, line.key))) << line.key;
+        EXPECT_THAT(page, HasSubstr(uncertainty_text(certificate, line.key))) << line.key;
     }
     EXPECT_THAT(page, HasSubstr("± U (k = 2)"));
     EXPECT_EQ(occurrences(page, "not evaluated"), 0);
@@ -365,13 +365,13 @@ TEST(CircularWording, WritesSentencesInTheSignsOfPaper) {
 TEST(CircularWording, NamesTheQuadrantThatATraceGoesIntoAndComesOutOf) {
     const double degree_rad = test::one_degree;
     const CircularTrace ccw{Sense::ccw, {0, 1, 359.5 * degree_rad}, {0, 0, 0}};
-    EXPECT_EQ(start_words(ccw), "0.00°, into quadrant 1");
+    EXPECT_EQ(start_text(ccw), "0.00°, into quadrant 1");
     const CircularTrace turned{Sense::cw, {(360 - 1e-9) * degree_rad, 1, 0}, {0, 0, 0}};
-    EXPECT_EQ(start_words(turned), "0.00°, into quadrant 4");
-    EXPECT_EQ(end_words(ccw), "359.50°, out of quadrant 4");
+    EXPECT_EQ(start_text(turned), "0.00°, into quadrant 4");
+    EXPECT_EQ(end_text(ccw), "359.50°, out of quadrant 4");
     const CircularTrace cw{Sense::cw, {0, -1, -270 * degree_rad}, {0, 0, 0}};
-    EXPECT_EQ(start_words(cw), "0.00°, into quadrant 4");
-    EXPECT_EQ(end_words(cw), "90.00°, out of quadrant 2");
+    EXPECT_EQ(start_text(cw), "0.00°, into quadrant 4");
+    EXPECT_EQ(end_text(cw), "90.00°, out of quadrant 2");
 }
 
 } // namespace

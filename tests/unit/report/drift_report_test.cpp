@@ -387,10 +387,10 @@ TEST(DriftPlot, PutsTheAxisAboveTheChannelsOnTheSameTime) {
 }
 
 TEST(DriftWords, TellADurationInItsLargestWholeUnit) {
-    EXPECT_EQ(duration_words(30min), "30 min");
-    EXPECT_EQ(duration_words(12h), "12 h");
-    EXPECT_EQ(duration_words(90s), "90 s");
-    EXPECT_EQ(duration_words(500ms), "0.500 s");
+    EXPECT_EQ(duration_text(30min), "30 min");
+    EXPECT_EQ(duration_text(12h), "12 h");
+    EXPECT_EQ(duration_text(90s), "90 s");
+    EXPECT_EQ(duration_text(500ms), "0.500 s");
 }
 
 } // namespace

@@ -89,11 +89,11 @@ TEST(PolarScale, TakesTheLargestRoundMagnificationThatFits) {
 }
 
 TEST(PolarScale, SaysItsMagnificationAndDivision) {
-    EXPECT_EQ(magnification_words(5000), "5000:1");
-    EXPECT_EQ(magnification_words(0.2), "1:5");
-    EXPECT_EQ(division_words(0.002), "2 µm");
-    EXPECT_EQ(division_words(0.0005), "0.5 µm");
-    EXPECT_EQ(division_words(50), "50 mm");
+    EXPECT_EQ(magnification_text(5000), "5000:1");
+    EXPECT_EQ(magnification_text(0.2), "1:5");
+    EXPECT_EQ(division_text(0.002), "2 µm");
+    EXPECT_EQ(division_text(0.0005), "0.5 µm");
+    EXPECT_EQ(division_text(50), "50 mm");
 }
 
 TEST(PolarScale, RoundStepsGoDownAndKeepRoundNumbers) {

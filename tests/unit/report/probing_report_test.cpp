@@ -245,9 +245,9 @@ TEST(ProbingPlot, PutsTheReferencesOfADirectionBesideItsTouches) {
 }
 
 TEST(ProbingWords, NameADirectionByItsAxisOrItsParts) {
-    EXPECT_EQ(direction_words({-1, 0, 0}), "\u2212X");
-    EXPECT_EQ(direction_words({0, 1, 0}), "+Y");
-    EXPECT_EQ(direction_words({0.6, 0, -0.8}), "(0.600, 0.000, \u22120.800)");
+    EXPECT_EQ(direction_text({-1, 0, 0}), "\u2212X");
+    EXPECT_EQ(direction_text({0, 1, 0}), "+Y");
+    EXPECT_EQ(direction_text({0.6, 0, -0.8}), "(0.600, 0.000, \u22120.800)");
 }
 
 TEST(ProbingWords, TellWhyNoSawToothWasFoundOnceForEachReason) {

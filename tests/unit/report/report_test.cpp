@@ -219,7 +219,7 @@ TEST_F(Report, PrintsTheSimulatedUBesideTheFormula) {
 
 TEST_F(Report, StatesTheLargestSynchronisationErrorInWords) {
     Certificate certificate = test::certificate_of(test::synthetic_run());
-    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("not stated"));
+    EXPECT_THAT(synchronisation_text(certificate), HasSubstr("not stated"));
     auto& records = certificate.attachments.synchronisation;
     records = {{3, "serial/0/1", Synchronisation{std::chrono::microseconds{7}, 0.01234}},
                {4, "serial/0/1", Synchronisation{std::chrono::microseconds{90}, 0.002}},
@@ -227,10 +227,9 @@ TEST_F(Report, StatesTheLargestSynchronisationErrorInWords) {
     const std::string text =
         test::text_of(test::write_pdf(folder_, *render_certificate_pdf(certificate)));
     EXPECT_THAT(text, HasSubstr("at most 0.0124 µm (at point 4)")); // rounded up
-    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("Not stated for 109 of 111"));
+    EXPECT_THAT(synchronisation_text(certificate), HasSubstr("Not stated for 109 of 111"));
     records = {{-1, "serial/0/1", Synchronisation{std::chrono::microseconds{7}, 1e-6}}};
-    EXPECT_THAT(synchronisation_words(certificate),
-                HasSubstr("less than 0.0001 µm (at the datum)"));
+    EXPECT_THAT(synchronisation_text(certificate), HasSubstr("less than 0.0001 µm (at the datum)"));
 }
 
 /// One millimetre of an autocollimator's reading stands for a degree: a micrometre for 3.6".
@@ -242,11 +241,11 @@ TEST_F(Report, StatesTheLargestSynchronisationErrorOfAnAutocollimatorInSecondsOf
         test::text_of(test::write_pdf(folder_, *render_certificate_pdf(certificate)));
     EXPECT_THAT(text, HasSubstr("at most 0.0360″ of the autocollimator's reading"));
     records.front().stated->error_um = 5e-5; // 0.00018": four decimals can show that
-    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("at most 0.0002″"));
+    EXPECT_THAT(synchronisation_text(certificate), HasSubstr("at most 0.0002″"));
     records.front().stated->error_um = 2e-5; // 0.000072"
-    EXPECT_THAT(synchronisation_words(certificate), HasSubstr("less than 0.0001″"));
+    EXPECT_THAT(synchronisation_text(certificate), HasSubstr("less than 0.0001″"));
     certificate.run.rotary->method = AngleMethod::indexing_table;
-    EXPECT_THAT(synchronisation_words(certificate),
+    EXPECT_THAT(synchronisation_text(certificate),
                 HasSubstr("less than 0.0001 µm of the interferometer's reading"));
 }
 

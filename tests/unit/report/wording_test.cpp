@@ -50,8 +50,8 @@ TEST(Wording, TellsWhatNobodyStated) {
 }
 
 TEST(Wording, TellsACoefficientOfExpansionWithItsUncertaintyOrThatItHasNone) {
-    EXPECT_EQ(coefficient_words(11.5e-6, 0.6e-6), "11.50 µm/(m·K), standard uncertainty 0.60");
-    EXPECT_EQ(coefficient_words(8e-6, {}), "8.00 µm/(m·K), uncertainty not stated");
+    EXPECT_EQ(coefficient_text(11.5e-6, 0.6e-6), "11.50 µm/(m·K), standard uncertainty 0.60");
+    EXPECT_EQ(coefficient_text(8e-6, {}), "8.00 µm/(m·K), uncertainty not stated");
 }
 
 TEST(Wording, WritesInstantsForPeople) {

@@ -1,6 +1,6 @@
 // Expected bytes: the vendor sheets' frames, CRC by the Modbus polynomial.
 #include "wire/modbus_slave.hpp"
-#include "wire/sensor_faces.hpp"
+#include "wire/simulated_sensors.hpp"
 
 #include <gtest/gtest.h>
 

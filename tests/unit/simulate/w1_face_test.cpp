@@ -1,5 +1,5 @@
 // Expected texts: the DS18B20 data sheet's table of temperatures and its power-on scratchpad.
-#include "wire/w1_face.hpp"
+#include "wire/simulated_w1.hpp"
 
 #include <gtest/gtest.h>
 

@@ -63,10 +63,10 @@ TEST_F(StationResumes, TheInterruptionNamesTheVersionThatGoesOn) {
 TEST(TakenUp, ByAnotherVersionNamesBoth) {
     RunRecord run;
     run.software_version = "0.0.9";
-    EXPECT_EQ(taken_up_in_words(run), std::string{"Version "} + software_version() +
-                                          " goes on; version 0.0.9 opened the run. ");
+    EXPECT_EQ(taken_up_text(run), std::string{"Version "} + software_version() +
+                                      " goes on; version 0.0.9 opened the run. ");
     run.software_version = software_version();
-    EXPECT_EQ(taken_up_in_words(run), std::string{"Version "} + software_version() + " goes on. ");
+    EXPECT_EQ(taken_up_text(run), std::string{"Version "} + software_version() + " goes on. ");
 }
 
 TEST_F(StationResumes, OnAFullDiskTheRunWaitsForRoomAndGoesOnByItself) {

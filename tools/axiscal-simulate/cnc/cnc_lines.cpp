@@ -40,8 +40,8 @@ std::array<std::uint16_t, 9> CncLines::block(const CncScenario& cnc, const CncOu
         words[0] = clip(outputs[0]);
         return words;
     }
-    const double told = outputs[command_output];
-    words[command] = told == 0 ? command_capture : clip(told);
+    const double code = outputs[command_output];
+    words[command] = code == 0 ? command_capture : clip(code);
     words[sequence] = clip(outputs[0]);
     words[target] = clip(outputs[1]);
     words[direction] = clip(outputs[2]);

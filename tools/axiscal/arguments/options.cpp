@@ -54,13 +54,13 @@ std::string token_in(const std::string& path) {
 std::string exit_codes_text(const std::vector<ExitCode>& codes) {
     std::string text, line = "Exit codes:";
     for (const ExitCode code : codes) {
-        const std::string told = " " + std::to_string(code) + " " + meaning_of(code) +
-                                 (code == codes.back() ? "." : ";");
-        if (line.size() + told.size() > columns) {
+        const std::string entry = " " + std::to_string(code) + " " + meaning_of(code) +
+                                  (code == codes.back() ? "." : ";");
+        if (line.size() + entry.size() > columns) {
             text += line + "\n";
             line.clear();
         }
-        line += line.empty() ? told.substr(1) : told;
+        line += line.empty() ? entry.substr(1) : entry;
     }
     return text + line;
 }

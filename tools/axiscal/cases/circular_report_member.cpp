@@ -34,7 +34,7 @@ std::string remark(const json& object, const char* key) {
 
 std::vector<TextPlace> text_places(CircularReportWords& words) {
     Statements& said = words.statements;
-    CircularConditions& told = words.conditions;
+    CircularConditions& conditions = words.conditions;
     return {{"id", &words.id},
             {"date", &words.date},
             {"certificate_number", &said.certificate_number},
@@ -52,14 +52,14 @@ std::vector<TextPlace> text_places(CircularReportWords& words) {
             {"control_compensation", &said.control_compensation},
             {"warm_up", &said.warm_up},
             {"idle_axes", &said.idle_axes},
-            {"tool_offset", &told.tool_offset},
-            {"work_offset", &told.work_offset},
-            {"filter", &told.filter},
-            {"angle_origin", &told.angle_origin},
-            {"feed_in", &told.feed_in}};
+            {"tool_offset", &conditions.tool_offset},
+            {"work_offset", &conditions.work_offset},
+            {"filter", &conditions.filter},
+            {"angle_origin", &conditions.angle_origin},
+            {"feed_in", &conditions.feed_in}};
 }
 
-Result<void> read_numbers(const json& given, CircularConditions& told) {
+Result<void> read_numbers(const json& given, CircularConditions& conditions) {
     const std::string field = "report.";
     constexpr double coldest = -100, warmest = 200, most = 1e12, widest = 360;
     struct NumberPlace {
@@ -68,9 +68,9 @@ Result<void> read_numbers(const json& given, CircularConditions& told) {
         double least, most;
     };
     for (const auto& [key, place, least, limit] :
-         {NumberPlace{"air_degC", &told.air.mean_degC, coldest, warmest},
-          NumberPlace{"sample_rate_hz", &told.sample_rate_hz, 0, most},
-          NumberPlace{"overshoot_deg", &told.overshoot_deg, 0, widest}}) {
+         {NumberPlace{"air_degC", &conditions.air.mean_degC, coldest, warmest},
+          NumberPlace{"sample_rate_hz", &conditions.sample_rate_hz, 0, most},
+          NumberPlace{"overshoot_deg", &conditions.overshoot_deg, 0, widest}}) {
         if (!given.contains(key)) continue;
         AXISCAL_TRY(const double value, number_at(given, key, field + key));
         if (!(value >= least && value <= limit))
@@ -82,7 +82,7 @@ Result<void> read_numbers(const json& given, CircularConditions& told) {
                 numbers_at(given, "centre_mm", "report.centre_mm"));
     if (centre.size() != 3)
         return refuse(Fault::bad_case, "report.centre_mm", "must hold three numbers: X, Y, Z");
-    told.centre_mm = std::array<double, 3>{centre[0], centre[1], centre[2]};
+    conditions.centre_mm = std::array<double, 3>{centre[0], centre[1], centre[2]};
     return {};
 }
 

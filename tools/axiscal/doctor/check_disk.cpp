@@ -48,7 +48,7 @@ bool is_bare_mount_point(const std::string& path) {
 
 Finding check_folder(const std::string& folder, const Account& service, const MountPlaces& mounts) {
     if (const auto absent = absent_mount(folder, mounts))
-        return {Health::broken, "share", absent_mount_words(*absent), absent->way_out};
+        return {Health::broken, "share", absent_mount_text(*absent), absent->way_out};
     if (!is_folder(folder))
         return {Health::broken, "share", "the destination " + folder + " is not there",
                 "mount it (sudo mount " + folder + "), or correct publish.destination"};
@@ -95,23 +95,23 @@ Finding check_server(const OutboxView& outbox, const std::string& destination) {
 
 } // namespace
 
-std::vector<Finding> check_disk(const Patient& patient) {
-    const std::string folder = patient.config != nullptr ? patient.config->state_directory
+std::vector<Finding> check_disk(const CheckedSystem& checked) {
+    const std::string folder = checked.config != nullptr ? checked.config->state_directory
                                                          : StationConfig{}.state_directory;
     if (!is_folder(folder))
         return {{Health::broken, "disk", "the state directory " + folder + " is not there",
                  "sudo install -d -o axiscal -g axiscal -m 750 " + folder}};
     std::vector<Finding> found;
-    if (may_use(patient.service, folder))
+    if (may_use(checked.service, folder))
         found.push_back({Health::good, "disk",
-                         folder + " belongs to " + patient.service.name + " or its group", ""});
+                         folder + " belongs to " + checked.service.name + " or its group", ""});
     else
         found.push_back({Health::broken, "disk",
-                         "the user " + patient.service.name + " may not write to " + folder + " (" +
+                         "the user " + checked.service.name + " may not write to " + folder + " (" +
                              rights_text(folder) + ")",
                          "sudo chown -R axiscal:axiscal " + folder});
     if (found.back().health == Health::good)
-        for (Finding& finding : check_owners(folder, patient.service))
+        for (Finding& finding : check_owners(folder, checked.service))
             found.push_back(std::move(finding));
     struct statfs about {};
     if (::statfs(folder.c_str(), &about) == 0) {
@@ -126,18 +126,18 @@ std::vector<Finding> check_disk(const Patient& patient) {
 }
 
 std::vector<Finding>
-check_share(const Patient& patient, std::int64_t utc_ns, const MountPlaces& mounts) {
-    const PublishConfig& publish = patient.config->publish;
+check_share(const CheckedSystem& checked, std::int64_t utc_ns, const MountPlaces& mounts) {
+    const PublishConfig& publish = checked.config->publish;
     if (publish.destination.empty())
         return {{Health::note, "share",
                  "no destination is configured: certificates stay in the outbox",
                  "write destination under [publish]"}};
-    OutboxWatch watch{patient.config->state_directory, publish};
+    OutboxWatch watch{checked.config->state_directory, publish};
     const OutboxView outbox = watch.look({{}, utc_ns, {}}); // one look: by the files' times
     std::vector<Finding> found;
     found.push_back(is_share_address(publish.destination)
                         ? check_server(outbox, publish.destination)
-                        : check_folder(publish.destination, patient.service, mounts));
+                        : check_folder(publish.destination, checked.service, mounts));
     if (!publish.group.empty() && found.back().health != Health::broken)
         found.push_back(check_readers(publish.destination, publish.group));
     if (!outbox.publisher_runs)

@@ -75,14 +75,14 @@ Finding check_answer(const std::string& version) {
 
 } // namespace
 
-std::vector<Finding> check_account(const Patient& patient) {
+std::vector<Finding> check_account(const CheckedSystem& checked) {
     std::vector<Finding> found;
-    if (!patient.service.is_service)
+    if (!checked.service.is_service)
         found.push_back({Health::note, "rights",
                          "there is no user axiscal: it is not installed as a service here",
                          "tools/install"});
     const std::string group =
-        patient.config != nullptr ? patient.config->console.group : ConsoleConfig{}.group;
+        checked.config != nullptr ? checked.config->console.group : ConsoleConfig{}.group;
     if (!group.empty() && !group_named(group))
         found.push_back({Health::broken, "rights", "there is no group " + group,
                          "sudo systemd-sysusers axiscal.conf"});
@@ -92,8 +92,8 @@ std::vector<Finding> check_account(const Patient& patient) {
                          "sudo adduser \"$USER\" " + group + ", then log in again"});
     else
         found.push_back({Health::good, "rights", "this user may arm and abort", ""});
-    if (patient.daemon_answers)
-        found.push_back(check_answer(patient.daemon_version));
+    if (checked.daemon_answers)
+        found.push_back(check_answer(checked.daemon_version));
     else
         found.push_back(
             {Health::note, "rights", "axiscald does not answer at its socket",
@@ -101,25 +101,25 @@ std::vector<Finding> check_account(const Patient& patient) {
     return found;
 }
 
-std::vector<Finding> check_ports(const Patient& patient) {
+std::vector<Finding> check_ports(const CheckedSystem& checked) {
     std::vector<Finding> found;
-    const TriggerConfig& trigger = patient.config->trigger;
+    const TriggerConfig& trigger = checked.config->trigger;
     if (trigger.transport == TriggerTransport::tcp_server) {
         found.push_back(judge_port_trial({"the CNC's Modbus port", trigger.host, trigger.port,
                                           try_port(trigger.host, trigger.port),
-                                          patient.daemon_answers, ::geteuid() == 0}));
+                                          checked.daemon_answers, ::geteuid() == 0}));
         found.push_back(check_allowed(trigger));
     }
-    const ConsoleConfig& console = patient.config->console;
+    const ConsoleConfig& console = checked.config->console;
     if (console.port > 0) {
         found.push_back(judge_port_trial({"the console's port", console.host, console.port,
                                           try_port(console.host, console.port),
-                                          patient.daemon_answers, ::geteuid() == 0}));
+                                          checked.daemon_answers, ::geteuid() == 0}));
         if (auto readers = check_readers(console)) found.push_back(*std::move(readers));
     }
-    if (!patient.trigger_note.empty())
+    if (!checked.trigger_note.empty())
         found.push_back({Health::note, "port",
-                         "axiscald says of its trigger: " + patient.trigger_note,
+                         "axiscald says of its trigger: " + checked.trigger_note,
                          "axiscal status"});
     return found;
 }

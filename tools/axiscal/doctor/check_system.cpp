@@ -105,7 +105,7 @@ std::vector<Finding> check_clock(const DoctorPlaces& places) {
     return judge_clock(clock);
 }
 
-std::vector<Finding> check_modules(const Patient& patient, const DoctorPlaces& places) {
+std::vector<Finding> check_modules(const CheckedSystem& checked, const DoctorPlaces& places) {
     std::vector<Finding> found;
     std::string unknown;
     for (const Module& module : modules) {
@@ -114,7 +114,7 @@ std::vector<Finding> check_modules(const Patient& patient, const DoctorPlaces& p
             unknown += (unknown.empty() ? "" : ", ") + std::string{module.name};
         else
             found.push_back(
-                judge_module(module.name, module.serves, state, needed_by(module, patient.wires)));
+                judge_module(module.name, module.serves, state, needed_by(module, checked.wires)));
     }
     if (!unknown.empty())
         found.push_back(

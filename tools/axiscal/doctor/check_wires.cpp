@@ -34,14 +34,14 @@ void check_device(const PluggedDevice& device,
 /// @returns whether there is any
 bool check_possible(const StationWires::Entry& entry,
                     const std::vector<PluggedDevice>& plugged,
-                    const Patient& patient,
+                    const CheckedSystem& checked,
                     std::vector<Finding>& found) {
     bool any = false;
     for (const PluggedDevice& device : plugged) {
-        const auto names = may_be(device, patient.wires);
+        const auto names = may_be(device, checked.wires);
         if (std::ranges::find(names, entry.name) == names.end()) continue;
         any = true;
-        for (const Obstacle& obstacle : obstacles(device, patient.service))
+        for (const Obstacle& obstacle : obstacles(device, checked.service))
             found.push_back(finding_of(obstacle, entry.name));
         found.push_back({Health::note, "wire",
                          "\"" + entry.name + "\" (" + entry.link + ") may be the one at " +
@@ -91,10 +91,10 @@ StationWires only(const StationWires::Entry& entry) {
 
 } // namespace
 
-std::vector<Finding> check_wires(const Patient& patient, const DoctorPlaces& places) {
+std::vector<Finding> check_wires(const CheckedSystem& checked, const DoctorPlaces& places) {
     const auto plugged = list_plugged(places.kernel);
     std::vector<Finding> found;
-    for (const StationWires::Entry& entry : patient.wires.instruments) {
+    for (const StationWires::Entry& entry : checked.wires.instruments) {
         if (is_far(entry)) {
             found.push_back({Health::good, "wire",
                              "\"" + entry.name + "\" is asked over the network (" + entry.link +
@@ -103,21 +103,21 @@ std::vector<Finding> check_wires(const Patient& patient, const DoctorPlaces& pla
             continue;
         }
         if (const PluggedDevice* device = device_of(entry.name, plugged, only(entry)))
-            check_device(*device, entry.name, patient.service, found);
+            check_device(*device, entry.name, checked.service, found);
         else if (const auto bare = bare_terminal(path_of(entry.link)))
-            check_device(*bare, entry.name, patient.service, found);
-        else if (!check_possible(entry, plugged, patient, found))
+            check_device(*bare, entry.name, checked.service, found);
+        else if (!check_possible(entry, plugged, checked, found))
             found.push_back(absent(entry));
     }
-    if (patient.wires.trigger_line.empty()) return found;
-    const StationWires line{{}, patient.wires.trigger_line};
+    if (checked.wires.trigger_line.empty()) return found;
+    const StationWires line{{}, checked.wires.trigger_line};
     if (const PluggedDevice* device = device_of("trigger", plugged, line))
-        check_device(*device, "trigger", patient.service, found);
-    else if (const auto bare = bare_terminal(patient.wires.trigger_line))
-        check_device(*bare, "trigger", patient.service, found);
+        check_device(*device, "trigger", checked.service, found);
+    else if (const auto bare = bare_terminal(checked.wires.trigger_line))
+        check_device(*bare, "trigger", checked.service, found);
     else
         found.push_back({Health::broken, "wire",
-                         "the CNC's serial line " + patient.wires.trigger_line + " is not there",
+                         "the CNC's serial line " + checked.wires.trigger_line + " is not there",
                          "axiscal devices shows what is; plug it in, or correct serial_port"});
     return found;
 }

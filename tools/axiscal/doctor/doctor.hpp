@@ -21,7 +21,7 @@ struct DoctorPlaces {
 };
 
 /// What every check may ask.
-struct Patient {
+struct CheckedSystem {
     const StationConfig* config = nullptr; ///< null: the station file was refused
     StationWires wires;
     Account service;
@@ -30,21 +30,21 @@ struct Patient {
     std::string trigger_note;   ///< what the daemon says of its trigger port
 };
 
-std::vector<Finding> check_account(const Patient& patient);
+std::vector<Finding> check_account(const CheckedSystem& checked);
 /// The wire of each instrument, and of the CNC's serial line.
-std::vector<Finding> check_wires(const Patient& patient, const DoctorPlaces& places);
+std::vector<Finding> check_wires(const CheckedSystem& checked, const DoctorPlaces& places);
 std::vector<Finding> check_certificates(const StationConfig& config, std::int64_t utc_ns);
 std::vector<Finding> check_clock(const DoctorPlaces& places);
 /// The state directory: rights, space, file system, one durable commit where the caller may write.
-std::vector<Finding> check_disk(const Patient& patient);
+std::vector<Finding> check_disk(const CheckedSystem& checked);
 /// Files in it that the service may not write and that are not its own; none: no finding.
 std::vector<Finding> check_owners(const std::string& folder, const Account& service);
 /// The destination: there, mounted where a file of the system says so, writable; the publisher.
 std::vector<Finding>
-check_share(const Patient& patient, std::int64_t utc_ns, const MountPlaces& mounts = {});
+check_share(const CheckedSystem& checked, std::int64_t utc_ns, const MountPlaces& mounts = {});
 /// Sockets: the Modbus port of the CNC, the port of the console.
-std::vector<Finding> check_ports(const Patient& patient);
-std::vector<Finding> check_modules(const Patient& patient, const DoctorPlaces& places);
+std::vector<Finding> check_ports(const CheckedSystem& checked);
+std::vector<Finding> check_modules(const CheckedSystem& checked, const DoctorPlaces& places);
 std::vector<Finding> check_papers(const DoctorPlaces& places);
 
 } // namespace axiscal

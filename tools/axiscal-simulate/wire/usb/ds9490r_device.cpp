@@ -150,9 +150,9 @@ UsbAnswer Ds9490rDevice::in(std::uint8_t endpoint, std::size_t most) {
     if (endpoint != data_from_cable || to_host_.empty()) return UsbAnswer::hold();
     // Whoever reads less than there is loses it all.
     if (most < to_host_.size()) return to_host_.clear(), UsbAnswer::stall();
-    Bytes told{to_host_.begin(), to_host_.end()};
+    Bytes bytes{to_host_.begin(), to_host_.end()};
     to_host_.clear();
-    return UsbAnswer::done(std::move(told));
+    return UsbAnswer::done(std::move(bytes));
 }
 
 } // namespace axiscal::simulate

@@ -119,13 +119,13 @@ UsbAnswer FtdiUart::in(std::uint8_t, std::size_t most) {
     waiting_since_.reset();
     const std::size_t packets = std::max<std::size_t>(1, most / packet);
     const Bytes data = behind_.read(packets * (packet - status_size));
-    Bytes told;
-    told.reserve(packets * packet);
+    Bytes bytes;
+    bytes.reserve(packets * packet);
     for (std::size_t i = 0; i < data.size(); ++i) {
-        if (i % (packet - status_size) == 0) told.insert(told.end(), {0x01, 0x60});
-        told.push_back(data[i]);
+        if (i % (packet - status_size) == 0) bytes.insert(bytes.end(), {0x01, 0x60});
+        bytes.push_back(data[i]);
     }
-    return UsbAnswer::done(std::move(told));
+    return UsbAnswer::done(std::move(bytes));
 }
 
 } // namespace

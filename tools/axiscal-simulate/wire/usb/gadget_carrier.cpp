@@ -58,17 +58,18 @@ GadgetCarrier::GadgetCarrier(std::string name, std::unique_ptr<UsbDevice> device
     , tree_{fs::path{gadgets} / this->name()} {}
 
 Result<void> GadgetCarrier::describe_gadget() {
-    const UsbDescriptors& told = device().descriptors();
+    const UsbDescriptors& descriptors = device().descriptors();
     AXISCAL_CHECK(make_folder(tree_));
-    AXISCAL_CHECK(put(tree_ / "idVendor", hexadecimal(told.vendor)));
-    AXISCAL_CHECK(put(tree_ / "idProduct", hexadecimal(told.product)));
-    AXISCAL_CHECK(put(tree_ / "bcdDevice", hexadecimal(told.release)));
+    AXISCAL_CHECK(put(tree_ / "idVendor", hexadecimal(descriptors.vendor)));
+    AXISCAL_CHECK(put(tree_ / "idProduct", hexadecimal(descriptors.product)));
+    AXISCAL_CHECK(put(tree_ / "bcdDevice", hexadecimal(descriptors.release)));
     AXISCAL_CHECK(make_folder(tree_ / "configs/c.1"));
-    if (told.maker.empty() && told.name.empty() && told.serial.empty()) return {};
+    if (descriptors.maker.empty() && descriptors.name.empty() && descriptors.serial.empty())
+        return {};
     AXISCAL_CHECK(make_folder(tree_ / "strings/0x409"));
-    AXISCAL_CHECK(put(tree_ / "strings/0x409/manufacturer", told.maker));
-    AXISCAL_CHECK(put(tree_ / "strings/0x409/product", told.name));
-    return put(tree_ / "strings/0x409/serialnumber", told.serial);
+    AXISCAL_CHECK(put(tree_ / "strings/0x409/manufacturer", descriptors.maker));
+    AXISCAL_CHECK(put(tree_ / "strings/0x409/product", descriptors.name));
+    return put(tree_ / "strings/0x409/serialnumber", descriptors.serial);
 }
 
 /// Reports to the device come by SET_REPORT on endpoint 0, as the models have it.

@@ -128,11 +128,11 @@ UsbAnswer GsUsbDevice::in(std::uint8_t, std::size_t) {
 }
 
 std::string GsUsbDevice::state() const {
-    std::string told;
+    std::string list;
     for (const auto& node : nodes_)
-        told += (told.empty() ? "node " : ", node ") + std::to_string(node->number()) +
+        list += (list.empty() ? "node " : ", node ") + std::to_string(node->number()) +
                 " skipped " + std::to_string(node->pdos_skipped());
-    return told;
+    return list;
 }
 
 Result<void> GsUsbDevice::obey(const std::string& word) {

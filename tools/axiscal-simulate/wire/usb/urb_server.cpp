@@ -47,8 +47,8 @@ int queue_of(const UrbSubmit& urb) {
 UsbAnswer UrbServer::standard(const UsbSetup& setup, UsbAnswer answer) const {
     constexpr int configuration = 2;
     constexpr std::size_t cut_by = 5; // the last endpoint is told by half
-    const bool told = setup.value >> 8 == configuration && answer.bytes.size() > 2 * cut_by;
-    if (faults_.fault() == UsbFault::descriptors && told)
+    const bool bytes = setup.value >> 8 == configuration && answer.bytes.size() > 2 * cut_by;
+    if (faults_.fault() == UsbFault::descriptors && bytes)
         answer.bytes.resize(answer.bytes.size() - cut_by);
     return answer;
 }
@@ -72,8 +72,9 @@ bool UrbServer::finish(int socket, const Transfer& transfer, const UsbAnswer& an
         return send_all(socket, encode_return(urb.sequence, -EPIPE, 0, {}));
     if (!urb.in) return send_all(socket, encode_return(urb.sequence, 0, urb.length, {}));
     const std::size_t size = std::min<std::size_t>(answer.bytes.size(), urb.length);
-    const std::span told{answer.bytes.data(), size};
-    return send_all(socket, encode_return(urb.sequence, 0, static_cast<std::uint32_t>(size), told));
+    const std::span bytes{answer.bytes.data(), size};
+    return send_all(socket,
+                    encode_return(urb.sequence, 0, static_cast<std::uint32_t>(size), bytes));
 }
 
 bool UrbServer::unlink(int socket, const UrbUnlink& unlink) {

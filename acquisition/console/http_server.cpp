@@ -1,0 +1,374 @@
+#include "acquisition/console/http_server.hpp"
+
+#include "acquisition/console/access.hpp"
+#include "acquisition/console/alignment_json.hpp"
+#include "acquisition/console/api_json.hpp"
+#include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/http_answer.hpp"
+#include "acquisition/console/http_reading.hpp"
+#include "acquisition/console/listening.hpp"
+#include "acquisition/console/peer.hpp"
+#include "acquisition/console/stream_json.hpp"
+#include "drivers/loop/spawn.hpp"
+#include "drivers/turned_away.hpp"
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <exception>
+#include <unistd.h>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Request = HttpRequest;
+using Response = HttpResponse;
+
+constexpr auto quiet = asio::as_tuple(asio::use_awaitable);
+constexpr auto idle_limit =
+    std::chrono::seconds{30}; // a client that neither asks nor reads is let go
+constexpr auto try_again = std::chrono::seconds{1}; // for an address that is not there yet
+constexpr std::size_t client_limit = 64; // of each door: who fills one leaves the other open
+
+constexpr std::size_t seat_of(Door door) {
+    return door == Door::unix_socket ? 0 : 1;
+}
+
+/// One of the clients that a door may have.
+struct ClientSeat {
+    explicit ClientSeat(std::size_t& of)
+        : taken{of} {
+        ++taken;
+    }
+    ClientSeat(const ClientSeat&) = delete;
+    ClientSeat& operator=(const ClientSeat&) = delete;
+    ~ClientSeat() { --taken; }
+    std::size_t& taken;
+};
+
+/// What is asked for; a page may hang anything behind it ("?x=1").
+std::string path_of(const Request& request) {
+    std::string_view path{request.target().data(), request.target().size()};
+    path = path.substr(0, path.find('?'));
+    while (path.size() > 1 && path.ends_with('/'))
+        path.remove_suffix(1);
+    return std::string{path};
+}
+
+/// Arming met checks that do not hold: all of them at once.
+Response answer_with_checks(const Request& request,
+                            const Error& error,
+                            const Result<std::vector<PreflightRecord>>& checks) {
+    auto body = to_json(error);
+    if (checks) body["checks"] = to_json(*checks);
+    return answer(request, http::status::conflict, body);
+}
+
+} // namespace
+
+struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
+    Impl(Scheduler& on, StationInterface& of, ConsoleConfig with, std::string secret)
+        : scheduler{on}
+        , station{of}
+        , config{std::move(with)}
+        , tcp{on.executor()}
+        , local{on.executor()} {
+        rules.token = std::move(secret);
+    }
+
+    Task<void> open_tcp_later();
+    void serve_tcp();
+    template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
+    template <class Socket> Task<void> serve(Socket socket, Door door);
+    bool is_stranger(const asio::local::stream_protocol::socket& socket);
+    bool is_stranger(const asio::ip::tcp::socket& socket);
+    Task<Response> respond_or_tell(Request request, Door door, int descriptor);
+    Task<Response> respond(Request request, Door door, int descriptor);
+    Task<Response> change(Request request, Orderer by, int descriptor);
+    Task<Response> arm(Request request, Orderer by, int descriptor);
+    Task<Response> revise(Request request, Orderer by);
+
+    Scheduler& scheduler;
+    StationInterface& station;
+    ConsoleConfig config;
+    AccessRules rules;
+    asio::ip::tcp::acceptor tcp;
+    asio::local::stream_protocol::acceptor local;
+    SocketFile socket_file;
+    bool bound = false, ended = false;
+    std::array<std::size_t, 2> clients{}; ///< by door
+    TurnedAway strangers;
+    std::string no_tcp; ///< why nobody is heard over TCP now
+};
+
+bool HttpServer::Impl::is_stranger(const asio::local::stream_protocol::socket& /*socket*/) {
+    return false; // the socket's mode and group have judged
+}
+
+bool HttpServer::Impl::is_stranger(const asio::ip::tcp::socket& socket) {
+    if (config.allowed_clients.empty()) return false;
+    boost::system::error_code gone;
+    const auto remote = socket.remote_endpoint(gone);
+    const std::string from = gone ? "" : remote.address().to_string();
+    if (any_covers(config.allowed_clients, from)) return false;
+    if (const auto words = strangers.take(from, scheduler.now()))
+        spdlog::warn("The console turned {}: console.allowed_clients does not name it.", *words);
+    return true;
+}
+
+template <class Acceptor> Task<void> HttpServer::Impl::accept(Acceptor& acceptor, Door door) {
+    const auto self = shared_from_this();
+    for (;;) {
+        auto [error, socket] = co_await acceptor.async_accept(quiet);
+        if (error == asio::error::operation_aborted || error == asio::error::bad_descriptor)
+            co_return;
+        if (error) { // out of descriptors: wait instead of spinning
+            co_await scheduler.sleep_for(std::chrono::milliseconds{200});
+            continue;
+        }
+        if (is_stranger(socket)) continue; // the socket closes here
+        if (clients[seat_of(door)] < client_limit) spawn(scheduler, serve(std::move(socket), door));
+    }
+}
+
+template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door door) {
+    const auto self = shared_from_this();
+    const ClientSeat seat{clients[seat_of(door)]};
+    const int descriptor = socket.native_handle();
+    beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
+    beast::flat_buffer buffer;
+    for (bool alive = true; alive;) {
+        stream.expires_after(idle_limit);
+        HttpAsked asked = co_await read_request(stream, buffer);
+        if (!asked.request && !asked.refusal) break;
+        Response response = asked.refusal ? *std::move(asked.refusal) : Response{};
+        if (asked.request) {
+            Request request = *std::move(asked.request);
+            response = co_await respond_or_tell(std::move(request), door, descriptor);
+        }
+        alive = response.keep_alive();
+        stream.expires_after(idle_limit);
+        const auto [write_error, sent] = co_await http::async_write(stream, response, quiet);
+        if (write_error) break;
+        if (!alive) co_await end_gently(stream);
+    }
+}
+
+/// What one request throws ends that request: the station goes on.
+Task<Response> HttpServer::Impl::respond_or_tell(Request request, Door door, int descriptor) {
+    std::string what;
+    Request asked = request;
+    try {
+        co_return co_await respond(std::move(asked), door, descriptor);
+    } catch (const std::exception& bug) {
+        what = bug.what();
+    }
+    co_return answer(request, Error{Fault::internal, "This request ended with: " + what, {}, {}});
+}
+
+Task<Response> HttpServer::Impl::respond(Request request, Door door, int descriptor) {
+    const AccessVerdict verdict = judge_access(head_of(request, door), rules);
+    if (verdict.status != 200)
+        co_return answer_in_words(request, static_cast<http::status>(verdict.status),
+                                  verdict.sentence);
+    if (request.method() == http::verb::post) {
+        Orderer by;
+        by.door = "token";
+        if (door == Door::unix_socket) by = peer_of_socket(descriptor);
+        co_return co_await change(std::move(request), std::move(by), descriptor);
+    }
+    if (request.method() != http::verb::get)
+        co_return answer_in_words(request, http::status::method_not_allowed,
+                                  "GET reads, POST changes");
+    const std::string path = path_of(request);
+    if (path == "/v1/alignment")
+        co_return answer(request, http::status::ok, to_json(station.alignment()));
+    if (path == stream_path) {
+        const auto points = stream_points_of({request.target().data(), request.target().size()});
+        if (!points) co_return answer(request, points.error());
+        co_return answer(request, http::status::ok, to_json(station.stream(*points)));
+    }
+    StationStatus status = station.status();
+    if (!no_tcp.empty()) status.notes.push_back(no_tcp);
+    if (path == "/v1/status") co_return answer(request, http::status::ok, to_json(status));
+    if (path == "/v1/instruments")
+        co_return answer(request, http::status::ok, to_json(status)["instruments"]);
+    if (path == "/v1/preflight") {
+        ArmRequest as_configured;
+        const auto checks = co_await station.preflight(std::move(as_configured));
+        if (!checks) co_return answer(request, checks.error());
+        co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
+    }
+    co_return answer_in_words(
+        request, http::status::not_found,
+        "known are GET /v1/status, GET /v1/instruments, GET "
+        "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
+        "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
+        "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+        "/v1/drift");
+}
+
+Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descriptor) {
+    const std::string target = path_of(request);
+    if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by), descriptor);
+    if (target == "/v1/preflight") {
+        auto wanted = arm_request_from_json(request.body());
+        if (!wanted) co_return answer(request, wanted.error());
+        ArmRequest order = *std::move(wanted);
+        const auto checks = co_await station.preflight(std::move(order));
+        if (!checks) co_return answer(request, checks.error());
+        co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
+    }
+    if (target == "/v1/run/retake" || target == "/v1/run/exclude")
+        co_return co_await revise(std::move(request), std::move(by));
+    if (target == "/v1/run/trigger") {
+        const auto done = station.trigger();
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::accepted, {{"trigger", "accepted"}});
+    }
+    if (target == "/v1/run/reading") {
+        const auto seconds_of_arc = typed_reading_from_json(request.body());
+        if (!seconds_of_arc) co_return answer(request, seconds_of_arc.error());
+        const auto done = station.type_reading(*seconds_of_arc);
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::accepted, {{"reading", "accepted"}});
+    }
+    if (target == "/v1/run/abort") {
+        auto order = abort_request_from_json(request.body());
+        if (!order) co_return answer(request, order.error());
+        by.name = order->by;
+        const auto done = co_await station.abort(std::move(order->reason), std::move(by));
+        if (!done) co_return answer(request, done.error());
+        co_return answer(
+            request, http::status::ok,
+            {{"run", done->complete ? "complete" : "aborted"}, {"reason", done->reason}});
+    }
+    if (target == "/v1/drift") {
+        auto wanted = drift_request_from_json(request.body());
+        if (!wanted) co_return answer(request, wanted.error());
+        DriftRequest order = *std::move(wanted);
+        by.name = order.by.name;
+        order.by = std::move(by);
+        const auto run = co_await station.drift(std::move(order));
+        if (!run) co_return answer(request, run.error());
+        co_return answer(request, http::status::created, {{"run", *run}});
+    }
+    if (target == "/v1/alignment") {
+        const auto order = alignment_order_from_json(request.body());
+        if (!order) co_return answer(request, order.error());
+        const auto done = station.align(*order);
+        if (!done) co_return answer(request, done.error());
+        co_return answer(request, http::status::ok, to_json(station.alignment()));
+    }
+    co_return answer_in_words(
+        request, http::status::not_found,
+        "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
+        "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
+        "/v1/alignment, /v1/drift");
+}
+
+Task<Response> HttpServer::Impl::arm(Request request, Orderer by, int descriptor) {
+    auto wanted = arm_request_from_json(request.body());
+    if (!wanted) co_return answer(request, wanted.error());
+    ArmRequest order = *std::move(wanted);
+    by.name = order.by.name;
+    order.by = std::move(by);
+    order.has_gone = [descriptor] { return has_hung_up(descriptor); };
+    ArmRequest asked = order;
+    const auto run = co_await station.arm(std::move(asked));
+    if (!run && run.error().field == "preflight") {
+        const auto checks = co_await station.preflight(std::move(order));
+        co_return answer_with_checks(request, run.error(), checks);
+    }
+    if (!run) co_return answer(request, run.error());
+    co_return answer(request, http::status::created, {{"run", *run}});
+}
+
+Task<Response> HttpServer::Impl::revise(Request request, Orderer by) {
+    auto wanted = revision_request_from_json(request.body());
+    if (!wanted) co_return answer(request, wanted.error());
+    RevisionRequest order = *std::move(wanted);
+    by.name = order.by.name;
+    order.by = std::move(by);
+    if (path_of(request) == "/v1/run/retake") {
+        const auto retake = co_await station.retake(std::move(order));
+        if (!retake) co_return answer(request, retake.error());
+        co_return answer(request, http::status::ok, to_json(*retake));
+    }
+    const auto excluded = co_await station.exclude(std::move(order));
+    if (!excluded) co_return answer(request, excluded.error());
+    co_return answer(request, http::status::ok, {{"excluded", *excluded}});
+}
+
+HttpServer::HttpServer(Scheduler& scheduler,
+                       StationInterface& station,
+                       ConsoleConfig config,
+                       std::string token)
+    : impl_{std::make_shared<Impl>(scheduler, station, std::move(config), std::move(token))} {}
+
+HttpServer::~HttpServer() {
+    impl_->ended = true;
+    boost::system::error_code ignored;
+    impl_->tcp.close(ignored);
+    impl_->local.close(ignored);
+    impl_->socket_file = {};
+}
+
+Result<void> HttpServer::bind() {
+    if (std::exchange(impl_->bound, true)) return {};
+    AXISCAL_TRY(impl_->socket_file, listen(impl_->local, impl_->config));
+    return {};
+}
+
+Result<void> HttpServer::start() {
+    AXISCAL_CHECK(bind());
+    const Result<void> tcp = listen(impl_->tcp, impl_->config);
+    if (!tcp && tcp.error().fault != Fault::io) return tcp;
+    if (impl_->local.is_open())
+        spawn(impl_->scheduler, impl_->accept(impl_->local, Door::unix_socket));
+    if (tcp) {
+        impl_->serve_tcp();
+        return {};
+    }
+    impl_->no_tcp = "The console: " + describe(tcp.error()) + ". It is tried again each second.";
+    spdlog::warn("{}", impl_->no_tcp);
+    spawn(impl_->scheduler, impl_->open_tcp_later());
+    return {};
+}
+
+void HttpServer::Impl::serve_tcp() {
+    rules.known_hosts = known_hosts_of(config.host, config.port, config.allowed_hosts);
+    if (tcp.is_open()) spawn(scheduler, accept(tcp, Door::tcp));
+}
+
+/// An address comes with its network, perhaps long after the daemon's start. Who only looks over
+/// TCP holds up neither trigger nor run meanwhile.
+Task<void> HttpServer::Impl::open_tcp_later() {
+    const auto self = shared_from_this();
+    Result<void> opened = fail(Fault::io, "");
+    while (!opened) {
+        co_await scheduler.sleep_for(try_again);
+        if (ended) co_return;
+        opened = listen(tcp, config);
+    }
+    no_tcp.clear();
+    spdlog::info("The console listens on {}:{} now.", config.host, config.port);
+    serve_tcp();
+}
+
+int HttpServer::port() const {
+    return impl_->config.port;
+}
+
+} // namespace axiscal

@@ -1,0 +1,40 @@
+#pragma once
+// HTTP/JSON for people and the command line (docs/api.md). Reading is free on every door; what
+// changes state needs the Unix socket or the bearer token. Loop-bound.
+
+#include "acquisition/station/station_interface.hpp"
+#include "config/station_config.hpp"
+
+#include <memory>
+#include <string>
+
+namespace axiscal {
+
+class HttpServer {
+public:
+    HttpServer(Scheduler& scheduler,
+               StationInterface& station,
+               ConsoleConfig config,
+               std::string token);
+    ~HttpServer();
+    HttpServer(const HttpServer&) = delete;
+    HttpServer& operator=(const HttpServer&) = delete;
+
+    /// Takes the path of the Unix socket, which says that no other daemon answers there; who
+    /// connects waits for start(). The socket gets mode 0660 and the configured group.
+    /// @errors those of listen(), naming the path.
+    Result<void> bind();
+    /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
+    /// clients of its own.
+    /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and
+    /// tried again each second. @errors those of bind(); Fault::bad_configuration for the host.
+    Result<void> start();
+    /// The bound TCP port; 0: none. A configured -1 (tests) lets the kernel choose.
+    [[nodiscard]] int port() const;
+
+private:
+    struct Impl;
+    std::shared_ptr<Impl> impl_;
+};
+
+} // namespace axiscal
