@@ -146,7 +146,8 @@ void read_circular(Settings root, StationConfig& station) {
     if (station.ballbar) setup.bar_instrument = station.ballbar->instrument;
     if (!circular.has("radius")) return;
     if (!circular.has("feed") && !circular.refused("feed"))
-        circular.refuse("feed", "is missing: the angle is counted by it");
+        circular.refuse("feed", "is missing: the station calculates the angle on the circle from "
+                                "it; write the programmed feed, as in feed = \"1000 mm/min\"");
     if (!station.ballbar)
         circular.refuse("radius", "needs a ballbar: name its channel in [ballbar] sensor");
     station.circular = std::move(config);

@@ -125,9 +125,10 @@ void refuse_open_door(Settings& door,
                       const std::vector<AddressRange>& allowed) {
     const bool judged = door.refused("host") || door.refused("allowed_clients");
     if (judged || is_loopback(host) || !allowed.empty()) return;
-    door.refuse("host", "\"" + host +
-                            "\" is heard by other computers: name those that may connect, as in "
-                            "allowed_clients = [\"192.168.10.20\"]");
+    door.refuse("host",
+                "\"" + host +
+                    "\" accepts connections from other computers: list those that may connect, "
+                    "as in allowed_clients = [\"192.168.10.20\"]");
 }
 
 std::string read_absolute_path(Settings& table,
@@ -183,9 +184,9 @@ StationConfig read_station(SettingsDocument& document) {
     read_trigger(root.table("trigger"), units, config.cycle, config.capture.timeout,
                  config.trigger);
     if (config.cycle.axis_kind == AxisKind::rotary && config.trigger.shape == TriggerShape::dwell)
-        root.table("trigger").refuse("shape", "\"dwell\" does not see when the indexing table or "
-                                              "the polygon is at its place: a rotary axis needs a "
-                                              "control that asks");
+        root.table("trigger").refuse("shape", "\"dwell\" cannot detect that the indexing table or "
+                                              "the polygon is in position: a rotary axis needs a "
+                                              "control that sends requests; choose another shape");
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
     config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);

@@ -29,7 +29,8 @@ void read_targets(Settings cycle, AxisUnits units, CycleConfig& config) {
     if (cycle.has("seed"))
         config.seed = static_cast<std::uint64_t>(cycle.integer("seed", 0, INT64_MAX));
     if (list && grid)
-        cycle.refuse("interval", "stands beside targets: give the list, or the interval, not both");
+        cycle.refuse("interval",
+                     "is given together with targets: keep the list or the interval, not both");
     if (!list && !grid && config.axis_kind == AxisKind::rotary)
         cycle.refuse(
             "interval",

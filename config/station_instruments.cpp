@@ -45,7 +45,8 @@ void read_table(Settings& channel, ChannelConfig& config) {
         points.push_back({reading.amount, correction.amount});
     }
     if (!points.empty() && channel.has("correction"))
-        channel.refuse("correction", "stands beside a table of corrections: keep one of them");
+        channel.refuse("correction",
+                       "is given together with a table of corrections: remove one of the two");
 }
 
 /// What the channel's own certificate states; the instrument's holds for what is left out.

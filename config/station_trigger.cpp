@@ -65,7 +65,7 @@ TriggerWords read_words(Settings& trigger, TriggerConfig& config) {
 void refuse_unused(Settings& trigger, bool used, Keys keys, const std::string& owner) {
     for (const char* key : keys)
         if (trigger.has(key) && !used)
-            trigger.refuse(key, "belongs to " + owner + " and says nothing here: remove it");
+            trigger.refuse(key, "belongs to " + owner + " and has no effect here: remove it");
 }
 
 /// Of a CNC that is the server its own, which nobody can guess.
@@ -176,10 +176,11 @@ void refuse_unseen_overrun(Settings& trigger,
     if (!known || cycle.overrun > reach) return;
     trigger.refuse(
         "hysteresis",
-        "and window together are " + units.write_coordinate(reach) +
-            ", and the axis turns after cycle.overrun = " + units.write_coordinate(cycle.overrun) +
-            ": it would not be seen to leave. Make the overrun larger than the two, or "
-            "the two smaller");
+        "together with window it is " + units.write_coordinate(reach) +
+            ", but the axis reverses after cycle.overrun = " +
+            units.write_coordinate(cycle.overrun) +
+            ": the station could not detect that the axis leaves the target. Make cycle.overrun "
+            "larger than this sum, or make window and hysteresis smaller");
 }
 
 /// `all`: a length that is missing is refused; else it need not stand.
@@ -216,9 +217,10 @@ void read_cnc_timeout(Settings& trigger, Duration capture_timeout, TriggerConfig
     const Duration least = least_cnc_timeout(capture_timeout);
     if (trigger.refused("cnc_timeout") || config.cnc_timeout >= least) return;
     trigger.refuse("cnc_timeout",
-                   "ends before the station's own: with capture.timeout it must be at least " +
+                   "is shorter than the time that the station itself may need: with this "
+                   "capture.timeout it must be at least " +
                        std::to_string(std::chrono::ceil<std::chrono::seconds>(least).count()) +
-                       " s, so that the program hears why a point is refused");
+                       " s, so that the CNC's program receives the reason for a refused point");
 }
 
 /// As judge_wire_keys(), of the keys that belong to one shape or another.

@@ -4,7 +4,8 @@ namespace axiscal {
 
 void refuse_beside(Settings& table, std::string_view first, std::string_view second) {
     if (table.has(first) && table.has(second))
-        table.refuse(second, "stands beside " + std::string{first} + ": one of them is enough");
+        table.refuse(second,
+                     "is given together with " + std::string{first} + ": remove one of the two");
 }
 
 namespace {

@@ -38,10 +38,11 @@ PastDay latest_past_day(const PreflightFacts& facts) {
 PreflightRecord check_clock(const PreflightFacts& facts) {
     const PastDay past = latest_past_day(facts);
     if (facts.today >= past.date)
-        return passed("clock", "It is " + facts.today + ", and nothing here speaks against it.");
+        return passed("clock", "The clock shows " + facts.today +
+                                   "; no calibration and no stored run has a later date.");
     return failed("clock",
-                  "This computer's clock says " + facts.today + ", which cannot be: " + past.date +
-                      " has passed, for " + past.from +
+                  "This computer's clock shows " + facts.today + ", which is wrong: " + past.date +
+                      " is already past, because " + past.from +
                       ". Set the clock (sudo date --set ..., or timedatectl set-ntp true; a dead "
                       "battery on the main board?), or correct that date in the station file.");
 }
@@ -50,18 +51,21 @@ PreflightRecord check_computer(const PreflightFacts& facts) {
     if (!facts.boot_known)
         return warned("computer",
                       "axiscald cannot read this computer's boot id "
-                      "(/proc/sys/kernel/random/boot_id), so a run that is interrupted cannot go "
-                      "on: take ProcSubset=pid out of what `systemctl cat axiscald` shows, and "
-                      "start axiscald anew.");
+                      "(/proc/sys/kernel/random/boot_id), so a run that is interrupted cannot "
+                      "continue: remove ProcSubset=pid from the service file that `systemctl cat "
+                      "axiscald` shows, and restart axiscald.");
     if (!facts.may_sleep.empty())
-        return warned("computer",
-                      "This computer may fall asleep in mid-run, and close its lines with it: " +
-                          facts.may_sleep +
-                          ". Is polkit installed (apt install polkitd) and the rule of axiscal in "
-                          "/usr/share/polkit-1/rules.d? Or switch its suspend off: systemctl mask "
-                          "suspend.target");
-    return passed("computer",
-                  "It is kept awake while a run is open, and its restart would be noticed.");
+        return warned(
+            "computer",
+            "This computer may suspend during a run, and then the connections to the "
+            "instruments close: " +
+                facts.may_sleep +
+                ". Is polkit installed (apt install polkitd), and is the rule of axiscal in "
+                "/usr/share/polkit-1/rules.d? If not, install them, or disable suspend: "
+                "systemctl mask suspend.target");
+    return passed(
+        "computer",
+        "This computer stays awake while a run is open, and axiscald detects a restart of it.");
 }
 
 } // namespace axiscal::preflight_checks

@@ -30,14 +30,17 @@ PreflightRecord check_eve(const EveFacts& eve) {
         "E_VE is of the drift test " + eve.run_id + ": " + in_minutes(eve.lasted) + rest_of(eve);
     const std::string takes = "the run takes " + in_minutes(eve.run_takes) + " or more";
     if (eve.lasted < eve.run_takes)
-        return failed("eve", seen + ". That is too short, " + takes +
-                                 ", and E_VE grows with time. Make another by " + order_for(eve) +
+        return failed("eve", seen + ". The test is too short: " + takes +
+                                 ", and E_VE grows with time. Make another drift test: " +
+                                 order_for(eve) +
                                  ".");
     if (eve.beam && eve.longest_beam && *eve.beam < *eve.longest_beam * least_share_of_beam)
-        return failed("eve", seen + ". That is too near, a beam of " +
-                                 plain_number(eve.beam->in(mm), 1) + " mm where the run's is up to " +
+        return failed("eve", seen + ". The axis was too near: the beam was " +
+                                 plain_number(eve.beam->in(mm), 1) +
+                                 " mm long, but the run's beam is up to " +
                                  plain_number(eve.longest_beam->in(mm), 1) +
-                                 " mm, and E_VE grows with it. Make another by " + eve.order +
+                                 " mm, and E_VE grows with the length of the beam. Make another "
+                                 "drift test: " + eve.order +
                                  " with the axis at the far end (--at).");
     return passed("eve", seen + "; " + takes + ".");
 }

@@ -10,10 +10,11 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
     constexpr Duration length_limit = std::chrono::seconds{2};
     std::string wrong;
     for (const std::string& name : facts.unavailable)
-        join(wrong, name + " is not there");
+        join(wrong, name + " is not available");
     for (const InstrumentConfig& instrument : facts.config.instruments)
         if (!instrument.tape.empty())
-            join(wrong, instrument.name + " is a tape, no instrument (no reason overrides this)");
+            join(wrong,
+                 instrument.name + " plays a tape and is no instrument (no reason overrides this)");
     for (const SensorFacts& sensor : facts.sensors)
         if (!sensor.fresh)
             join(wrong, sensor.name + " gives no fresh reading (" + sensor.quality + ")");
@@ -24,8 +25,9 @@ PreflightRecord check_instruments(const PreflightFacts& facts) {
     if (facts.faces_read && (!facts.face_age || *facts.face_age > length_limit))
         join(wrong, "the autocollimator does not answer");
     if (wrong.empty())
-        return passed("instruments", "Every instrument is there and its readings are fresh.");
-    return failed("instruments", wrong + ". Look at the cables; 'axiscal devices' tells more.");
+        return passed("instruments", "Every instrument is available and its readings are fresh.");
+    return failed("instruments",
+                  wrong + ". Check the cables; 'axiscal devices' shows what is connected.");
 }
 
 PreflightRecord check_strength(const PreflightFacts& facts) {
@@ -37,15 +39,15 @@ PreflightRecord check_strength(const PreflightFacts& facts) {
     if (facts.polygon)
         return passed("strength",
                       facts.faces_read
-                          ? "The autocollimator does not tell the strength of its light."
+                          ? "The autocollimator does not report the strength of its light."
                           : "A person reads the autocollimator.");
     if (!lowest)
         return passed("strength", "The " + length_word_of(facts) +
-                                      " does not tell the strength of its signal.");
-    const std::string seen = "The weakest signal lately was " + plain_number(*lowest, 0) + " %";
+                                      " does not report the strength of its signal.");
+    const std::string seen = "The weakest recent signal was " + plain_number(*lowest, 0) + " %";
     if (*lowest >= limit) return passed("strength", seen + ".");
-    return failed("strength", seen + "; " + plain_number(limit, 0) +
-                                  " % are asked. Align the beam over the whole travel.");
+    return failed("strength", seen + "; at least " + plain_number(limit, 0) +
+                                  " % is required. Align the beam over the whole travel.");
 }
 
 /// A date that is past blocks. What is not stated does not, for a shop may have no certificates: it

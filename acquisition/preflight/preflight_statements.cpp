@@ -23,7 +23,7 @@ PreflightRecord check_expansion_of_circles(const PreflightFacts& facts) {
         facts.config.axis.material.standard_uncertainty)
         return passed("expansion", "The coefficient " + coefficient + " has its uncertainty.");
     return failed("expansion", "The coefficient " + coefficient +
-                                   " stands without its uncertainty. State "
+                                   " has no stated uncertainty. State "
                                    "circular.uncertainty.machine_expansion_width.");
 }
 
@@ -43,7 +43,7 @@ PreflightRecord check_expansion(const PreflightFacts& facts) {
     if (material.standard_uncertainty || width)
         return passed("expansion", "The coefficient " + coefficient + " has its uncertainty.");
     return failed("expansion", "The coefficient " + coefficient +
-                                   " stands without its uncertainty. State "
+                                   " has no stated uncertainty. State "
                                    "axis.material.standard_uncertainty.");
 }
 

@@ -182,7 +182,9 @@ PreflightRecord check_environment(const PreflightFacts& facts) {
         return passed("environment", "The station file states no limits of the environment.");
     const std::string outside = outside_limits(limits, facts.sensors, facts.now);
     if (outside.empty()) return passed("environment", "Air and machine are within their limits.");
-    return failed("environment", outside + ". Wait until it is back, or mend what drives it.");
+    return failed("environment",
+                  outside +
+                      ". Wait until each value is within its limits again, or remove the cause.");
 }
 
 } // namespace axiscal::preflight_checks

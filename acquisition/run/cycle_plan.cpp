@@ -125,13 +125,13 @@ Result<RunPlan> plan_pass(const Pass& pass) {
     const auto heals = healing_interval(pass, plan.interval, pitch);
     return refuse_plan(
         "targets",
-        "Modulo the feedback pitch of " + in_unit(config, pitch) + " the targets lie within " +
+        "Within the feedback pitch of " + in_unit(config, pitch) + " the targets cover only " +
             in_unit(config, phase_spread(plan.targets, pitch)) +
-            ", less than a quarter period, so that the periodic error hides: " +
+            ", less than a quarter of it, so the run cannot show the periodic error: " +
             (heals ? "take an interval of " + in_unit(config, *heals) +
                          " with targets drawn at random."
-                   : std::string{"no interval near this one helps, list targets at other phases, "
-                                 "or leave the pitch out."}));
+                   : std::string{"no interval near this one helps; list targets at other places "
+                                 "within the pitch, or leave the feedback pitch out."}));
 }
 
 Pass whole_pass(const CycleConfig& config, std::uint64_t seed) {

@@ -43,15 +43,16 @@ Result<void> Station::plays_no_tape() const {
     for (const InstrumentConfig& instrument : config_.instruments)
         if (!instrument.tape.empty())
             return fail(Fault::refused,
-                        instrument.name + " is the tape " + instrument.tape +
-                            ", no instrument: a station with a tape measures nothing; take the "
-                            "line `tape` out of the station file and start axiscald again");
+                        instrument.name + " plays the tape " + instrument.tape +
+                            " and is no instrument: a station with a tape cannot measure; remove "
+                            "the line `tape` from the station file and restart axiscald");
     return {};
 }
 
 Result<void> Station::disk_takes_records() const {
     if (waiting_for_disk_)
-        return fail(Fault::not_durable, "the disk of the last run does not take records yet");
+        return fail(Fault::not_durable, "the disk cannot store the records of the last run yet; "
+                                        "'axiscal status' shows why");
     return {};
 }
 

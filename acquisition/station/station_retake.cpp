@@ -14,7 +14,8 @@ namespace axiscal {
 Result<void> Station::run_may_be_revised() const {
     if (!run_ || !machine_) return fail(Fault::no_run_armed, "there is no run to add to");
     if (waiting_for_disk_)
-        return fail(Fault::not_durable, "the disk of the run does not take records yet");
+        return fail(Fault::not_durable, "the disk cannot store the records of the run yet; "
+                                        "'axiscal status' shows why");
     if (revision_unknown_)
         return fail(Fault::not_durable,
                     "an earlier order could not be written, and the run file cannot be read to "

@@ -642,7 +642,7 @@ class Doctor(Scratch):
     def test_a_tape_in_the_place_of_an_instrument(self):
         tape = os.path.join(SOURCE, "tests", "traces", "dracal-vcp-pth450.tape")
         driver = 'driver = "dracal-vcp"\n'
-        self.broken_by(lambda text: text.replace(driver, f'{driver}tape = "{tape}"\n'), "station", '"air" is the tape')
+        self.broken_by(lambda text: text.replace(driver, f'{driver}tape = "{tape}"\n'), "station", '"air" plays the tape')
 
     def test_a_certificate_that_ended(self):
         self.broken_by(lambda text: text.replace("2099-02-10", "2026-03-01"), "certificate", '"laser"')

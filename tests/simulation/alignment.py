@@ -187,7 +187,7 @@ def strength_along_the_travel(b):
     # 33.2 %: shown, and found by the pre-flight check, in whole percent.
     expect(last[-1] == round(contrast(tilt_mrad, FAR_MM)), f"{shown}")
     found = strength_check(b, code=0)["verdict"]
-    expect(f"weakest signal lately was {last[-1]:.0f} %" in found, found)
+    expect(f"weakest recent signal was {last[-1]:.0f} %" in found, found)
 
     rest_at_far_end(b)
     steer(b, 0, -4, 0, tilt_mrad)
@@ -241,7 +241,7 @@ def walks_off(b):
     far = contrast(tilt_mrad, FAR_MM)
     bench.wait_until("the far end's signal", lambda: (strength() or 100) < far + 0.1, bench.START_S)
     found = strength_check(b, code=4)
-    told = f"weakest signal lately was {far:.0f} %; 20 % are asked"  # 5 %
+    told = f"weakest recent signal was {far:.0f} %; at least 20 % is required"  # 5 %
     expect(not found["passed"] and told in found["verdict"], f"{found}")
     b.write_program()
     b.go_to_datum()  # near: there the signal is good, but it is the travel that counts

@@ -86,7 +86,7 @@ def drift(b):
     b.write_program()
     b.go_to_datum()
     b.axiscal("arm", "--program", b.plan["file"], code=4)
-    expect(f"{DURATION_S:g} s, the axis at 0 mm. That is too near" in b.complaint, b.complaint)
+    expect(f"{DURATION_S:g} s, the axis at 0 mm. The axis was too near" in b.complaint, b.complaint)
     b.arm("--override", "eve=a simulated hall")
     certificate = b.finish()
     expect(certificate["run"]["uncertainty"]["eve_um"] == eve, f"{certificate['run']}")

@@ -134,7 +134,7 @@ def without_a_wire(b):
         for channel, said in expected[name][0].items():
             expect(is_said(last[name, channel], said[-1]), f"{name}/{channel} ends with {said[-1]}: {last[name, channel]}")
     b.axiscal("arm", "--override", "instruments=the customer waits", code=4)
-    expect("stick is the tape" in b.complaint, b.complaint)
+    expect("stick plays the tape" in b.complaint, b.complaint)
     expect("no instrument: plays /" in b.axiscal("status"), "status names no tape")
 
 

@@ -93,7 +93,7 @@ std::string device_text(const Json& device, bool blocks) {
             "    in the station file as \"" + device.at("in_station").get<std::string>() + "\"\n";
     for (const Json& name : device.at("may_be"))
         text += "    may be \"" + name.get<std::string>() +
-                "\" of the station file: its serial number is told only when it is opened\n";
+                "\" of the station file: its serial number can be read only when it is opened\n";
     for (const Json& item : device.at("missing"))
         text += "    MISSING: " + item.at("what").get<std::string>() + "\n        " +
                 item.at("mend").get<std::string>() + "\n";

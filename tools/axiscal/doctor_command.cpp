@@ -38,9 +38,9 @@ std::vector<Finding> findings_of_accepted(const StationConfig& config, const std
     for (const InstrumentConfig& instrument : config.instruments)
         if (!instrument.tape.empty())
             found.push_back({Health::broken, "station",
-                             "\"" + instrument.name + "\" is the tape " + instrument.tape +
-                                 ", no instrument: no run is armed",
-                             "sudo editor " + file + ", take out the line tape = ..."});
+                             "\"" + instrument.name + "\" plays the tape " + instrument.tape +
+                                 " and is no instrument: no run can be armed",
+                             "sudo editor " + file + ", remove the line tape = ..."});
     return found;
 }
 

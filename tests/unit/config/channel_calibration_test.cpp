@@ -44,7 +44,7 @@ TEST(StationConfig, RefusesATableOfCorrectionsThatIsNone) {
                         "belongs to uncertainty");
     const std::string place = "place = \"nut side, left end\"\n";
     expect_refused_once(read_changed(place, place + "correction = \"0.05 K\"\n"),
-                        "stands beside a table of corrections");
+                        "is given together with a table of corrections");
     expect_refused_once(read_changed(place, place + "calibrated_on = \"2026-01-02\"\n"
                                                     "due_on = \"2026-01-01\"\n"),
                         "is before calibrated_on");

@@ -101,7 +101,8 @@ TEST(CircularConfig, TheDriftMayBeStatedOrPointToATest) {
     EXPECT_FALSE(latest.config.circular->setup.uncertainty.eve_um);
     EXPECT_EQ(latest.config.eve_run, "") << "that of the axis is another";
     const Reading both = read_with_budget("eve = \"0.4 um\"\neve_run = \"latest\"\n");
-    EXPECT_NE(both.told.find("circular.uncertainty.eve_run: stands beside eve"), std::string::npos)
+    EXPECT_NE(both.told.find("circular.uncertainty.eve_run: is given together with eve"),
+              std::string::npos)
         << both.told;
 }
 
@@ -154,7 +155,9 @@ TEST(CircularConfig, AStationMayHaveABallbarAndNoLaser) {
 
 TEST(CircularConfig, WhatIsMissingOrDoubledIsTold) {
     EXPECT_NE(read_with("", radius + feed).told.find("[ballbar] sensor"), std::string::npos);
-    EXPECT_NE(read_with(sensor, radius).told.find("the angle is counted by it"), std::string::npos);
+    EXPECT_NE(read_with(sensor, radius)
+                  .told.find("the station calculates the angle on the circle from it"),
+              std::string::npos);
     EXPECT_NE(read_with(sensor, radius + feed + "senses = [\"cw\", \"cw\"]\n").told.find("once"),
               std::string::npos);
     EXPECT_NE(read_with(sensor, radius + feed + "centre = [\"1 mm\"]\n").told.find("three"),

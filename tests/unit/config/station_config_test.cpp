@@ -39,7 +39,7 @@ TEST(StationConfig, RefusesTravelLimitsInTheWrongOrder) {
 TEST(StationConfig, WantsEitherAListOfTargetsOrAnInterval) {
     const std::string list = "targets = [\"0 mm\", \"200 mm\", \"410 mm\"]";
     expect_refused_once(read_changed("interval = \"93 mm\"", "interval = \"93 mm\"\n" + list),
-                        "cycle.interval: stands beside targets");
+                        "cycle.interval: is given together with targets");
     const Reading both = read_changed("interval = \"93 mm\"\n", list + "\n");
     EXPECT_NE(both.told.find("cycle.target_count: belongs to interval"), std::string::npos);
     EXPECT_NE(both.told.find("cycle.first_target: belongs to interval"), std::string::npos);
@@ -171,8 +171,8 @@ TEST(StationConfig, RefusesAConsoleThatOthersHearWithoutAListOfClients) {
     for (const char* host : {"0.0.0.0", "::", "192.168.10.5"})
         expect_refused_once(read_changed(commented, "host = \"" + std::string{host} + "\"\n"),
                             "console.host: \"" + std::string{host} +
-                                "\" is heard by other computers: name those "
-                                "that may connect");
+                                "\" accepts connections from other computers: list "
+                                "those that may connect");
     expect_refused_once(
         read_changed(commented, "host = \"0.0.0.0\"\nallowed_clients = [\"office\"]\n"),
         "console.allowed_clients: \"office\" is no address");

@@ -86,7 +86,7 @@ TEST(StationConfig, PointsToADriftTestOfARotaryAxis) {
     ASSERT_TRUE(reading.config.uncertainty);
     EXPECT_FALSE(reading.config.uncertainty->eve);
     expect_refused_once(read_text(table + "eve = \"1 arcsec\"\n"),
-                        "uncertainty.eve_run: stands beside");
+                        "uncertainty.eve_run: is given together with");
 }
 
 /// The rotary example with other lines in [axis.angle].
@@ -220,7 +220,7 @@ TEST(StationAngle, RefusesADriftTestForTheBudgetBeforeAPolygon) {
     EXPECT_EQ(read_angle_table(polygon + "\n[uncertainty]\neve = \"0.6 arcsec\"\n", false).told,
               "");
     expect_refused_once(read_angle_table(polygon + budget + "eve = \"0.6 arcsec\"\n", false),
-                        "uncertainty.eve_run: stands beside");
+                        "uncertainty.eve_run: is given together with");
 }
 
 TEST(StationAngle, TakesTheRunOutFromWhatPeopleState) {
@@ -252,7 +252,7 @@ TEST(StationAngle, ARotaryAxisNeedsAControlThatAsks) {
     text.replace(begin, end - begin,
                  "\n[trigger]\nshape = \"dwell\"\nwindow = \"0.2 deg\"\n"
                  "stability_range = \"2 arcsec\"\nhysteresis = \"0.1 deg\"\n");
-    expect_refused_once(read_text(text), "a rotary axis needs a control that asks");
+    expect_refused_once(read_text(text), "a rotary axis needs a control that sends requests");
 }
 
 TEST(StationConfig, RefusesMillimetresOnARotaryAxis) {

@@ -48,10 +48,11 @@ INSTANTIATE_TEST_SUITE_P(
         TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\n"
                     "cnc_timeout = \"13 s\"\n", // the example's capture.timeout is 10 s
                     ""},
-        TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\n"
-                    "cnc_timeout = \"12 s\"\n",
-                    "trigger.cnc_timeout: ends before the station's own: with capture.timeout it "
-                    "must be at least 13 s"},
+        TriggerCase{
+            "shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\n"
+            "cnc_timeout = \"12 s\"\n",
+            "trigger.cnc_timeout: is shorter than the time that the station itself may need: "
+            "with this capture.timeout it must be at least 13 s"},
         TriggerCase{"shape = \"single-register\"\ntransport = \"rtu\"\n"
                     "serial_port = \"/dev/ttyS0\"\nparity = \"even\"\nunit_id = 3\n",
                     ""},
@@ -67,10 +68,11 @@ INSTANTIATE_TEST_SUITE_P(
         TriggerCase{"shape = \"dwell\"\nwindow = \"1.5 mm\"\nstability_range = \"2 um\"\n"
                     "hysteresis = \"0.499 mm\"\n",
                     ""},
-        TriggerCase{"shape = \"dwell\"\nwindow = \"1.5 mm\"\nstability_range = \"2 um\"\n"
-                    "hysteresis = \"0.5 mm\"\n", // the example's overrun is 2 mm
-                    "trigger.hysteresis: and window together are 2 mm, and the axis turns after "
-                    "cycle.overrun = 2 mm"},
+        TriggerCase{
+            "shape = \"dwell\"\nwindow = \"1.5 mm\"\nstability_range = \"2 um\"\n"
+            "hysteresis = \"0.5 mm\"\n", // the example's overrun is 2 mm
+            "trigger.hysteresis: together with window it is 2 mm, but the axis reverses after "
+            "cycle.overrun = 2 mm"},
         TriggerCase{"shape = \"dwell\"\ntransport = \"tcp\"\n", "does not go with shape \"dwell\""},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"none\"\n",
                     "\"none\" goes with shape \"dwell\" only"},
@@ -91,8 +93,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "trigger.host: is missing"},
         TriggerCase{
             "shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\nhost = \"0.0.0.0\"",
-            "trigger.host: \"0.0.0.0\" is heard by other computers: name those that may "
-            "connect"},
+            "trigger.host: \"0.0.0.0\" accepts connections from other computers: list those that "
+            "may connect"},
         TriggerCase{"shape = \"single-register\"\ntransport = \"tcp\"\nport = 1502\nhost = "
                     "\"0.0.0.0\"\nallowed_clients = [\"cnc\"]",
                     "trigger.allowed_clients: \"cnc\" is no address"},

@@ -73,10 +73,11 @@ TEST(StationUncertainty, PointsToADriftTest) {
 
 TEST(StationUncertainty, RefusesWhatContradictsItselfOrHasNoUnit) {
     const std::pair<const char*, const char*> cases[]{
-        {"device = \"1 um\"\ndevice_width = \"1 um\"", "uncertainty.device_width: stands beside"},
+        {"device = \"1 um\"\ndevice_width = \"1 um\"",
+         "uncertainty.device_width: is given together with"},
         {"misalignment = \"1 mm\"\nmisalignment_angle = \"1 mrad\"",
-         "uncertainty.misalignment_angle: stands beside"},
-        {"eve = \"1 um\"\neve_run = \"latest\"", "uncertainty.eve_run: stands beside"},
+         "uncertainty.misalignment_angle: is given together with"},
+        {"eve = \"1 um\"\neve_run = \"latest\"", "uncertainty.eve_run: is given together with"},
         {"device_k = 3", "uncertainty.device_k: belongs to device"},
         {"device = 0.5", "uncertainty.device: is a bare number"},
         {"device = \"0.7 um/K\"", "\"um/K\" is no unit of a length or a length for each metre"},

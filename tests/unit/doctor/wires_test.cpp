@@ -54,7 +54,7 @@ TEST_F(DoctorWires, InstrumentWhoseNumberIsToldOnlyWhenOpenedIsNotBroken) {
     EXPECT_NE(note.what.find("\"ballbar\" (usb:470012345) may be the one at USB port 1-3"),
               std::string::npos)
         << note.what;
-    EXPECT_NE(note.what.find("told only when it is opened"), std::string::npos) << note.what;
+    EXPECT_NE(note.what.find("can be read only when it is opened"), std::string::npos) << note.what;
     EXPECT_FALSE(note.mend.empty());
 }
 
@@ -131,8 +131,9 @@ TEST_F(DoctorWires, LineOfTheCncIsLookedAtLikeAnInstrument) {
     const std::string line = tree.dev() + "/ttyS0";
     checked.wires.trigger_line = line;
     ASSERT_EQ(health(), "b");
-    EXPECT_NE(findings()[0].what.find("the CNC's serial line " + line + " is not there"),
-              std::string::npos);
+    EXPECT_NE(
+        findings()[0].what.find("the CNC's serial line " + line + " does not exist on this PC"),
+        std::string::npos);
     tree.built_in("ttyS0", "4");
     allow(line, false);
     ASSERT_EQ(health(), "b");

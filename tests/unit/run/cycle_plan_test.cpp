@@ -253,7 +253,7 @@ TEST(CyclePlan, NamesPitchSpreadAndAnIntervalThatHealsBunchedPhases) {
     config.feedback_pitch = 10.0_mm;
     config.targets = std::vector<Length>{100.0_mm, 301.0_mm, 500.0_mm, 701.0_mm, 900.0_mm};
     const auto error = refusal(config);
-    EXPECT_NE(error.detail.find("feedback pitch of 10 mm the targets lie within 1 mm"),
+    EXPECT_NE(error.detail.find("feedback pitch of 10 mm the targets cover only 1 mm"),
               std::string::npos)
         << error.detail;
     const auto place = error.detail.find("take an interval of ");

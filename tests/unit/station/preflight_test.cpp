@@ -120,7 +120,7 @@ TEST_F(Preflight, AllHoldInAShopAtRest) {
 TEST_F(Preflight, AnInstrumentThatIsAwayIsNamed) {
     auto some = facts();
     some.unavailable = {"air"};
-    expect_failure(some, "instruments", "air is not there");
+    expect_failure(some, "instruments", "air is not available");
     auto stale = facts();
     stale.sensors[1].fresh = false;
     stale.sensors[1].quality = "stale";
@@ -194,7 +194,7 @@ TEST_F(Preflight, TheScalesSensorNeedNotAgreeWithThoseOfTheMachine) {
     by_scale.sensors.back().on_scale = true;
     EXPECT_TRUE(named(judge_preflight(by_scale), "sensors").passed);
     EXPECT_EQ(named(judge_preflight(by_scale), "strength").verdict,
-              "The scale does not tell the strength of its signal.");
+              "The scale does not report the strength of its signal.");
 }
 
 TEST_F(Preflight, TheStandingScaleIsNotCalledALaser) {
@@ -241,7 +241,7 @@ TEST_F(Preflight, AWeakSignalIsToldIfTheLaserTellsIt) {
         log.take(Sample{0, at(second), second == 700 ? 12.0 : 80.0});
     weak.strengths.push_back(
         {"laser/strength", ChannelKind::strength, Medium::none, true, "good", &log});
-    expect_failure(weak, "strength", "The weakest signal lately was 12 %");
+    expect_failure(weak, "strength", "The weakest recent signal was 12 %; at least ");
 }
 
 // 1 um in 30 s is allowed.
@@ -264,7 +264,7 @@ TEST_F(Preflight, ALaserThatIsAskedSeldomSpansTheDriftWindowToo) {
 
 TEST_F(Preflight, ACoefficientWithoutUncertaintyIsNotEnough) {
     config.axis.material.standard_uncertainty.reset();
-    expect_failure(facts(), "expansion", "without its uncertainty");
+    expect_failure(facts(), "expansion", "has no stated uncertainty");
     config.uncertainty.emplace().expansion_width = per_kelvin(1e-6);
     EXPECT_TRUE(named(judge_preflight(facts()), "expansion").passed);
 }
@@ -312,7 +312,8 @@ TEST_F(Preflight, AClockThatCannotBeRightIsToldWithWhatProvesIt) {
     config.instruments[0].calibrated_on = "2026-03-02";
     auto behind = facts();
     behind.today = "2026-03-01";
-    expect_failure(behind, "clock", "2026-03-02 has passed, for laser was calibrated then");
+    expect_failure(behind, "clock",
+                   "2026-03-02 is already past, because laser was calibrated then");
     behind.today = "2026-03-02";
     EXPECT_TRUE(named(judge_preflight(behind), "clock").passed);
     config.instruments[1].channels.emplace_back().channel = "pressure";
@@ -464,7 +465,8 @@ TEST_F(Preflight, ADriftTestShorterThanTheRunSaysTooLittleOfIt) {
     with.eve = eve_of_a_long_test();
     with.eve->lasted = 20s;
     with.eve->run_takes = 109s;
-    expect_failure(with, "eve", "20 s, the axis at 900 mm. That is too short, the run takes 109 s");
+    expect_failure(with, "eve",
+                   "20 s, the axis at 900 mm. The test is too short: the run takes 109 s");
     expect_failure(with, "eve", "'axiscal drift' with --duration \"2 min\" or more");
     with.eve->lasted = 12min - 1ms;
     with.eve->run_takes = 12min;
@@ -477,7 +479,8 @@ TEST_F(Preflight, ADriftTestNearTheInterferometerSaysTooLittleOfAFarRun) {
     with.eve->beam = mm(525);
     EXPECT_TRUE(named(judge_preflight(with), "eve").passed);
     with.eve->beam = mm(524);
-    expect_failure(with, "eve", "a beam of 524 mm where the run's is up to 1050 mm");
+    expect_failure(with, "eve",
+                   "the beam was 524 mm long, but the run's beam is up to 1050 mm");
     with.eve->beam.reset(); // a scale, a ballbar
     EXPECT_TRUE(named(judge_preflight(with), "eve").passed);
 }

@@ -261,7 +261,7 @@ TEST_F(StationDrifts, ShorterThanTheRunNeedsAReasonThatStandsInItsFile) {
     const auto refused = life.arm();
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().field, "preflight");
-    EXPECT_NE(refused.error().detail.find("60 s, the axis at 1000 mm. That is too short"),
+    EXPECT_NE(refused.error().detail.find("60 s, the axis at 1000 mm. The test is too short"),
               std::string::npos)
         << refused.error().detail;
     ArmRequest request;

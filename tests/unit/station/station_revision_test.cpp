@@ -313,7 +313,8 @@ TEST_F(StationRevisesOnAFailingDisk, TheNextOrderForAClosedRunIsTakenOnceTheDisk
         life.run(3s);
         const auto meanwhile = life.exclude(one_reading());
         ASSERT_FALSE(meanwhile);
-        EXPECT_EQ(meanwhile.error().detail, "the disk of the run does not take records yet");
+        EXPECT_EQ(meanwhile.error().detail,
+                  "the disk cannot store the records of the run yet; 'axiscal status' shows why");
     }
     life.run(3s);
     const auto left_out = life.exclude(one_reading());

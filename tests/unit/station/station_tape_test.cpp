@@ -138,7 +138,7 @@ TEST_F(StationWithATape, ArmsNothingWhateverReasonIsGiven) {
     const auto armed = life.arm(request);
     ASSERT_FALSE(armed);
     EXPECT_EQ(armed.error().fault, Fault::refused);
-    EXPECT_NE(armed.error().detail.find("air is the tape /traces/air.tape"), std::string::npos)
+    EXPECT_NE(armed.error().detail.find("air plays the tape /traces/air.tape"), std::string::npos)
         << armed.error().detail;
     request.pass = "circular";
     const auto circles = life.arm(request);
@@ -174,7 +174,8 @@ TEST_F(StationWithATape, SaysSoInStateNotesAndPreflight) {
     const auto check = std::ranges::find(*checks, "instruments", &PreflightRecord::name);
     ASSERT_NE(check, checks->end());
     EXPECT_FALSE(check->passed);
-    EXPECT_NE(check->verdict.find("air is a tape"), std::string::npos) << check->verdict;
+    EXPECT_NE(check->verdict.find("air plays a tape and is no instrument"), std::string::npos)
+        << check->verdict;
 }
 
 } // namespace

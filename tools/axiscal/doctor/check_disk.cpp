@@ -86,9 +86,10 @@ Finding check_readers(const std::string& folder, const std::string& name) {
 Finding check_server(const OutboxView& outbox, const std::string& destination) {
     if (outbox.state == "waiting")
         return {Health::broken, "share", destination + ": " + outbox.reason,
-                "docs/share.md tells the command that tests it"};
+                "docs/share.md gives the command that tests it"};
     if (outbox.state.empty())
-        return {Health::note, "share", "axiscal-publish has not spoken of " + destination + " yet",
+        return {Health::note, "share",
+                "axiscal-publish has not reported on " + destination + " yet",
                 "sudo systemctl start axiscal-publish"};
     return {Health::good, "share", destination + " was reached (" + outbox.since_utc + ")", ""};
 }

@@ -38,13 +38,15 @@ PortTrial try_port(const std::string& host, int port) {
 
 Finding check_allowed(const TriggerConfig& trigger) {
     if (is_loopback(trigger.host))
-        return {Health::note, "port",
-                "the CNC's Modbus port hears only this PC: right for a CNC that runs here",
-                "for one on the network write this PC's address as trigger.host, and "
-                "allowed_clients"};
+        return {
+            Health::note, "port",
+            "the CNC's Modbus port accepts connections from this PC only: that is correct if the "
+            "CNC runs on this PC",
+            "for a CNC on the network, write this PC's address as trigger.host, and the CNC's "
+            "address in allowed_clients"};
     return {Health::good, "port",
             std::to_string(trigger.allowed_clients.size()) +
-                " addresses or networks may speak to the CNC's Modbus port",
+                " addresses or networks may connect to the CNC's Modbus port",
             ""};
 }
 
@@ -119,7 +121,7 @@ std::vector<Finding> check_ports(const CheckedSystem& checked) {
     }
     if (!checked.trigger_note.empty())
         found.push_back({Health::note, "port",
-                         "axiscald says of its trigger: " + checked.trigger_note,
+                         "axiscald reports about its trigger: " + checked.trigger_note,
                          "axiscal status"});
     return found;
 }

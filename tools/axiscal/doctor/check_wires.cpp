@@ -45,8 +45,9 @@ bool check_possible(const StationWires::Entry& entry,
             found.push_back(finding_of(obstacle, entry.name));
         found.push_back({Health::note, "wire",
                          "\"" + entry.name + "\" (" + entry.link + ") may be the one at " +
-                             device.place + ": its serial number is told only when it is opened",
-                         "axiscal devices tells, once axiscald runs, whether it is there"});
+                             device.place +
+                             ": its serial number can be read only when it is opened",
+                         "start axiscald, then axiscal devices shows whether it is this one"});
     }
     return any;
 }
@@ -58,7 +59,7 @@ bool is_far(const StationWires::Entry& entry) {
 Finding absent(const StationWires::Entry& entry) {
     const std::string wire = entry.link.empty() ? "its sensors" : entry.link;
     return {Health::broken, "wire", "\"" + entry.name + "\" is not plugged in: " + wire,
-            "axiscal devices shows what is; plug it in, or correct its link"};
+            "axiscal devices shows what is plugged in; plug it in, or correct its link"};
 }
 
 /// A terminal that is there without hardware that the kernel could tell of (a pseudo terminal, a
@@ -97,8 +98,8 @@ std::vector<Finding> check_wires(const CheckedSystem& checked, const DoctorPlace
     for (const StationWires::Entry& entry : checked.wires.instruments) {
         if (is_far(entry)) {
             found.push_back({Health::good, "wire",
-                             "\"" + entry.name + "\" is asked over the network (" + entry.link +
-                                 "): axiscal devices tells whether it answers axiscald",
+                             "axiscald reads \"" + entry.name + "\" over the network (" +
+                                 entry.link + "): axiscal devices shows whether it answers",
                              ""});
             continue;
         }
@@ -116,9 +117,10 @@ std::vector<Finding> check_wires(const CheckedSystem& checked, const DoctorPlace
     else if (const auto bare = bare_terminal(checked.wires.trigger_line))
         check_device(*bare, "trigger", checked.service, found);
     else
-        found.push_back({Health::broken, "wire",
-                         "the CNC's serial line " + checked.wires.trigger_line + " is not there",
-                         "axiscal devices shows what is; plug it in, or correct serial_port"});
+        found.push_back(
+            {Health::broken, "wire",
+             "the CNC's serial line " + checked.wires.trigger_line + " does not exist on this PC",
+             "axiscal devices shows what is plugged in; plug it in, or correct serial_port"});
     return found;
 }
 

@@ -24,7 +24,7 @@ struct FileSystem {
 };
 constexpr std::string_view in_memory = "everything on it is gone after a power cut";
 constexpr std::string_view far_away =
-    "it lies on another computer: a point cannot be made durable there by this one";
+    "it is on another computer, where this PC cannot make a point durable";
 constexpr std::string_view no_rights = "it has no owners and no journal";
 constexpr std::array file_systems{
     FileSystem{EXT4_SUPER_MAGIC, "ext4", Health::good, ""},
@@ -83,8 +83,10 @@ std::vector<Finding> judge_clock(const ClockReading& clock) {
     std::vector<Finding> found;
     if (clock.ran_back || clock.source == "jiffies" || clock.source == "refined-jiffies")
         found.push_back({Health::broken, "clock",
-                         "the monotonic clock (" + clock.source + ") does not tell samples apart",
-                         "boot without clocksource= and with a BIOS that has HPET or TSC on"});
+                         "the monotonic clock (" + clock.source +
+                             ") cannot show which of two samples came first",
+                         "start this PC without the kernel option clocksource=, and enable HPET or "
+                         "TSC in its BIOS"});
     else
         found.push_back({Health::good, "clock", "the monotonic clock runs on " + clock.source, ""});
     const std::string mend = "sudo timedatectl set-ntp true; without a network, set it by hand: "
@@ -94,11 +96,12 @@ std::vector<Finding> judge_clock(const ClockReading& clock) {
                          "the date is wrong: it is not the year " + std::to_string(clock.year),
                          mend});
     else if (!clock.synchronised || clock.largest_error_s > usable_error_s)
-        found.push_back({Health::note, "clock",
-                         "no time server keeps the date: certificates bear the time of this PC",
-                         mend});
+        found.push_back(
+            {Health::note, "clock",
+             "no time server sets the date: certificates show the time of this PC's own clock",
+             mend});
     else
-        found.push_back({Health::good, "clock", "a time server keeps the date", ""});
+        found.push_back({Health::good, "clock", "a time server sets the date of this PC", ""});
     return found;
 }
 
@@ -126,13 +129,13 @@ Finding judge_port_trial(const PortReading& port) {
         if (port.tried_by_root && port.port < first_port_for_all && !port.daemon_answers)
             return no_right_to_port(place);
         if (port.daemon_answers)
-            return {Health::broken, "port", place + " is not held, although axiscald runs",
+            return {Health::broken, "port", place + " is not open, although axiscald runs",
                     "sudo systemctl restart axiscald, then: journalctl -u axiscald"};
         return {Health::good, "port", place + " is free for axiscald", ""};
     case PortTrial::taken:
         if (port.daemon_answers)
-            return {Health::good, "port", place + " is held while axiscald runs", ""};
-        return {Health::broken, "port", place + " is held by another program",
+            return {Health::good, "port", place + " is in use while axiscald runs", ""};
+        return {Health::broken, "port", place + " is in use by another program",
                 "sudo ss -ltnp 'sport = :" + std::to_string(port.port) + "' names it"};
     case PortTrial::no_right: return no_right_to_port(place);
     case PortTrial::no_address:
@@ -140,7 +143,7 @@ Finding judge_port_trial(const PortReading& port) {
                 "ip -brief address shows what there is; write one of them as host"};
     case PortTrial::failed: break;
     }
-    return {Health::broken, "port", place + " cannot be listened at", "ip -brief address"};
+    return {Health::broken, "port", place + " cannot be opened", "ip -brief address"};
 }
 
 Finding judge_module(const std::string& name,
