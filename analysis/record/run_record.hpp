@@ -21,7 +21,8 @@
 namespace axiscal {
 
 enum class AxisKind : std::uint8_t { linear, rotary };
-/// Side from which a target is approached: positive (up arrow) or negative (down arrow).
+/// Sense of the motion by which a target is reached: positive (up arrow) goes towards higher
+/// coordinates.
 enum class Direction : std::int8_t { negative = -1, positive = 1 };
 enum class CycleKind : std::uint8_t { standard, step };
 /// Who asked for the capture.
