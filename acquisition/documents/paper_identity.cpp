@@ -1,7 +1,7 @@
 #include "acquisition/documents/paper_identity.hpp"
 
-#include "acquisition/runfile/certificate_numbers.hpp"
 #include "acquisition/documents/record_json.hpp"
+#include "acquisition/runfile/certificate_numbers.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -43,26 +43,30 @@ std::string name_for_people(const PaperIdentity& identity, const std::string& ru
 
 } // namespace
 
-Result<PaperIdentity> identity_of(const std::string& run_file, const RunFileContents& contents) {
-    const int closings = contents.revisions.closings;
-    if (contents.results < closings) return PaperIdentity{"", "", closings};
+PaperOfRun paper_of(const RunFileContents& contents) {
+    return {contents.run.run_id, contents.run.statements.certificate_number,
+            contents.revisions.closings, contents.results};
+}
+
+Result<PaperIdentity> identity_of(const std::string& run_file, const PaperOfRun& paper) {
+    if (!paper.stored()) return PaperIdentity{"", "", paper.closings};
     AXISCAL_TRY(const auto stored, newest_identity(run_file));
-    return stored.value_or(PaperIdentity{"", "", closings});
+    return stored.value_or(PaperIdentity{"", "", paper.closings});
 }
 
 Result<PaperIdentity> new_identity(const std::string& run_file,
-                                   const RunFileContents& contents,
+                                   const PaperOfRun& paper,
                                    const std::string& state_directory,
                                    int year) {
-    const RunRecord& run = contents.run;
     PaperIdentity identity;
-    identity.closing = contents.revisions.closings;
+    identity.closing = paper.closings;
     AXISCAL_TRY(const auto earlier, newest_identity(run_file));
-    if (earlier) identity.replaces = name_for_people(*earlier, run.run_id);
-    const std::string& pattern = run.statements.certificate_number;
+    if (earlier) identity.replaces = name_for_people(*earlier, paper.run_id);
+    const std::string& pattern = paper.number_pattern;
     if (pattern.empty() || state_directory.empty()) return identity;
-    AXISCAL_TRY(identity.number, take_certificate_number(state_directory, {pattern, run.run_id,
-                                                                           identity.closing, year}));
+    AXISCAL_TRY(
+        identity.number,
+        take_certificate_number(state_directory, {pattern, paper.run_id, identity.closing, year}));
     return identity;
 }
 

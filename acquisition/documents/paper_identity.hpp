@@ -16,15 +16,24 @@ struct PaperIdentity {
     int closing = 1;      ///< of the run, from 1
 };
 
-/// Of the paper that a run file makes now. One that was not issued yet bears nothing. A file of a
-/// format before 7 bears what was stated.
+/// What of a run file decides about its paper.
+struct PaperOfRun {
+    std::string run_id;
+    std::string number_pattern; ///< as the station states it; empty: no numbers
+    int closings = 0, results = 0;
+    /// A result is kept since the run was last closed.
+    [[nodiscard]] bool stored() const { return results >= closings; }
+};
+PaperOfRun paper_of(const RunFileContents& contents);
+
+/// Of the paper that a run file makes now. One that was not issued yet bears nothing.
 /// @errors those of read_stored_result() but Fault::not_found.
-Result<PaperIdentity> identity_of(const std::string& run_file, const RunFileContents& contents);
+Result<PaperIdentity> identity_of(const std::string& run_file, const PaperOfRun& paper);
 
 /// Of the paper that is issued now: its number is taken, and is on disk when this returns.
 /// @errors those of take_certificate_number() and read_stored_result().
 Result<PaperIdentity> new_identity(const std::string& run_file,
-                                   const RunFileContents& contents,
+                                   const PaperOfRun& paper,
                                    const std::string& state_directory,
                                    int year);
 

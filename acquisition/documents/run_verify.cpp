@@ -1,13 +1,7 @@
 #include "acquisition/documents/run_verify.hpp"
 
-#include "acquisition/documents/circular/circular_certificate_json.hpp"
-#include "acquisition/documents/circular/circular_run_file.hpp"
-#include "acquisition/documents/drift/drift_document.hpp"
+#include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/figure_agreement.hpp"
-#include "acquisition/documents/paper_identity.hpp"
-#include "acquisition/documents/positioning/certificate_json.hpp"
-#include "acquisition/documents/probing/probing_document.hpp"
-#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/receipt.hpp"
@@ -133,39 +127,6 @@ std::string state_text(const ChainReport& chain) {
 
 namespace {
 
-/// The certificate's document as the run file gives it now.
-struct Recomputed {
-    Json document;
-    std::string digest;
-    FigureAgreement agreement; ///< with a document made on another processor
-};
-
-Result<Recomputed> recomputed(const std::string& run_file) {
-    AXISCAL_TRY(const RunSummary summary, summarize_run_file(run_file));
-    switch (summary.kind) {
-    case TestKind::circular: {
-        AXISCAL_TRY(const CircularCertificate made, circular_certificate_of_run_file(run_file));
-        return Recomputed{circular_certificate_to_json(made), made.result_digest,
-                          rounding_of_the_library};
-    }
-    case TestKind::probing: {
-        AXISCAL_TRY(const ProbingDocument made, probing_of_run_file(run_file));
-        return Recomputed{probing_to_json(made), made.result_digest, rounding_of_the_library};
-    }
-    case TestKind::drift: {
-        AXISCAL_TRY(const DriftDocument made, drift_of_run_file(run_file));
-        return Recomputed{drift_to_json(made), made.result_digest, agreement_of(made.run)};
-    }
-    case TestKind::positioning: break;
-    }
-    AXISCAL_TRY(const Certificate made, certificate_of_run_file(run_file));
-    return Recomputed{certificate_to_json(made), made.result_digest, agreement_of(made.run)};
-}
-
-} // namespace
-
-namespace {
-
 Result<std::vector<PublicKey>> keys_from(const std::string& path) {
     if (path.empty()) return std::vector<PublicKey>{};
     std::ifstream file{path, std::ios::binary};
@@ -202,20 +163,20 @@ Result<VerifyReport> verify_run(const std::string& run_file, const VerifyAgainst
     report.certificate = against.certificate;
     AXISCAL_CHECK(hold_against(against, report));
     AXISCAL_TRY(const auto printed, certificate_for(run_file, report.run_id, report.certificate));
-    std::optional<Recomputed> right;
+    std::optional<TestResult> right;
     if (!report.chain.intact()) {
         report.no_figures = "rows are not what they were";
     } else if (!report.chain.closed) {
         report.no_figures = state_text(report.chain);
-    } else if (auto made = recomputed(run_file)) {
+    } else if (auto made = evaluate_run_file(run_file)) {
         right = *std::move(made);
-        report.result_digest = right->digest;
+        report.result_digest = digest_of(*right);
     } else if (const auto stored = read_stored_result(run_file)) {
         report.wrong_result = describe(made.error());
     } else {
         report.no_figures = describe(made.error());
     }
-    if (printed && right) compare(*printed, right->document, right->agreement, report);
+    if (printed && right) compare(*printed, json_of(*right), agreement_of(*right), report);
     if (printed && !right) compare(*printed, marks_of(report, *printed), same_bits, report);
     return report;
 }

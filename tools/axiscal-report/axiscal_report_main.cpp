@@ -5,9 +5,8 @@
 // stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
 // refused or the run is incomplete.
 
-#include "acquisition/documents/circular/circular_run_file.hpp"
+#include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/pdf/certificate_files.hpp"
-#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -36,46 +35,18 @@ struct Options {
 
 /// The first evaluation is the station's own report, numbered and signed with what lies beside its
 /// outbox; an export changes nothing.
-Result<void> seal(const Options& options, const RunSummary& run) {
-    if (!options.to.empty()) return {};
+Result<TestResult> evaluate(const Options& options) {
+    if (!options.to.empty()) return evaluate_run_file(options.run_file);
     const std::filesystem::path outbox = std::filesystem::absolute(options.outbox);
     const auto state = (outbox / "").lexically_normal().parent_path().parent_path();
     AXISCAL_TRY(const auto key, read_station_key(state.string(), read_machine_id()));
-    if (run.kind == TestKind::drift) return seal_drift(options.run_file, key.get());
-    if (run.kind == TestKind::probing) return seal_probing(options.run_file, key.get());
-    return seal_result(options.run_file, {key.get(), state.string()});
+    const Issue issue{key.get(), state.string()};
+    return evaluate_run_file(options.run_file, &issue);
 }
 
-Result<void> draw_circles(const Options& options, const std::string& folder) {
-    AXISCAL_TRY(const CircularCertificate certificate,
-                circular_certificate_of_run_file(options.run_file));
-    return write_circular_files(certificate, options.run_file, folder);
-}
-
-Result<void> draw_positioning(const Options& options, const std::string& folder) {
-    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(options.run_file));
-    return write_certificate_files(certificate, options.run_file, folder);
-}
-
-Result<void> draw_drift(const Options& options, const std::string& folder) {
-    AXISCAL_TRY(const DriftDocument document, drift_of_run_file(options.run_file));
-    return write_drift_files(document, options.run_file, folder);
-}
-
-Result<void> draw_probing(const Options& options, const std::string& folder) {
-    AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(options.run_file));
-    return write_probing_files(document, options.run_file, folder);
-}
-
-Result<void> draw(const Options& options, const RunSummary& run, const std::string& folder) {
-    AXISCAL_CHECK(seal(options, run));
-    switch (run.kind) {
-    case TestKind::circular: return draw_circles(options, folder);
-    case TestKind::drift: return draw_drift(options, folder);
-    case TestKind::probing: return draw_probing(options, folder);
-    case TestKind::positioning: break;
-    }
-    return draw_positioning(options, folder);
+Result<void> draw(const Options& options, const std::string& folder) {
+    AXISCAL_TRY(const TestResult result, evaluate(options));
+    return write_certificate_files(result, options.run_file, folder);
 }
 
 /// The entry appears in the outbox only with all its content. Its folder is there before the result
@@ -86,7 +57,7 @@ Result<std::string> stage(const Options& options) {
     const std::string name = certificate_name(run);
     AXISCAL_TRY(const std::string temporary, begin_entry(folder, name));
     AXISCAL_CHECK(sync_folder(folder));
-    if (auto drawn = draw(options, run, temporary); !drawn) {
+    if (auto drawn = draw(options, temporary); !drawn) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(drawn).error());
@@ -98,11 +69,11 @@ Result<std::string> stage(const Options& options) {
 Result<std::string> stage_case(const Options& options) {
     if (options.to.empty())
         return fail(Fault::refused, "is no run file: a case goes into a folder by --to");
-    AXISCAL_TRY(const CircularCertificate certificate,
-                circular_certificate_of_case(options.run_file));
-    const std::string& name = certificate.measured.run.run_id;
+    AXISCAL_TRY(CircularCertificate certificate, circular_certificate_of_case(options.run_file));
+    const std::string name = certificate.measured.run.run_id;
     AXISCAL_TRY(const std::string temporary, begin_entry(options.to, name));
-    if (auto written = write_circular_files(certificate, options.run_file, temporary); !written) {
+    const TestResult result{std::move(certificate)};
+    if (auto written = write_certificate_files(result, options.run_file, temporary); !written) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(written).error());

@@ -1,11 +1,6 @@
 #include "tools/axiscal/offline_commands.hpp"
 
-#include "acquisition/documents/circular/circular_certificate_json.hpp"
-#include "acquisition/documents/circular/circular_run_file.hpp"
-#include "acquisition/documents/drift/drift_document.hpp"
-#include "acquisition/documents/positioning/certificate_json.hpp"
-#include "acquisition/documents/probing/probing_document.hpp"
-#include "acquisition/documents/run_certificate.hpp"
+#include "acquisition/documents/evaluate.hpp"
 #include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/run/cycle_plan.hpp"
@@ -59,32 +54,10 @@ bool is_run_file(const std::string& path) {
            head == sqlite_magic;
 }
 
-/// What a run file gives as the text of its JSON.
-Result<std::string> result_text_of(const std::string& path) {
-    AXISCAL_TRY(const RunSummary run, summarize_run_file(path));
-    switch (run.kind) {
-    case TestKind::circular: {
-        AXISCAL_TRY(const auto certificate, circular_certificate_of_run_file(path));
-        return circular_certificate_json_text(certificate);
-    }
-    case TestKind::drift: {
-        AXISCAL_TRY(const auto document, drift_of_run_file(path));
-        return drift_json_text(document);
-    }
-    case TestKind::probing: {
-        AXISCAL_TRY(const auto document, probing_of_run_file(path));
-        return probing_json_text(document);
-    }
-    case TestKind::positioning: break;
-    }
-    AXISCAL_TRY(const auto certificate, certificate_of_run_file(path));
-    return certificate_json_text(certificate);
-}
-
 int analyze_run(const std::string& path) {
-    const auto text = result_text_of(path);
-    if (!text) return complain(text.error());
-    std::cout << *text;
+    const auto result = evaluate_run_file(path);
+    if (!result) return complain(result.error());
+    std::cout << json_text_of(*result);
     return exit_ok;
 }
 

@@ -1,6 +1,6 @@
 #include "tools/axiscal/probing_command.hpp"
 
-#include "acquisition/documents/probing/probing_document.hpp"
+#include "acquisition/documents/evaluate.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -83,7 +83,7 @@ RunRecord header_of(const StationConfig& config, const ProbingOrder& order) {
     return run;
 }
 
-/// @returns the path of the closed and sealed run file.
+/// @returns the path of the closed run file.
 Result<std::string> make_run_file(const StationConfig& config, const ProbingOrder& order) {
     AXISCAL_TRY(const std::string program, text_of_file(order.program));
     AXISCAL_TRY(const ProbingPlan plan, read_probing_id(program));
@@ -99,11 +99,10 @@ Result<std::string> make_run_file(const StationConfig& config, const ProbingOrde
     std::string path = order.out + "/" + header.run_id + std::string{run_file_ending};
     AXISCAL_TRY(RunFileWriter writer, RunFileWriter::create(path, header, attachments));
     AXISCAL_CHECK(writer.close(true, "", tie_now()));
-    AXISCAL_CHECK(seal_probing(path));
     return path;
 }
 
-std::string text_of(const ProbingDocument& document) {
+std::string text_of(const ProbingResult& document) {
     std::string text;
     for (const ProbingDelay& result : document.results) {
         char line[160];
@@ -129,13 +128,13 @@ int record(const ProbingOrder& order, bool json) {
     }
     const auto path = make_run_file(station->config, order);
     if (!path) return complain(path.error());
-    const auto document = probing_of_run_file(*path);
-    if (!document) return complain(document.error());
+    const Issue unsigned_one;
+    const auto result = evaluate_run_file(*path, &unsigned_one);
+    if (!result) return complain(result.error());
     if (json)
-        std::cout << json_text(Json{{"file", *path}, {"result", probing_to_json(*document)}})
-                  << "\n";
+        std::cout << json_text(Json{{"file", *path}, {"result", json_of(*result)}}) << "\n";
     else
-        std::cout << text_of(*document) << "Run file " << *path
+        std::cout << text_of(std::get<ProbingResult>(*result)) << "Run file " << *path
                   << "; 'axiscal export' makes its papers.\n";
     return exit_ok;
 }

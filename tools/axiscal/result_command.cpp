@@ -1,6 +1,6 @@
 // `axiscal result`: the figures of one run, for somebody who has just measured it.
+#include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/positioning/certificate_json.hpp"
-#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/runfile/run_order.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/json_text.hpp"
@@ -83,7 +83,9 @@ Result<void> print_result(const ResultRequest& request, bool json) {
     AXISCAL_TRY(const std::string path, find_run(request.run, request.station_file));
     AXISCAL_TRY(const RunSummary run, summarize_run_file(path));
     AXISCAL_CHECK(check_positioning(run));
-    AXISCAL_TRY(const Certificate certificate, certificate_of_run_file(path));
+    AXISCAL_TRY(const TestResult result, evaluate_run_file(path));
+    const auto& certificate =
+        std::get<Certificate>(result); // check_positioning() has seen the kind
     Json document = certificate_to_json(certificate);
     AXISCAL_CHECK(add_limits(request, certificate, document));
     const Json summary = result_summary(document);

@@ -236,16 +236,11 @@ Json circular_certificate_to_json(const CircularCertificate& certificate) {
         for (const auto& [key, values] : certificate.of_repeats)
             document["repeats"][label_of(certificate, key)] = values;
     }
-    document["certificate"] = {
-        {"number", stated_json(measured.run.statements.certificate_number)},
-        {"replaces", stated_json(certificate.replaces)}};
+    document["certificate"] = {{"number", stated_json(measured.run.statements.certificate_number)},
+                               {"replaces", stated_json(certificate.replaces)}};
     document["run"] = run_of(certificate);
     document["environment"] = environment_of(measured.conditions);
     return document;
-}
-
-std::string circular_certificate_json_text(const CircularCertificate& certificate) {
-    return document_text(circular_certificate_to_json(certificate));
 }
 
 } // namespace axiscal

@@ -20,7 +20,4 @@ namespace axiscal {
 /// What nobody stated is null. The readings stand in certificate.csv.
 nlohmann::ordered_json circular_certificate_to_json(const CircularCertificate& certificate);
 
-/// The text of certificate.json: indented, one line feed at the end, always valid UTF-8.
-std::string circular_certificate_json_text(const CircularCertificate& certificate);
-
 } // namespace axiscal

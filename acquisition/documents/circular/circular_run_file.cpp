@@ -1,5 +1,7 @@
 #include "acquisition/documents/circular/circular_run_file.hpp"
 
+#include "acquisition/documents/circular/circular_json.hpp"
+#include "acquisition/documents/result_digest.hpp"
 #include "acquisition/runfile/stream_packing.hpp"
 #include "analysis/circular/circle_cut.hpp"
 #include "analysis/record/stream_rate.hpp"
@@ -119,6 +121,22 @@ Result<CircularRun> circular_run_of(const RunFileContents& contents) {
                 cut_circles(setup, stream, circle_marks(setup.plan, contents.run.events)));
     take_temperatures(circular, contents.run, setup);
     return circular;
+}
+
+Result<CircularCertificate> circular_certificate_of(const std::string& path,
+                                                    const RunFileContents& contents) {
+    if (!contents.closed)
+        return fail(Fault::incomplete_run, path + " is still open: close the run first");
+    AXISCAL_TRY(CircularRun run, circular_run_of(contents));
+    AXISCAL_TRY(CircularMeasurement measured, measurement_of(std::move(run)));
+    AXISCAL_TRY(CircularCertificate certificate, evaluate_measurement(std::move(measured), {}));
+    certificate.result_digest = result_digest(certificate.parameters);
+    return certificate;
+}
+
+nlohmann::ordered_json circular_figures(const CircularCertificate& certificate) {
+    return circular_to_json({certificate.measured.test, certificate.measured.axes,
+                             certificate.parameters, certificate.diagnosis, certificate.budget});
 }
 
 } // namespace axiscal

@@ -3,7 +3,9 @@
 // and for next year's recomputation.
 
 #include "acquisition/runfile/run_file.hpp"
-#include "analysis/circular/circular_run.hpp"
+#include "analysis/circular/circular_certificate.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -13,5 +15,14 @@ namespace axiscal {
 /// first evaluated circle to the last.
 /// @errors Fault::refused for a run that is no circular test; Fault::incomplete_run as cut_circles.
 Result<CircularRun> circular_run_of(const RunFileContents& contents);
+
+/// With the digest of its figures, and without what the paper adds: number, hash of the file.
+/// @errors Fault::incomplete_run naming `path` for an open run; those of circular_run_of() and
+/// evaluate_measurement().
+Result<CircularCertificate> circular_certificate_of(const std::string& path,
+                                                    const RunFileContents& contents);
+
+/// What is stored at the first evaluation.
+nlohmann::ordered_json circular_figures(const CircularCertificate& certificate);
 
 } // namespace axiscal

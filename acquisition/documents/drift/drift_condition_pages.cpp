@@ -72,7 +72,7 @@ std::string readings_of_planned(const RunDrift& drift) {
            std::to_string(drift.setup.duration / drift.setup.interval);
 }
 
-std::vector<StatedField> fields_of_bar_test(const DriftDocument& document) {
+std::vector<StatedField> fields_of_bar_test(const DriftResult& document) {
     const Statements& said = document.run.statements;
     const RunDrift& drift = document.drift;
     return {{"Ballbar", full_name_of(drift.reading)},
@@ -87,7 +87,7 @@ std::vector<StatedField> fields_of_bar_test(const DriftDocument& document) {
             {"Station", stated(document.run.station)}};
 }
 
-std::vector<StatedField> fields_of_axis_test(const DriftDocument& document) {
+std::vector<StatedField> fields_of_axis_test(const DriftResult& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
     const RunDrift& drift = document.drift;
@@ -112,7 +112,7 @@ std::vector<StatedField> fields_of_axis_test(const DriftDocument& document) {
              document.attachments.alignment ? "recorded: see below" : "not recorded"}};
 }
 
-void draw_setup(Sheet& sheet, const DriftDocument& document) {
+void draw_setup(Sheet& sheet, const DriftResult& document) {
     const RunRecord& run = document.run;
     const bool of_bar = document.drift.of_bar;
     sheet.heading("Test and conditions");
@@ -128,7 +128,7 @@ void draw_setup(Sheet& sheet, const DriftDocument& document) {
 } // namespace
 
 void draw_drift_conditions(Sheet& sheet,
-                           const DriftDocument& document,
+                           const DriftResult& document,
                            const std::vector<StatedField>& shortened) {
     const RunRecord& run = document.run;
     draw_calibrations(sheet, run.calibrations, run.channels, run_date_of(run));

@@ -4,10 +4,7 @@
 #include "acquisition/documents/csv_text.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
-#include "acquisition/runfile/digest.hpp"
-#include "acquisition/runfile/run_file.hpp"
 #include "analysis/record/run_clock.hpp"
-#include "config/json_text.hpp"
 
 #include <array>
 
@@ -53,16 +50,6 @@ int refused_readings(const RunDrift& drift) {
     return count;
 }
 
-/// What is stored at the first evaluation.
-Json drift_figures(const RunDrift& drift) {
-    Json figures;
-    figures["format"] = "axiscal.drift/1";
-    figures["unit"] = drift.unit;
-    figures["parameters"] = parameters_of(drift);
-    figures["refused_readings"] = refused_readings(drift);
-    return figures;
-}
-
 /// A length has an E_VE; what is as warm or as moist as it is has a range alone.
 bool has_eve(const ChannelDrift& channel) {
     return channel.kind == ChannelKind::displacement && channel.series.readings.size() > 1;
@@ -90,7 +77,7 @@ Json channel_of(const ChannelDrift& channel) {
 }
 
 /// What a later budget takes of the test: nothing where extremes may be left out.
-Json budget_of(const DriftDocument& document) {
+Json budget_of(const DriftResult& document) {
     Json object;
     object["takes"] = document.drift.refused.empty() ? Json("E_VE") : Json();
     object["by"] = drift_budget_by(document);
@@ -111,7 +98,7 @@ Json refused_of(const RunDrift& drift) {
     return list;
 }
 
-Json run_of(const DriftDocument& document) {
+Json run_of(const DriftResult& document) {
     const RunRecord& run = document.run;
     const Statements& said = run.statements;
     Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
@@ -202,43 +189,41 @@ std::vector<const ChannelDrift*> every_channel_of(const RunDrift& drift) {
 
 } // namespace
 
-Result<DriftDocument> drift_of_run_file(const std::string& run_file) {
-    DriftDocument document;
-    AXISCAL_TRY(document.run_file_sha256, sha256_of_file(run_file));
-    AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
+Result<DriftResult> drift_result_of(const std::string& path, RunFileContents contents) {
     if (!contents.closed)
-        return fail(Fault::incomplete_run, run_file + " is still open: close the run first");
-    if (!contents.attachments.drift) return fail(Fault::refused, run_file + " is no drift test");
-    AXISCAL_TRY(document.drift, evaluate_drift(contents.run, *contents.attachments.drift));
+        return fail(Fault::incomplete_run, path + " is still open: close the run first");
+    if (!contents.attachments.drift) return fail(Fault::bad_run_file, path + " has no row drift");
+    DriftResult result;
+    AXISCAL_TRY(result.drift, evaluate_drift(contents.run, *contents.attachments.drift));
     tell_times_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.retakes,
                             contents.run.closed);
     tell_orders_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.orders);
-    document.run = std::move(contents.run);
-    document.attachments = std::move(contents.attachments);
-    document.orders = std::move(contents.revisions.orders);
-    AXISCAL_TRY(document.result_digest,
-                standing_digest(run_file, {digest_of(document.drift), agreement_of(document.run),
-                                           [&document] { return drift_figures(document.drift); }}));
-    return document;
+    result.run = std::move(contents.run);
+    result.attachments = std::move(contents.attachments);
+    result.orders = std::move(contents.revisions.orders);
+    result.result_digest = digest_of(result.drift);
+    return result;
 }
 
-Result<void> seal_drift(const std::string& run_file, const SecretKey* key) {
-    if (read_stored_result(run_file)) return {};
-    AXISCAL_TRY(const DriftDocument document, drift_of_run_file(run_file));
-    return store_result(run_file,
-                        {document.result_digest, json_text(drift_figures(document.drift))}, key);
+Json drift_figures(const RunDrift& drift) {
+    Json figures;
+    figures["format"] = "axiscal.drift/1";
+    figures["unit"] = drift.unit;
+    figures["parameters"] = parameters_of(drift);
+    figures["refused_readings"] = refused_readings(drift);
+    return figures;
 }
 
 std::string drift_standards(const RunDrift& drift) {
     return drift.of_bar ? "ISO/TR 230-9 E_VE, ISO 230-3 ETVE" : "ISO 230-2 E_VE, ISO 230-3 ETVE";
 }
 
-std::string drift_budget_by(const DriftDocument& document) {
+std::string drift_budget_by(const DriftResult& document) {
     if (document.drift.of_bar) return "ISO/TR 230-9";
     return document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
 }
 
-Json drift_to_json(const DriftDocument& document) {
+Json drift_to_json(const DriftResult& document) {
     const RunDrift& drift = document.drift;
     Json object;
     object["format"] = "axiscal.drift/1";
@@ -262,11 +247,7 @@ Json drift_to_json(const DriftDocument& document) {
     return object;
 }
 
-std::string drift_json_text(const DriftDocument& document) {
-    return document_text(drift_to_json(document));
-}
-
-std::string drift_csv(const DriftDocument& document) {
+std::string drift_csv(const DriftResult& document) {
     const RunDrift& drift = document.drift;
     const std::string axis = axis_name(drift);
     std::string text = "channel,unit,minute,value\r\n";

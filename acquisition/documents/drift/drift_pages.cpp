@@ -10,7 +10,7 @@
 namespace axiscal {
 namespace {
 
-std::vector<StatedField> draw_identity(Sheet& sheet, const DriftDocument& document) {
+std::vector<StatedField> draw_identity(Sheet& sheet, const DriftResult& document) {
     const RunRecord& run = document.run;
     auto fields = identity_fields(run.statements, dates_of_test(run));
     if (document.drift.of_bar) {
@@ -73,7 +73,7 @@ std::string refused_text(const RefusedReadings& refused) {
 }
 
 /// Intervals that the figures do not know.
-std::string gaps_text(const DriftDocument& document) {
+std::string gaps_text(const DriftResult& document) {
     const RunDrift& drift = document.drift;
     std::string words;
     if (drift.missing > 0)
@@ -101,7 +101,7 @@ std::string budget_text(const RunDrift& drift, const char* of_what, const std::s
            "); every other figure and channel" + rest;
 }
 
-std::string bar_rule_text(const DriftDocument& document) {
+std::string bar_rule_text(const DriftResult& document) {
     return "E_VE: largest minus smallest reading of the ballbar at rest. ETVE: the same within an "
            "hour. Positive changes: the reading rises. It is taken as it is, as in a circular "
            "test; neither air nor expansion is taken out. All of it is the environment's share: "
@@ -109,7 +109,7 @@ std::string bar_rule_text(const DriftDocument& document) {
            budget_text(document.drift, "circular tests", drift_budget_by(document));
 }
 
-std::string rule_text(const DriftDocument& document) {
+std::string rule_text(const DriftResult& document) {
     if (document.drift.of_bar) return bar_rule_text(document);
     const bool rotary = document.run.rotary.has_value();
     return std::string{"E_VE: largest minus smallest coordinate of the resting axis"} +
@@ -123,7 +123,7 @@ std::string rule_text(const DriftDocument& document) {
                        std::string{"ISO 230-2, annex "} + (rotary ? "B" : "A"));
 }
 
-void draw_rule(Sheet& sheet, const DriftDocument& document) {
+void draw_rule(Sheet& sheet, const DriftResult& document) {
     const RunDrift& drift = document.drift;
     sheet.text(rule_text(document), note_style);
     const auto& times = drift.axis.times;
@@ -146,17 +146,17 @@ std::string duration_text(Duration duration) {
     return fixed(seconds_of(duration), 3) + " s";
 }
 
-std::string drift_subject_text(const DriftDocument& document) {
+std::string drift_subject_text(const DriftResult& document) {
     const std::string axis = stated(document.run.statements.axis);
     if (!document.drift.of_bar) return "axis " + axis;
     return "ballbar, plane " + axis;
 }
 
-std::string drift_place_text(const DriftDocument& document) {
+std::string drift_place_text(const DriftResult& document) {
     return fixed(document.drift.setup.place.in(mm), 3) + (document.run.rotary ? "°" : " mm");
 }
 
-std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftDocument& document) {
+std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftResult& document) {
     const RunRecord& run = document.run;
     const RunDrift& drift = document.drift;
     const std::string rested = drift.of_bar ? "(ISO/TR 230-9) and ETVE (ISO 230-3) of a ballbar"

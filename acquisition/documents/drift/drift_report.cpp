@@ -7,12 +7,12 @@
 namespace axiscal {
 namespace {
 
-std::string title_of(const DriftDocument& document) {
+std::string title_of(const DriftResult& document) {
     return "Drift test " + stated(document.run.statements.certificate_number) + ", " +
            drift_subject_text(document);
 }
 
-PageFrame frame_of(const DriftDocument& document) {
+PageFrame frame_of(const DriftResult& document) {
     PageFrame frame = page_frame_of(document.run, document.run_file_sha256);
     frame.subject += ", " + drift_subject_text(document) + ", drift test";
     return frame;
@@ -20,7 +20,7 @@ PageFrame frame_of(const DriftDocument& document) {
 
 } // namespace
 
-Result<std::string> render_drift_pdf(const DriftDocument& document) {
+Result<std::string> render_drift_pdf(const DriftResult& document) {
     return render_pages({title_of(document), drift_standards(document.drift),
                          iso8601_utc(document.run.closed.utc_ns)},
                         frame_of(document), [&](Sheet& sheet) {

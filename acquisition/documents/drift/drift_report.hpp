@@ -11,6 +11,6 @@ namespace axiscal {
 /// same bytes: the creation date is its end. Not thread-safe (Pango's font map).
 /// @errors Fault::not_found without the font; Fault::refused naming a text that the font cannot
 /// print; Fault::io from Cairo.
-Result<std::string> render_drift_pdf(const DriftDocument& document);
+Result<std::string> render_drift_pdf(const DriftResult& document);
 
 } // namespace axiscal

@@ -374,8 +374,4 @@ Json certificate_to_json(const Certificate& certificate) {
     return document;
 }
 
-std::string certificate_json_text(const Certificate& certificate) {
-    return document_text(certificate_to_json(certificate));
-}
-
 } // namespace axiscal

@@ -28,7 +28,4 @@ namespace axiscal {
 /// survives dump() and parse() exactly.
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate);
 
-/// The text of certificate.json: indented, one line feed at the end, always valid UTF-8.
-std::string certificate_json_text(const Certificate& certificate);
-
 } // namespace axiscal

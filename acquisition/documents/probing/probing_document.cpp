@@ -2,10 +2,7 @@
 
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
-#include "acquisition/runfile/digest.hpp"
-#include "acquisition/runfile/run_file.hpp"
 #include "analysis/probing/probing_case.hpp"
-#include "config/json_text.hpp"
 
 #include <cstdio>
 
@@ -48,16 +45,7 @@ Json series_list(const std::vector<ProbingDelay>& results) {
     return list;
 }
 
-/// What is stored at the first evaluation.
-Json probing_figures(const ProbingDocument& document) {
-    Json figures;
-    figures["format"] = "axiscal.probing/1";
-    figures["unit"] = "mm";
-    figures["parameters"] = series_list(document.results);
-    return figures;
-}
-
-Json run_of(const ProbingDocument& document) {
+Json run_of(const ProbingResult& document) {
     const RunRecord& run = document.run;
     Json object = test_run_json(run, document.run_file_sha256, document.result_digest);
     object["machine"] = run.statements.machine;
@@ -71,31 +59,28 @@ Json run_of(const ProbingDocument& document) {
 
 } // namespace
 
-Result<ProbingDocument> probing_of_run_file(const std::string& run_file) {
-    ProbingDocument document;
-    AXISCAL_TRY(document.run_file_sha256, sha256_of_file(run_file));
-    AXISCAL_TRY(RunFileContents contents, read_run_file_contents(run_file));
+Result<ProbingResult> probing_result_of(const std::string& path, RunFileContents contents) {
     if (!contents.closed || !contents.run.complete)
-        return fail(Fault::incomplete_run, run_file + " is not closed as complete");
+        return fail(Fault::incomplete_run, path + " is not closed as complete");
     if (!contents.attachments.probing)
-        return fail(Fault::refused, run_file + " is no probing test");
-    document.record = std::move(*contents.attachments.probing);
-    AXISCAL_TRY(document.results, evaluate_probing_delay(case_of(document.record)));
-    document.run = std::move(contents.run);
-    AXISCAL_TRY(document.result_digest,
-                standing_digest(run_file, {digest_of(document.results), rounding_of_the_library,
-                                           [&document] { return probing_figures(document); }}));
-    return document;
+        return fail(Fault::bad_run_file, path + " has no row probing");
+    ProbingResult result;
+    result.record = std::move(*contents.attachments.probing);
+    AXISCAL_TRY(result.results, evaluate_probing_delay(case_of(result.record)));
+    result.run = std::move(contents.run);
+    result.result_digest = digest_of(result.results);
+    return result;
 }
 
-Result<void> seal_probing(const std::string& run_file, const SecretKey* key) {
-    if (read_stored_result(run_file)) return {};
-    AXISCAL_TRY(const ProbingDocument document, probing_of_run_file(run_file));
-    return store_result(run_file, {document.result_digest, json_text(probing_figures(document))},
-                        key);
+Json probing_figures(const ProbingResult& result) {
+    Json figures;
+    figures["format"] = "axiscal.probing/1";
+    figures["unit"] = "mm";
+    figures["parameters"] = series_list(result.results);
+    return figures;
 }
 
-Json probing_to_json(const ProbingDocument& document) {
+Json probing_to_json(const ProbingResult& document) {
     Json object;
     object["format"] = "axiscal.probing/1";
     object["standard"] = "ISO 230-10, 6.9 (steps reconstructed)";
@@ -114,11 +99,7 @@ double feed_mm_per_ms(const ProbingRecord& record) {
     return record.feed_mm_per_min / ms_per_min;
 }
 
-std::string probing_json_text(const ProbingDocument& document) {
-    return document_text(probing_to_json(document));
-}
-
-std::string probing_csv(const ProbingDocument& document) {
+std::string probing_csv(const ProbingResult& document) {
     std::string text = "direction,kind,approach_mm,x_mm,y_mm,z_mm\r\n";
     for (const ProbingTouch& touch : document.record.touches) {
         char line[160];

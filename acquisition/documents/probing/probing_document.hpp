@@ -1,8 +1,7 @@
 #pragma once
-// A recorded probing test as the documents that leave the station. Pure, but for reading the run
-// file.
+// A recorded probing test as the documents that leave the station. Pure.
 
-#include "acquisition/runfile/ed25519.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "analysis/probing/probing_delay.hpp"
 #include "analysis/record/probing_record.hpp"
 #include "analysis/record/run_record.hpp"
@@ -14,29 +13,28 @@
 
 namespace axiscal {
 
-struct ProbingDocument {
+/// What a probing test gave.
+struct ProbingResult {
     RunRecord run;
     ProbingRecord record;
     std::vector<ProbingDelay> results; ///< one a series
     std::string run_file_sha256, result_digest;
 };
 
-/// Reads and verifies the run file and computes everything, as certificate_of_run_file does.
-/// @errors Fault::refused when it is no probing test; Fault::incomplete_run; Fault::bad_run_file,
-/// also for figures that are not those stored; Fault::not_found; Fault::bad_case.
-Result<ProbingDocument> probing_of_run_file(const std::string& run_file);
+/// Computes everything of a run file that was read; without its hash.
+/// @errors Fault::incomplete_run naming `path`; those of evaluate_probing_delay().
+Result<ProbingResult> probing_result_of(const std::string& path, RunFileContents contents);
 
-/// The first evaluation: stores digest and figures in the closed run file, once.
-Result<void> seal_probing(const std::string& run_file, const SecretKey* key = nullptr);
+/// What is stored at the first evaluation.
+nlohmann::ordered_json probing_figures(const ProbingResult& result);
 
 /// How far the tip moves in a millisecond, the usual servo tick of a control, mm. Pure.
 double feed_mm_per_ms(const ProbingRecord& record);
 
 /// Feed, figures of each series, what is stated. "preliminary" is true: no uncertainty of these
 /// figures is known, as "missing" says.
-nlohmann::ordered_json probing_to_json(const ProbingDocument& document);
-std::string probing_json_text(const ProbingDocument& document);
+nlohmann::ordered_json probing_to_json(const ProbingResult& document);
 /// Every touch: direction, kind, approach, the latched X, Y, Z.
-std::string probing_csv(const ProbingDocument& document);
+std::string probing_csv(const ProbingResult& document);
 
 } // namespace axiscal

@@ -21,7 +21,7 @@ std::string tick_text(const ProbingRecord& record) {
 }
 
 /// The log of a control has no clock: what is known is when it was read.
-std::vector<StatedField> draw_identity(Sheet& sheet, const ProbingDocument& document) {
+std::vector<StatedField> draw_identity(Sheet& sheet, const ProbingResult& document) {
     const RunRecord& run = document.run;
     const ProbingRecord& record = document.record;
     CertificateDates dates = dates_of_test(run);
@@ -81,7 +81,7 @@ void draw_figures(Sheet& sheet, const std::vector<ProbingDelay>& results) {
                 rows);
 }
 
-void draw_meaning(Sheet& sheet, const ProbingDocument& document) {
+void draw_meaning(Sheet& sheet, const ProbingResult& document) {
     sheet.text("E_TD: largest minus smallest point that the control latched along the direction, "
                "over touches from growing distances; in ms: over the feed. s: standard deviation. "
                "E_0: the variation of the references, touched from one distance, which no delay "
@@ -117,7 +117,7 @@ bool draw_front_panels(Sheet& sheet, const std::vector<ProbingPanel>& panels) {
     return true;
 }
 
-std::vector<TableRow> touch_rows(const ProbingTrace& trace, const ProbingDocument& document) {
+std::vector<TableRow> touch_rows(const ProbingTrace& trace, const ProbingResult& document) {
     const auto [low, high] = std::ranges::minmax_element(trace.offset_um);
     const double um_per_ms = feed_mm_per_ms(document.record) * um_a_mm;
     std::vector<TableRow> rows;
@@ -139,7 +139,7 @@ std::vector<TableRow> touch_rows(const ProbingTrace& trace, const ProbingDocumen
 
 void draw_touch_table(Sheet& sheet,
                       const std::vector<ProbingTrace>& traces,
-                      const ProbingDocument& document) {
+                      const ProbingResult& document) {
     std::vector<TableRow> rows;
     for (const ProbingTrace& trace : traces)
         std::ranges::move(touch_rows(trace, document), std::back_inserter(rows));
@@ -170,7 +170,7 @@ std::string distances_of(const ProbingRecord& record) {
 
 } // namespace
 
-ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingDocument& document) {
+ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingResult& document) {
     const RunRecord& run = document.run;
     draw_front_title(sheet, {"Probing test", run.statements.state,
                              "Variation of the time delay of a touch probe, by ISO 230-10, 6.9¹"});
@@ -192,9 +192,7 @@ ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingDocument& docume
     return front;
 }
 
-void draw_probing_touches(Sheet& sheet,
-                          const ProbingDocument& document,
-                          const ProbingFront& front) {
+void draw_probing_touches(Sheet& sheet, const ProbingResult& document, const ProbingFront& front) {
     sheet.new_page();
     const auto traces = probing_traces_of(document);
     const auto panels = probing_panels_of(traces);
@@ -207,7 +205,7 @@ void draw_probing_touches(Sheet& sheet,
 }
 
 void draw_probing_conditions(Sheet& sheet,
-                             const ProbingDocument& document,
+                             const ProbingResult& document,
                              const ProbingFront& front) {
     const RunRecord& run = document.run;
     const auto references =

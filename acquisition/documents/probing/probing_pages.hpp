@@ -16,14 +16,14 @@ struct ProbingFront {
 
 /// Page 1: who, what, with what, E_TD and E_0 of each direction, the servo tick, the saw-tooth, the
 /// latched points where they have room, the signatures.
-ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingDocument& document);
+ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingResult& document);
 
 /// The latched points unless page 1 has them, then every touch as a table.
-void draw_probing_touches(Sheet& sheet, const ProbingDocument& document, const ProbingFront& front);
+void draw_probing_touches(Sheet& sheet, const ProbingResult& document, const ProbingFront& front);
 
 /// The test, what the figures mean, remarks and events.
 void draw_probing_conditions(Sheet& sheet,
-                             const ProbingDocument& document,
+                             const ProbingResult& document,
                              const ProbingFront& front);
 
 /// Of each series of touches the period of its saw-tooth, or why none was found: one paragraph of

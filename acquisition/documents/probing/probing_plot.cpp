@@ -25,7 +25,7 @@ struct Reach {
     }
 };
 
-double zero_of(const ProbingDocument& document, const ProbingDelayCase& stated, std::size_t at) {
+double zero_of(const ProbingResult& document, const ProbingDelayCase& stated, std::size_t at) {
     Reach of_touches, own;
     own.take(stated.series[at].trigger_mm);
     for (std::size_t i = 0; i < document.results.size(); ++i)
@@ -78,7 +78,7 @@ void draw_latched_points(Canvas& canvas, const PlotFrame& frame, const ProbingPa
 
 } // namespace
 
-std::vector<ProbingTrace> probing_traces_of(const ProbingDocument& document) {
+std::vector<ProbingTrace> probing_traces_of(const ProbingResult& document) {
     const ProbingDelayCase stated = case_of(document.record);
     std::vector<ProbingTrace> traces;
     std::size_t first_touch = 0;

@@ -23,7 +23,7 @@ struct ProbingTrace {
     std::vector<double> offset_um;
 };
 /// One of each series, in the order of the results.
-std::vector<ProbingTrace> probing_traces_of(const ProbingDocument& document);
+std::vector<ProbingTrace> probing_traces_of(const ProbingResult& document);
 
 /// One series of touches and the references of its direction. The pointers live as long as the
 /// traces.

@@ -7,7 +7,7 @@
 namespace axiscal {
 namespace {
 
-PageFrame frame_of(const ProbingDocument& document) {
+PageFrame frame_of(const ProbingResult& document) {
     PageFrame frame = page_frame_of(document.run, document.run_file_sha256);
     frame.subject += ", probing test";
     frame.preliminary = "PRELIMINARY: no uncertainty budget";
@@ -16,7 +16,7 @@ PageFrame frame_of(const ProbingDocument& document) {
 
 } // namespace
 
-Result<std::string> render_probing_pdf(const ProbingDocument& document) {
+Result<std::string> render_probing_pdf(const ProbingResult& document) {
     const RunRecord& run = document.run;
     return render_pages({"Probing test " + stated(run.statements.certificate_number),
                          "ISO 230-10, 6.9", iso8601_utc(run.closed.utc_ns)},

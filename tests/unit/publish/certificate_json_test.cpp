@@ -2,6 +2,7 @@
 #include "acquisition/documents/positioning/certificate_json.hpp"
 #include "acquisition/documents/positioning/result_json.hpp"
 #include "acquisition/documents/result_digest.hpp"
+#include "acquisition/documents/test_result.hpp"
 #include "tests/unit/analysis/linear_scale_run.hpp"
 #include "tests/unit/analysis/rotary_truth.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
@@ -236,13 +237,13 @@ TEST(CertificateJson, LeavesValuesPositionsAndDigestAsTheyAreWithoutABudget) {
 }
 
 TEST(CertificateJson, IsTheSameTextForTheSameRun) {
-    EXPECT_EQ(certificate_json_text(test::certificate_of(stated_run())),
-              certificate_json_text(test::certificate_of(stated_run())));
+    EXPECT_EQ(json_text_of(test::certificate_of(stated_run())),
+              json_text_of(test::certificate_of(stated_run())));
 }
 
 TEST(CertificateJson, BringsEveryDoubleBackExactly) {
     const Certificate certificate = test::certificate_of(test::synthetic_run());
-    const Json read = Json::parse(certificate_json_text(certificate));
+    const Json read = Json::parse(json_text_of(certificate));
     EXPECT_EQ(read.at("parameters").at("A").at("value").get<double>(),
               *certificate.result.parameters.A);
     EXPECT_EQ(read.at("run").at("deviations").at("forward"), certificate.deviations.forward());
@@ -285,7 +286,7 @@ TEST(CertificateJson, WritesNullForWhatNobodyStated) {
 TEST(CertificateJson, SurvivesBrokenUtf8) {
     RunRecord run = test::synthetic_run();
     run.statements.customer = "broken \xff";
-    EXPECT_TRUE(Json::accept(certificate_json_text(test::certificate_of(run))));
+    EXPECT_TRUE(Json::accept(json_text_of(test::certificate_of(run))));
 }
 
 std::vector<std::string> fields_of(std::string line) {

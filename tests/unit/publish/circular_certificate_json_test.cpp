@@ -3,6 +3,7 @@
 #include "acquisition/documents/circular/circular_certificate_csv.hpp"
 #include "acquisition/documents/circular/circular_certificate_json.hpp"
 #include "acquisition/documents/circular/circular_json.hpp"
+#include "acquisition/documents/test_result.hpp"
 #include "tests/unit/report/synthetic_circular.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 json document_of(const CircularCertificate& certificate) {
-    return json::parse(circular_certificate_json_text(certificate));
+    return json::parse(json_text_of(certificate));
 }
 
 TEST(CircularCertificateJson, HoldsTheAnalysisUnchangedAndWhereItCameFrom) {

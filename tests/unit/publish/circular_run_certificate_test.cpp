@@ -1,8 +1,8 @@
 // From the run file of a circular test to its certificate, and back.
 
 #include "acquisition/documents/circular/circular_certificate_json.hpp"
-#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/documents/run_verify.hpp"
+#include "evaluated.hpp"
 #include "written_circle.hpp"
 
 #include <filesystem>
@@ -32,7 +32,7 @@ protected:
 };
 
 TEST_F(CircularRunCertificate, HoldsTheTruthThatWasDriven) {
-    const auto certificate = circular_certificate_of_run_file(written());
+    const auto certificate = test::evaluated<CircularCertificate>(written());
     ASSERT_TRUE(certificate) << describe(certificate.error());
     const CircularMeasurement& measured = certificate->measured;
     EXPECT_EQ(measured.run.run_id, "bay3-circle");
@@ -48,27 +48,28 @@ TEST_F(CircularRunCertificate, HoldsTheTruthThatWasDriven) {
 
 TEST_F(CircularRunCertificate, IsTheSameWhenItIsComputedAnew) {
     const std::string path = written();
-    ASSERT_TRUE(seal_result(path));
+    ASSERT_TRUE(test::stored_first(path));
     const auto stored = read_stored_result(path);
     ASSERT_TRUE(stored);
-    const auto again = circular_certificate_of_run_file(path);
+    const auto again = test::evaluated<CircularCertificate>(path);
     ASSERT_TRUE(again) << describe(again.error());
     EXPECT_EQ(stored->digest, again->result_digest);
     EXPECT_EQ(stored->digest.size(), 64u);
     EXPECT_NE(stored->document.find("\"standard\":\"ISO 230-4\""), std::string::npos);
-    EXPECT_TRUE(seal_result(path)) << "a file that has a result keeps it";
+    EXPECT_TRUE(test::stored_first(path)) << "a file that has a result keeps it";
 }
 
 TEST_F(CircularRunCertificate, BearsTheNumberThatItsFirstEvaluationTook) {
     const std::string path = written();
-    EXPECT_TRUE(circular_certificate_to_json(circular_certificate_of_run_file(path).value())
+    EXPECT_TRUE(circular_certificate_to_json(test::evaluated<CircularCertificate>(path).value())
                     .at("certificate")
                     .at("number")
                     .is_null())
         << "it was not issued";
     const std::string state = std::filesystem::path{path}.parent_path().string();
-    ASSERT_TRUE(seal_result(path, {nullptr, state}));
-    const auto made = circular_certificate_of_run_file(path).value();
+    const Issue numbered{nullptr, state};
+    ASSERT_TRUE(test::evaluated<CircularCertificate>(path, &numbered));
+    const auto made = test::evaluated<CircularCertificate>(path).value();
     const std::string stated = "N-17"; // of written_circle.hpp
     EXPECT_EQ(made.measured.run.statements.certificate_number, stated);
     EXPECT_EQ(circular_certificate_to_json(made).at("certificate").at("number"), stated);
@@ -77,14 +78,14 @@ TEST_F(CircularRunCertificate, BearsTheNumberThatItsFirstEvaluationTook) {
 }
 
 TEST_F(CircularRunCertificate, OfAnOpenRunIsRefused) {
-    const auto certificate = circular_certificate_of_run_file(written(false));
+    const auto certificate = test::evaluated<CircularCertificate>(written(false));
     ASSERT_FALSE(certificate);
     EXPECT_EQ(certificate.error().fault, Fault::incomplete_run);
 }
 
 TEST_F(CircularRunCertificate, SaysWhichDriftTestItsEveIsOf) {
     const auto sources_in = [](const std::string& path) {
-        const auto certificate = circular_certificate_of_run_file(path);
+        const auto certificate = test::evaluated<CircularCertificate>(path);
         EXPECT_TRUE(certificate) << describe(certificate.error());
         std::vector<std::string> sources;
         const auto document = circular_certificate_to_json(*certificate);
@@ -96,7 +97,7 @@ TEST_F(CircularRunCertificate, SaysWhichDriftTestItsEveIsOf) {
     };
     const std::string path = written(true, "bay3-XY-ballbar-drift");
     EXPECT_EQ(sources_in(path), std::vector<std::string>{"environment of bay3-XY-ballbar-drift"});
-    ASSERT_TRUE(seal_result(path));
+    ASSERT_TRUE(test::stored_first(path));
     EXPECT_TRUE(verify_run(path)->intact());
     ASSERT_TRUE(std::filesystem::remove(path));
     EXPECT_TRUE(sources_in(written()).empty()) << "of an E_VE that somebody stated";
@@ -104,8 +105,9 @@ TEST_F(CircularRunCertificate, SaysWhichDriftTestItsEveIsOf) {
 
 TEST_F(CircularRunCertificate, IsVerifiedAgainstItsRunFile) {
     const std::string path = written();
-    ASSERT_TRUE(seal_result(path));
-    auto document = circular_certificate_to_json(circular_certificate_of_run_file(path).value());
+    ASSERT_TRUE(test::stored_first(path));
+    auto document =
+        circular_certificate_to_json(test::evaluated<CircularCertificate>(path).value());
     const std::string json = folder_.file("certificate.json");
     std::ofstream{json} << document.dump();
     const auto intact = verify_run(path, {json, {}, {}});

@@ -7,6 +7,7 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/one_row.hpp"
+#include "tests/unit/publish/evaluated.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,8 +44,8 @@ RunRecord made_run() {
 }
 
 /// At its datum, where neither air nor material acts on a path.
-DriftDocument made_document(RunRecord run = made_run()) {
-    DriftDocument document;
+DriftResult made_document(RunRecord run = made_run()) {
+    DriftResult document;
     document.attachments.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1},
                                             run.plan.datum, run.laser.instrument == "gauge"};
     const auto drift = evaluate_drift(run, *document.attachments.drift);
@@ -190,8 +191,8 @@ TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
     ASSERT_TRUE(testing::append(writer, run.environment));
     ASSERT_TRUE(writer.close(true, "The test is over.", {}));
     EXPECT_EQ(summarize_run_file(path)->bar, "gauge/gauge \"A\"");
-    ASSERT_TRUE(seal_drift(path));
-    const auto sealed = drift_of_run_file(path);
+    ASSERT_TRUE(test::stored_first(path));
+    const auto sealed = test::evaluated<DriftResult>(path);
     ASSERT_TRUE(sealed) << describe(sealed.error());
     EXPECT_TRUE(sealed->drift.of_bar);
     EXPECT_EQ(read_stored_result(path)->digest, sealed->result_digest);

@@ -3,8 +3,8 @@
 #include "acquisition/documents/figure_agreement.hpp"
 
 #include "acquisition/documents/circular/circular_json.hpp"
-#include "acquisition/documents/run_certificate.hpp"
 #include "acquisition/documents/run_verify.hpp"
+#include "evaluated.hpp"
 #include "tests/unit/analysis/rotary_truth.hpp"
 #include "written_circle.hpp"
 
@@ -81,7 +81,7 @@ protected:
     std::string stored_with(double by_mm) {
         test::DrivenBar bar = test::bar_of_the_shop();
         const std::string path = test::write_circles(folder_, bar, bar.drive());
-        const CircularCertificate made = circular_certificate_of_run_file(path).value();
+        const CircularCertificate made = test::evaluated<CircularCertificate>(path).value();
         Json figures = circular_to_json(
             {made.measured.test, made.measured.axes, made.parameters, made.diagnosis, made.budget});
         for (const auto& one : figures["parameters"].items())
@@ -95,14 +95,14 @@ protected:
 
 TEST_F(StoredElsewhere, FiguresThatAgreeKeepTheDigestOfTheFirstEvaluation) {
     const std::string path = stored_with(1e-12);
-    const auto again = circular_certificate_of_run_file(path);
+    const auto again = test::evaluated<CircularCertificate>(path);
     ASSERT_TRUE(again) << describe(again.error());
     EXPECT_EQ(again->result_digest, digest_);
     EXPECT_EQ(verify_run(path).value().result_digest, digest_);
 }
 
 TEST_F(StoredElsewhere, FiguresThatDoNotAgreeAreRefused) {
-    const auto again = circular_certificate_of_run_file(stored_with(2e-8));
+    const auto again = test::evaluated<CircularCertificate>(stored_with(2e-8));
     ASSERT_FALSE(again);
     EXPECT_EQ(again.error().fault, Fault::bad_run_file);
 }

@@ -5,6 +5,7 @@
 
 #include "acquisition/documents/run_verify.hpp"
 #include "acquisition/runfile/run_file.hpp"
+#include "evaluated.hpp"
 #include "probed_block.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -36,7 +37,7 @@ protected:
 };
 
 TEST_F(ProbingPapers, TellFeedFiguresAndWhatIsMissing) {
-    const auto document = probing_of_run_file(written());
+    const auto document = test::evaluated<ProbingResult>(written());
     ASSERT_TRUE(document) << describe(document.error());
     const auto json = probing_to_json(*document);
     EXPECT_EQ(json.at("format"), "axiscal.probing/1");
@@ -57,7 +58,7 @@ TEST_F(ProbingPapers, TellFeedFiguresAndWhatIsMissing) {
 }
 
 TEST_F(ProbingPapers, ListEveryTouch) {
-    const std::string csv = probing_csv(probing_of_run_file(written()).value());
+    const std::string csv = probing_csv(test::evaluated<ProbingResult>(written()).value());
     EXPECT_EQ(csv.substr(0, csv.find("\r\n")), "direction,kind,approach_mm,x_mm,y_mm,z_mm");
     EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 3 * (5 + 11));
     EXPECT_NE(csv.find("\r\n0 -1 0,touch,2.009600,-10.000000,-0.056000,-10.000000\r\n"),
@@ -68,8 +69,8 @@ TEST_F(ProbingPapers, ListEveryTouch) {
 
 TEST_F(ProbingPapers, AreHeldAgainstTheRunFile) {
     const std::string path = written();
-    ASSERT_TRUE(seal_probing(path));
-    auto document = probing_to_json(probing_of_run_file(path).value());
+    ASSERT_TRUE(test::stored_first(path));
+    auto document = probing_to_json(test::evaluated<ProbingResult>(path).value());
     const std::string json = folder_.file("certificate.json");
     std::ofstream{json} << document.dump();
     EXPECT_TRUE(verify_run(path, {json, {}, {}}).value().intact());
@@ -81,7 +82,7 @@ TEST_F(ProbingPapers, AreHeldAgainstTheRunFile) {
 }
 
 TEST_F(ProbingPapers, OfAnOpenRunAreRefused) {
-    const auto document = probing_of_run_file(written(false));
+    const auto document = test::evaluated<ProbingResult>(written(false));
     ASSERT_FALSE(document);
     EXPECT_EQ(document.error().fault, Fault::incomplete_run);
 }

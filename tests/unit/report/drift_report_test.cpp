@@ -71,8 +71,8 @@ RunRecord creeping(const std::function<double(double)>& creep_um, double duratio
     return run;
 }
 
-DriftDocument document_of(RunRecord run, Duration duration = 2h) {
-    DriftDocument document;
+DriftResult document_of(RunRecord run, Duration duration = 2h) {
+    DriftResult document;
     document.attachments.drift =
         DriftSetup{duration, 10s, mm(900), run.laser.instrument == "gauge"};
     auto drift = evaluate_drift(run, *document.attachments.drift);
@@ -102,7 +102,7 @@ std::string in_one_line(std::string text) {
 
 class DriftReport : public ::testing::Test {
 protected:
-    std::string render(const DriftDocument& document) {
+    std::string render(const DriftResult& document) {
         const auto pdf = render_drift_pdf(document);
         EXPECT_TRUE(pdf.has_value()) << (pdf ? "" : describe(pdf.error()));
         return test::write_pdf(folder_, pdf.value_or(""));
@@ -310,7 +310,7 @@ TEST_F(DriftReport, ByAScaleSaysThatItsTemperatureWasMissing) {
 }
 
 TEST_F(DriftReport, TellsOneReadingInTheSingular) {
-    DriftDocument document = document_of(creeping(steady_creep_um));
+    DriftResult document = document_of(creeping(steady_creep_um));
     document.drift.without_air = 1;
     document.drift.refused = {{Fault::refused, "It lies beyond the range.", 1, 3, 3}};
     const std::string text = in_one_line(test::text_of(render(document)));
@@ -320,7 +320,7 @@ TEST_F(DriftReport, TellsOneReadingInTheSingular) {
 }
 
 TEST_F(DriftReport, GivesTheSameBytesAgain) {
-    const DriftDocument document = document_of(creeping(steady_creep_um));
+    const DriftResult document = document_of(creeping(steady_creep_um));
     EXPECT_TRUE(render_drift_pdf(document).value() == render_drift_pdf(document).value());
 }
 
@@ -363,7 +363,7 @@ TEST(DriftPlot, DrawsTheExtremesOfALongRecord) {
 }
 
 TEST(DriftPlot, PutsEachKindOfChannelIntoItsOwnPanel) {
-    const DriftDocument document = document_of(creeping(steady_creep_um));
+    const DriftResult document = document_of(creeping(steady_creep_um));
     const auto traces = drift_traces_of(document.drift);
     std::vector<std::string> names;
     for (const EnvironmentPanel& panel : drift_panels_of(traces))
@@ -374,7 +374,7 @@ TEST(DriftPlot, PutsEachKindOfChannelIntoItsOwnPanel) {
 }
 
 TEST(DriftPlot, PutsTheAxisAboveTheChannelsOnTheSameTime) {
-    const DriftDocument document = document_of(creeping(steady_creep_um));
+    const DriftResult document = document_of(creeping(steady_creep_um));
     const auto traces = drift_axis_traces_of(document.drift);
     const EnvironmentPanel panel = drift_axis_panel_of(document.drift, traces);
     ASSERT_EQ(panel.traces.size(), 2U);

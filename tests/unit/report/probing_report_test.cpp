@@ -26,8 +26,8 @@ using testing::ScratchFolder;
 constexpr int least_margin = 28; // points; the narrowest a copier and a hole punch leave
 const char* const page_of_panels = "Latched points against the approach distance";
 
-ProbingDocument document_of(ProbingRecord record) {
-    ProbingDocument document;
+ProbingResult document_of(ProbingRecord record) {
+    ProbingResult document;
     auto results = evaluate_probing_delay(case_of(record));
     EXPECT_TRUE(results) << (results ? "" : describe(results.error()));
     document.results = std::move(results).value_or(std::vector<ProbingDelay>{});
@@ -83,12 +83,12 @@ ProbingRecord many_directions() {
 
 class ProbingReport : public ::testing::Test {
 protected:
-    std::string render(const ProbingDocument& document) {
+    std::string render(const ProbingResult& document) {
         const auto pdf = render_probing_pdf(document);
         EXPECT_TRUE(pdf.has_value()) << (pdf ? "" : describe(pdf.error()));
         return test::write_pdf(folder_, pdf.value_or(""));
     }
-    std::string text_of(const ProbingDocument& document) { return test::text_of(render(document)); }
+    std::string text_of(const ProbingResult& document) { return test::text_of(render(document)); }
     ScratchFolder folder_;
 };
 
@@ -169,7 +169,7 @@ TEST_F(ProbingReport, SaysNotStatedWhereNobodyStatedAnything) {
     record.probe.clear();
     record.signal_path = " ";
     std::erase_if(record.touches, [](const ProbingTouch& touch) { return touch.reference; });
-    ProbingDocument bare = document_of(record);
+    ProbingResult bare = document_of(record);
     bare.run.statements = {};
     const std::string text = in_one_line(text_of(bare));
     for (const char* words : {"Laboratory not stated", "Probe not stated", "Signal path not stated",
@@ -186,12 +186,12 @@ TEST_F(ProbingReport, DrawsDirectionsThatHaveNoRoomOnPageOneBehindIt) {
 }
 
 TEST_F(ProbingReport, GivesTheSameBytesAgain) {
-    const ProbingDocument document = document_of(test::probed_block());
+    const ProbingResult document = document_of(test::probed_block());
     EXPECT_TRUE(render_probing_pdf(document).value() == render_probing_pdf(document).value());
 }
 
 TEST_F(ProbingReport, HasNoWordOverAnotherAndFreeMarginsHoweverMuchIsStated) {
-    ProbingDocument crowded = document_of(test::probed_block());
+    ProbingResult crowded = document_of(test::probed_block());
     const std::string tale = "a long text that somebody typed into the station file because it "
                              "could be done, with every detail of the name and the address";
     Statements& said = crowded.run.statements;
@@ -201,9 +201,9 @@ TEST_F(ProbingReport, HasNoWordOverAnotherAndFreeMarginsHoweverMuchIsStated) {
     two_touches.feed_mm_per_min = 1;
     for (int i = 0; i < 2; ++i)
         two_touches.touches.push_back(test::true_touch(2, false, 0));
-    ProbingDocument bare = document_of(two_touches);
+    ProbingResult bare = document_of(two_touches);
     bare.run.statements = {};
-    for (const ProbingDocument& document : {document_of(test::probed_block()), crowded, bare}) {
+    for (const ProbingResult& document : {document_of(test::probed_block()), crowded, bare}) {
         const std::string pdf = render(document);
         EXPECT_THAT(test::collisions_in(test::words_of(pdf)), IsEmpty());
         for (int page = 1; page <= test::pages_of(pdf); ++page) {
@@ -214,7 +214,7 @@ TEST_F(ProbingReport, HasNoWordOverAnotherAndFreeMarginsHoweverMuchIsStated) {
 }
 
 TEST_F(ProbingReport, PrintsInFullBehindWhatPageOneCutShort) {
-    ProbingDocument document = document_of(test::probed_block());
+    ProbingResult document = document_of(test::probed_block());
     std::string probe = "probe";
     for (int i = 0; i < 30; ++i)
         probe += " with extension " + std::to_string(i);
@@ -223,7 +223,7 @@ TEST_F(ProbingReport, PrintsInFullBehindWhatPageOneCutShort) {
 }
 
 TEST(ProbingPlot, CountsOffsetsFromTheSmallestTouchOfTheDirection) {
-    const ProbingDocument document = document_of(test::probed_block());
+    const ProbingResult document = document_of(test::probed_block());
     const auto traces = probing_traces_of(document);
     ASSERT_EQ(traces.size(), 6U); // references and touches of each face
     std::vector<double> tick_um;  // 0.5, 0.3, 0.1, 0.9, 0.7 of a tick, the least of them 0
@@ -236,7 +236,7 @@ TEST(ProbingPlot, CountsOffsetsFromTheSmallestTouchOfTheDirection) {
 }
 
 TEST(ProbingPlot, PutsTheReferencesOfADirectionBesideItsTouches) {
-    const ProbingDocument document = document_of(test::probed_block());
+    const ProbingResult document = document_of(test::probed_block());
     const auto traces = probing_traces_of(document);
     const auto panels = probing_panels_of(traces);
     ASSERT_EQ(panels.size(), 3U);
