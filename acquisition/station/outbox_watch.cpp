@@ -20,6 +20,9 @@ constexpr Duration coarse = std::chrono::seconds{1};
 // A result that the daemon finds when it starts may wait since long holidays; a stamp older than
 // this, or of the future, is one of a clock that was wrong.
 constexpr Duration longest_plausible_wait = std::chrono::hours{24 * 366};
+constexpr Duration judge_outbox_every = std::chrono::seconds{10};
+/// Of an outbox that was empty: a person may have put something there.
+constexpr Duration look_into_an_empty_one_every = std::chrono::minutes{1};
 constexpr std::uintmax_t longest_report = 16'384; // bytes; one sentence and two names
 
 std::optional<std::int64_t> changed_ns_of(const std::string& path) {
@@ -61,6 +64,22 @@ OutboxView OutboxWatch::look(const ClockTie& now) {
     view.publisher_runs = publisher_runs();
     view.alarm = alarm_of(view);
     return view;
+}
+
+std::optional<std::string> OutboxWatch::judge(const ClockTie& now) {
+    if (now.after - judged_ < judge_outbox_every) return std::nullopt;
+    judged_ = now.after;
+    const OutboxView view = look(now);
+    waiting_ = view.waiting;
+    if (view.alarm.empty() == alarm_.empty()) return std::nullopt;
+    alarm_ = view.alarm;
+    return alarm_.empty() ? "The share takes results again." : "Alarm: " + alarm_ + ".";
+}
+
+std::optional<MonotonicTime> OutboxWatch::due() const {
+    if (config_.destination.empty()) return std::nullopt;
+    const bool empty = waiting_ == 0 && alarm_.empty();
+    return judged_ + (empty ? look_into_an_empty_one_every : judge_outbox_every);
 }
 
 void OutboxWatch::scan(const ClockTie& now) {

@@ -32,6 +32,14 @@ public:
     /// @param now both clocks; the monotonic one never goes back from look to look.
     [[nodiscard]] OutboxView look(const ClockTie& now);
 
+    /// Looks at most every ten seconds. @returns a sentence when the alarm begins and when it is
+    /// over, however the count goes meanwhile.
+    [[nodiscard]] std::optional<std::string> judge(const ClockTie& now);
+    /// judge() looks from ten seconds after this on.
+    void begin_judging(MonotonicTime now) { judged_ = now; }
+    /// When judge() may have a sentence that no ring announces; never without a destination.
+    [[nodiscard]] std::optional<MonotonicTime> due() const;
+
 private:
     /// Of a file that may change: its stamp, and since when it has borne it.
     struct Stamp {
@@ -53,6 +61,9 @@ private:
     std::map<std::string, MonotonicTime> finished_; ///< by name of the entry
     std::optional<MonotonicTime> looked_;           ///< none: this is the first look
     Stamp outbox_stamp_, report_stamp_;
+    MonotonicTime judged_{};
+    std::string alarm_; ///< as the last sentence of judge() had it
+    int waiting_ = 0;   ///< when judge() last looked
 };
 
 /// "12 results wait", "1 result waits".

@@ -19,8 +19,9 @@ struct RunHeaderParts {
     std::string config_hash;
 };
 
-/// "<station>-20261121T100000Z-X", of the second run of that second "<station>-20261121T100000Z-2-X":
-/// sortable, fit for a file name whatever the names hold (id_of_name).
+/// "<station>-20261121T100000Z-X", of the second run of that second
+/// "<station>-20261121T100000Z-2-X": sortable, fit for a file name whatever the names hold
+/// (id_of_name).
 std::string run_id_of(const std::string& station,
                       const std::string& axis,
                       std::int64_t utc_ns,
@@ -32,8 +33,8 @@ std::string free_run_id(const StationConfig& config,
                         std::int64_t utc_ns,
                         const std::string& ending = {});
 
-/// "Version 0.2.0 goes on; version 0.1.0 opened the run. ": of an interrupted run, whose next points this program takes; the
-/// second half only where the versions differ.
+/// "Version 0.2.0 goes on; version 0.1.0 opened the run. ": of an interrupted run, whose next
+/// points this program takes; the second half only where the versions differ.
 std::string taken_up_text(const RunRecord& run);
 
 /// What the station file states of the certificates of `recorded`, in their order.

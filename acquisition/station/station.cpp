@@ -1,13 +1,10 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/run/live_position.hpp"
-#include "analysis/air/air_refraction.hpp"
-#include "analysis/quantity/valid_text.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <boost/asio/bind_cancellation_slot.hpp>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -21,32 +18,6 @@ constexpr Duration port_pause = std::chrono::seconds{1};
 constexpr Duration first_looks =
     std::chrono::seconds{2}; // the station is judged once after its start
 constexpr Duration judge_within = std::chrono::seconds{2}; // and looked at once more
-constexpr std::size_t kept_notes = 20;
-
-std::vector<WatchedChannel> watched(const StationRoles& roles,
-                                    const std::vector<StationChannel>& channels) {
-    std::vector<WatchedChannel> list;
-    const auto add = [&](EnvironmentRole role, std::optional<int> id) {
-        if (!id) return;
-        const StationChannel& channel = channels[static_cast<std::size_t>(*id)];
-        list.push_back({role, channel.instrument_name + "/" + channel.name, channel.place});
-    };
-    add(EnvironmentRole::air_temperature, roles.air_temperature);
-    add(EnvironmentRole::air_pressure, roles.air_pressure);
-    add(EnvironmentRole::air_humidity, roles.air_humidity);
-    for (const int id : roles.material)
-        add(EnvironmentRole::material_temperature, id);
-    for (const int id : roles.scale)
-        add(EnvironmentRole::scale_temperature, id);
-    return list;
-}
-
-/// A capture looks back, and so does the check for drift.
-SampleHistory::Limits history_limits(const StationConfig& config) {
-    SampleHistory::Limits limits;
-    limits.depth = std::max<Duration>(config.capture.history, drift_reach(config.preflight));
-    return limits;
-}
 
 /// After so long without a sample nothing changes any more: every reading is stale for the CNC, its
 /// silence is judged (10 s), and it lies behind every window of the limits.
@@ -56,22 +27,6 @@ Duration age_that_matters(const StationConfig& config) {
     if (config.environment.asks_for_change())
         longest = std::max<Duration>(longest, config.environment.change_window);
     return longest + judge_within;
-}
-
-/// A little more than the checks look back.
-std::vector<SensorLog> sensor_logs(const std::vector<StationChannel>& channels,
-                                   const StationConfig& config) {
-    constexpr Duration shortest = std::chrono::minutes{1};
-    Duration window = config.preflight.soak_window;
-    if (config.environment.asks_for_change())
-        window = std::max(window, config.environment.change_window);
-    const Duration depth = std::max<Duration>(window * 5 / 4, shortest);
-    std::vector<SensorLog> logs;
-    logs.reserve(channels.size());
-    for (const StationChannel& channel : channels)
-        logs.emplace_back(depth, channel.kind == ChannelKind::strength ? SensorLog::Keep::lowest
-                                                                       : SensorLog::Keep::newest);
-    return logs;
 }
 
 /// Stillness is judged in what the interferometer reads, while the station file speaks of the axis.
@@ -111,16 +66,16 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , supervisor_{scheduler, links, *this}
     , port_{std::move(parts.port)}
     , journal_{scheduler, parts.journal_thread}
-    , history_{history_limits(config_)}
-    , watch_{(seat_all(supervisor_, config_, std::move(parts.instruments), std::move(parts.tapes)),
-              watched(roles_, supervisor_.channels()))}
-    , environment_{roles_.environment()}
-    , latest_(supervisor_.channels().size())
+    , readings_{config_, roles_,
+                (seat_all(
+                     supervisor_, config_, std::move(parts.instruments), std::move(parts.tapes)),
+                 supervisor_.channels())}
     , logged_(supervisor_.channels().size())
-    , sensor_logs_{sensor_logs(supervisor_.channels(), config_)}
     , outbox_watch_{config_.state_directory, config_.publish}
     , stale_after_{age_that_matters(config_)}
-    , bell_{scheduler.executor()} {
+    , bell_{scheduler.executor()}
+    , notices_{scheduler, bell_}
+    , set_up_{reference_word()} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
@@ -151,7 +106,8 @@ Task<Result<void>> Station::start() {
     }
     sleep_lock_.try_out();
     supervisor_.start();
-    judged_ = judged_outbox_ = scheduler_.now();
+    judged_ = scheduler_.now();
+    outbox_watch_.begin_judging(judged_);
     time_counts_until_ = std::max(time_counts_until_, judged_ + first_looks);
     spawn(scheduler_, tick());
     const Result<void> taken = co_await take_over_stored_runs();
@@ -181,8 +137,7 @@ Task<void> Station::stop() {
     if (recording() || drift_open()) {
         if (circular_)
             if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
-        perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
-                             "The daemon was stopped; the run stays open.", Fault::none, 0}});
+        record(EventKind::interrupted, "The daemon was stopped; the run stays open.");
         co_await journal_.flush();
     }
 }
@@ -198,7 +153,7 @@ Task<void> Station::serve_port() {
 }
 
 void Station::on_sample(const Sample& sample) {
-    latest_[static_cast<std::size_t>(sample.channel)] = sample;
+    readings_.take(sample);
     time_counts_until_ = sample.at + stale_after_;
     if (asleep_) bell_.ring();
     if (sample.channel == roles_.laser) return take_reading(sample);
@@ -206,16 +161,11 @@ void Station::on_sample(const Sample& sample) {
     if (sample.channel == roles_.ballbar) return take_bar(sample);
     if (circular_ && sample.channel == roles_.bar_temperature)
         log_environment(sample.channel, sample);
-    log_sensor(sample);
-    for (std::size_t i = 0; i < environment_.size(); ++i)
-        if (environment_[i] == sample.channel) {
-            watch_.take(i, sample);
-            log_environment(sample.channel, sample);
-        }
+    if (readings_.take_sensor(sample)) log_environment(sample.channel, sample);
 }
 
 void Station::take_reading(const Sample& sample) {
-    history_.push(sample);
+    readings_.take_reference(sample);
     watch_set_up(sample);
     watch_alignment(sample);
     if (!datum_ || !recording()) return;
@@ -227,9 +177,9 @@ void Station::take_reading(const Sample& sample) {
     }
     const auto value = sample.value();
     if (value && !run_->header.rotary) // whose halts no port judges
-        port_->position(
-            sample.at,
-            live_position(run_->header.laser, *datum_, metre(*value), live_scale_).in(mm));
+        port_->position(sample.at, live_position(run_->header.laser, *datum_, metre(*value),
+                                                 readings_.last_scale_minus_1())
+                                       .in(mm));
 }
 
 void Station::log_environment(int channel, const Sample& sample) {
@@ -257,12 +207,11 @@ void Station::on_instrument_note(const InstrumentView& view) {
 
 void Station::record_instrument(const std::string& sentence, Fault fault) {
     note(sentence);
-    if (recording() || drift_open())
-        perform(RecordEvent{{EventKind::instrument, scheduler_.now(), 0, sentence, fault, 0}});
+    if (recording() || drift_open()) record(EventKind::instrument, sentence, fault);
 }
 
 void Station::on_trigger(const TriggerEvent& event) {
-    port_note_.clear(); // it works
+    notices_.port_works();
     if (circular_ && recording()) {
         take_circular(event);
         return;
@@ -277,14 +226,9 @@ void Station::on_trigger(const TriggerEvent& event) {
         refuse_on_port(event.sequence, {Fault::no_run_armed, {}, {}, {}});
 }
 
-/// The CNC may repeat itself as fast as it likes: one line a change.
 void Station::refuse_on_port(std::uint16_t sequence, const Error& error) {
     port_->refuse(sequence, error.fault);
-    std::string sentence =
-        "Request " + std::to_string(sequence) + " is refused: " + describe(error);
-    if (sentence == refused_note_) return;
-    note(sentence);
-    refused_note_ = std::move(sentence);
+    notices_.note_refusal(sequence, error);
 }
 
 void Station::on_cnc_silent(bool silent) {
@@ -293,19 +237,7 @@ void Station::on_cnc_silent(bool silent) {
 }
 
 void Station::on_port_note(Fault fault, std::string sentence) {
-    std::string message = describe({fault, std::move(sentence), {}, {}});
-    if (message == port_note_) return; // a taken address is tried again each second
-    note("Trigger port: " + message);
-    port_note_ = std::move(message);
-}
-
-void Station::note(const std::string& sentence) {
-    std::string message = valid_text(sentence); // of errors, which may quote a client or a file
-    spdlog::info("{}", message);
-    const ClockTie tie = scheduler_.clock_tie();
-    notes_.push_back(iso8601_utc(tie.utc_ns) + " " + std::move(message));
-    if (notes_.size() > kept_notes) notes_.pop_front();
-    bell_.ring(); // what was worth a word may be worth a look
+    notices_.note_port(fault, std::move(sentence));
 }
 
 const StationChannel& Station::channel_of(int id) const {
@@ -323,39 +255,6 @@ bool Station::recording() const {
 
 bool Station::run_open() const {
     return run_ && !run_->closed;
-}
-
-/// Of readings that watch_.check() has just found fresh.
-double Station::strain_now(EnvironmentRole role, Expansion coefficient, MonotonicTime now) const {
-    const Temperature temperature =
-        Temperature::celsius(*watch_.fresh_mean(role, now, config_.axis.air.oldest));
-    return (coefficient * (temperature - reference_temperature)).si();
-}
-
-Result<double> Station::live_scale_now() const {
-    const MonotonicTime now = scheduler_.now();
-    const Duration oldest = config_.axis.air.oldest;
-    AXISCAL_CHECK(watch_.check(now, oldest));
-    if (reads_polygon()) return 0.0; // an autocollimator counts no wavelengths
-    if (config_.axis.scale) {        // a scale that grows itself counts less
-        const double machine = strain_now(EnvironmentRole::material_temperature,
-                                          config_.axis.material.coefficient, now);
-        const double scale = strain_now(EnvironmentRole::scale_temperature,
-                                        config_.axis.scale->setup.coefficient, now);
-        return (1 + machine) / (1 + scale) - 1;
-    }
-    AirState air;
-    air.temperature =
-        Temperature::celsius(*watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest));
-    air.pressure = pascal(*watch_.fresh_mean(EnvironmentRole::air_pressure, now, oldest));
-    air.relative_humidity = percent(*watch_.fresh_mean(EnvironmentRole::air_humidity, now, oldest));
-    air.vacuum_wavelength = run_ ? run_->header.laser.vacuum_wavelength : nm(632.991);
-    air.co2_ppm = config_.axis.air.co2_ppm;
-    AXISCAL_TRY(const Refractivity refractivity, refractivity_of(config_.axis.air.formula, air));
-    if (config_.axis.angle) return refractivity.n_minus_1; // an angle does not expand
-    const double growth =
-        strain_now(EnvironmentRole::material_temperature, config_.axis.material.coefficient, now);
-    return refractivity.n_minus_1 + growth + refractivity.n_minus_1 * growth;
 }
 
 } // namespace axiscal

@@ -4,22 +4,24 @@
 //
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
-#include "acquisition/capture/alignment_watch.hpp"
-#include "acquisition/capture/environment_watch.hpp"
+#include "acquisition/capture/beam_alignment.hpp"
 #include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/sample_history.hpp"
-#include "acquisition/capture/sample_rate.hpp"
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
-#include "acquisition/runfile/run_store.hpp"
-#include "acquisition/runfile/signing_key.hpp"
+#include "acquisition/preflight/preflight.hpp"
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/circle_resume.hpp"
 #include "acquisition/run/run_machine.hpp"
+#include "acquisition/runfile/run_store.hpp"
+#include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/drift_recorder.hpp"
-#include "acquisition/preflight/preflight.hpp"
+#include "acquisition/station/live_readings.hpp"
+#include "acquisition/station/notices.hpp"
+#include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/roles.hpp"
+#include "acquisition/station/set_up_watch.hpp"
 #include "acquisition/station/sleep_lock.hpp"
 #include "acquisition/station/station_interface.hpp"
 #include "acquisition/station/supervisor.hpp"
@@ -92,10 +94,10 @@ private:
         /// Why the reading could not be tied to the datum: the answer to who armed it.
         std::optional<Error> not_tied;
         std::function<bool()> orderer_has_gone; ///< while the datum is sought
-        bool limits_waived = false; ///< armed in spite of the environment
-        bool resumed = false;       ///< of an earlier daemon: who answers late may be another
-        bool taken_over = false;    ///< an earlier daemon closed it, perhaps in another boot
-        bool broken_off = false;    ///< closed as incomplete, and not by the CNC's own request
+        bool limits_waived = false;             ///< armed in spite of the environment
+        bool resumed = false;    ///< of an earlier daemon: who answers late may be another
+        bool taken_over = false; ///< an earlier daemon closed it, perhaps in another boot
+        bool broken_off = false; ///< closed as incomplete, and not by the CNC's own request
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
         std::string certificate;      ///< folder
@@ -152,6 +154,8 @@ private:
     void perform(const Refuse& action);
     void refused_manually(const Refuse& action, Error error);
     void perform(RecordEvent action);
+    /// An event of this moment, with the next commit.
+    void record(EventKind kind, std::string sentence, Fault fault = Fault::none);
     void perform(RecordRetake action);
     void perform(RecordExclusion action);
     void perform(SetState action);
@@ -197,9 +201,8 @@ private:
     [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
     /// Of a run that positions nothing: no targets, and no uncertainty of the axis.
     /// @param name  of what is measured, in the run's id
-    [[nodiscard]] Result<RunRecord> header_without_axis(TestKind kind,
-                                                        const std::string& name,
-                                                        const ArmRequest& request) const;
+    [[nodiscard]] Result<RunRecord>
+    header_without_axis(TestKind kind, const std::string& name, const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
     void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
@@ -219,7 +222,7 @@ private:
     resume_circles(std::string path, RunFileContents contents, CircleResume verdict);
     Task<Result<void>> close_driven_circles(std::string path);
     [[nodiscard]] std::string interruption_text(const RunFileContents& contents,
-                                                    const CircleResume& verdict) const;
+                                                const CircleResume& verdict) const;
 
     // station_disk.cpp: the disk failed under an open run
     /// Tries until the run file can be written again, then goes on with the run or closes it.
@@ -264,7 +267,6 @@ private:
     [[nodiscard]] tl::unexpected<Error> not_closed_yet() const;
 
     // station_preflight.cpp
-    void log_sensor(const Sample& sample);
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
     [[nodiscard]] SensorFacts sensor_facts(int channel) const;
 
@@ -391,9 +393,6 @@ private:
     /// A run, a drift test or an alignment goes on, an instrument speaks, or what was read last
     /// still grows old.
     [[nodiscard]] bool time_counts() const;
-    /// When the outbox may give an alarm that nobody has rung for; never without a destination.
-    [[nodiscard]] std::optional<MonotonicTime> outbox_due() const;
-    void judge_outbox();
 
     Task<void> serve_port();
     void take_reading(const Sample& sample);
@@ -401,14 +400,13 @@ private:
     void log_environment_anew(); ///< the first point needs a reading before it
     void record_instrument(const std::string& sentence, Fault fault);
     [[nodiscard]] static std::string state_phrase(const InstrumentView& view); ///< "is faulty"
-    void note(const std::string& sentence);
+    void note(const std::string& sentence) { notices_.note(sentence); }
     /// A run takes records: neither closing nor closed.
     [[nodiscard]] bool recording() const;
     [[nodiscard]] bool run_open() const;
     void refuse_on_port(std::uint16_t sequence, const Error& error);
+    /// As LiveReadings::scale_minus_1, with the wavelength of the run.
     [[nodiscard]] Result<double> live_scale_now() const;
-    [[nodiscard]] double
-    strain_now(EnvironmentRole role, Expansion coefficient, MonotonicTime now) const;
     /// "laser" | "scale": what measures the axis, for sentences.
     [[nodiscard]] std::string reference_word() const {
         return config_.axis.scale ? "scale" : "laser";
@@ -438,23 +436,17 @@ private:
     Supervisor supervisor_;
     std::unique_ptr<TriggerPort> port_;
     Journal journal_;
-    SampleHistory history_;
-    EnvironmentWatch watch_;
-    std::vector<int> environment_;                     ///< channels, in the order of watch_
-    std::vector<std::optional<Sample>> latest_;        ///< by channel
+    LiveReadings readings_;
     std::vector<std::optional<MonotonicTime>> logged_; ///< by channel
-    std::vector<SensorLog> sensor_logs_;               ///< by channel; the laser's stays empty
     mutable OutboxWatch outbox_watch_; ///< remembers what it read; a look changes nothing else
-    std::string outbox_alarm_;         ///< as told in the notes
-    int outbox_waiting_ = 0;           ///< at the last look of tick()
-    MonotonicTime judged_{}, judged_outbox_{};
+    MonotonicTime judged_{};
     Duration stale_after_{};            ///< a sample may change what is shown or judged so long
     MonotonicTime time_counts_until_{}; ///< at least: everything read has grown old by then
     bool asleep_ = false;               ///< tick() waits for the bell
     Doorbell bell_;
+    Notices notices_;
     std::optional<RunMachine> machine_; ///< of a linear or rotary run, else:
     std::optional<Circles> circular_;
-    SampleRate bar_rate_;
     std::optional<CurrentRun> run_;
     struct Input {
         RunInput input;
@@ -466,29 +458,19 @@ private:
     std::optional<JournalReceipt> last_receipt_;
     std::uint64_t open_window_ = 0;
     PortState port_state_ = PortState::idle;
-    std::string set_up_lost_;  ///< why nothing can be taken again of the run that was closed
-    std::string interruption_; ///< of a closed run that was taken over, to be recorded
-    std::optional<Sample> last_reading_; ///< since the run was closed, or since the start
-    std::optional<Sample> first_sample_, settled_sample_; ///< of the laser since the start
+    SetUpWatch set_up_;            ///< of the run that was closed
+    std::string interruption_;     ///< of a closed run that was taken over, to be recorded
     bool left_broken_off_ = false; ///< the newest run of the last daemon was, as CurrentRun has it
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
-    double live_scale_ = 0;         ///< the last EnvironmentNow known; for live positions only
     std::optional<CurrentDrift> drift_;
     std::string newest_run_; ///< id of the stored one that was opened latest; empty: none
     std::int64_t newest_run_utc_ns_ = 0;
-    std::optional<AlignmentWatch> aligning_;
-    std::int64_t aligning_since_utc_ns_ = 0;
-    MonotonicTime strength_placed_at_;         ///< of the strength that was given a place last
-    std::optional<AlignmentRecord> alignment_; ///< the last one kept since the start
-    std::string port_note_, refused_note_;
-    std::deque<std::string> notes_;
+    BeamAlignment beam_;
     boost::asio::cancellation_signal end_port_;
-    std::optional<Error> environment_outside_; ///< what lies outside its limits, while it does
-    MonotonicTime last_outside_{};             ///< when something last did
-    std::string reader_; ///< who reads the file that is being closed, in words
-    bool waiting_for_disk_ = false;            ///< the run file could not be written
+    std::string reader_;            ///< who reads the file that is being closed, in words
+    bool waiting_for_disk_ = false; ///< the run file could not be written
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
     bool revising_ = false;         ///< a retake or an exclusion is being kept

@@ -2,15 +2,15 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/preflight/environment_limits.hpp"
+#include "acquisition/run/cycle_plan.hpp"
+#include "acquisition/run/resume.hpp"
 #include "acquisition/runfile/certificate_numbers.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
-#include "acquisition/run/cycle_plan.hpp"
-#include "acquisition/run/resume.hpp"
-#include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "analysis/record/run_clock.hpp"
 #include "drivers/loop/spawn.hpp"
 
@@ -77,10 +77,10 @@ Result<void> Station::ready_to_measure() const {
     AXISCAL_CHECK(disk_takes_records());
     AXISCAL_CHECK(nothing_goes_on());
     const MonotonicTime now = scheduler_.now();
-    AXISCAL_CHECK(watch_.check(now, config_.axis.air.oldest));
+    AXISCAL_CHECK(readings_.environment_is_fresh(now));
     if (reads_faces()) return autocollimator_speaks();
     if (reads_polygon()) return {};
-    const auto reading = history_.newest();
+    const auto reading = readings_.reference().newest();
     if (!reading || now - reading->at > laser_limit)
         return fail(Fault::link_timeout, "the " + reference_word() + " (" +
                                              config_.axis.laser.instrument +
@@ -115,12 +115,13 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
-    const RunHeaderParts parts{
-        config_, supervisor_, roles_, TestKind::positioning,
-        std::move(plan), scheduler_.clock_tie(), boot_id_, config_hash_};
+    const RunHeaderParts parts{config_,         supervisor_,
+                               roles_,          TestKind::positioning,
+                               std::move(plan), scheduler_.clock_tie(),
+                               boot_id_,        config_hash_};
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
-    if (auto free = check_number_is_free(config_.state_directory,
-                                         header.statements.certificate_number);
+    if (auto free =
+            check_number_is_free(config_.state_directory, header.statements.certificate_number);
         !free)
         co_return tl::unexpected<Error>(free.error());
     RunAttachments attachments;
@@ -154,13 +155,11 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     co_return run_->header.run_id;
 }
 
-OrderRecord
-Station::order_of(std::string kind, const Orderer& by, std::string about) const {
+OrderRecord Station::order_of(std::string kind, const Orderer& by, std::string about) const {
     return {std::move(kind), std::move(about), scheduler_.now(), scheduler_.clock_tie().utc_ns, by};
 }
 
-void Station::note_orders_of_arming(const Orderer& by,
-                                    const std::vector<PreflightRecord>& checks) {
+void Station::note_orders_of_arming(const Orderer& by, const std::vector<PreflightRecord>& checks) {
     journal_.note(order_of("arm", by));
     std::string overridden;
     for (const PreflightRecord& check : checks) {
@@ -182,7 +181,7 @@ void Station::begin_run(RunRecord header, std::string path, RunMachine machine) 
     circular_.reset();
     last_receipt_.reset();
     left_over_fault_.reset();
-    refused_note_.clear();
+    notices_.nothing_refused();
     datum_.reset();
     interruption_.clear();
     revision_unknown_ = false;
@@ -192,8 +191,7 @@ void Station::begin_run(RunRecord header, std::string path, RunMachine machine) 
 void Station::log_environment_anew() {
     for (const int channel : roles_.environment()) {
         logged_[static_cast<std::size_t>(channel)].reset();
-        if (const auto& sample = latest_[static_cast<std::size_t>(channel)])
-            log_environment(channel, *sample);
+        if (const auto& sample = readings_.latest(channel)) log_environment(channel, *sample);
     }
 }
 
@@ -241,7 +239,8 @@ Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
 
 tl::unexpected<Error> Station::not_closed_yet() const {
     if (!reader_.empty())
-        return fail(Fault::busy, "nothing more is taken and the closing is on disk, but " + reader_);
+        return fail(Fault::busy,
+                    "nothing more is taken and the closing is on disk, but " + reader_);
     return fail(Fault::busy,
                 "nothing more is taken, but the file is not closed yet: a record is on its way to "
                 "the disk; it is closed as soon as the disk has answered");
@@ -266,7 +265,7 @@ Task<Result<RunEnding>> Station::await_closing(std::string path) {
 }
 
 bool Station::instruments_returned() const {
-    const auto reading = history_.newest();
+    const auto reading = readings_.reference().newest();
     return reading && reading->value() && live_scale_now();
 }
 
@@ -303,15 +302,14 @@ Task<Result<void>> Station::take_over_stored_runs() {
     co_return Result<void>{};
 }
 
-/// A program that stands at a request of it is to hold, also after a restart: no restart may release
-/// an axis that nobody has answered.
+/// A program that stands at a request of it is to hold, also after a restart: no restart may
+/// release an axis that nobody has answered.
 void Station::keep_hold_of_broken_off(const StoredRuns& stored) {
     if (!stored.newest || run_open()) return;
     const auto now = std::ranges::find(stored.looked_into, stored.newest->path, &RunSummary::path);
     const RunSummary& last = now != stored.looked_into.end() ? *now : *stored.newest;
-    left_broken_off_ =
-        last.closed && !last.complete && last.kind != TestKind::drift &&
-        last.closing_reason != ended_by_cnc;
+    left_broken_off_ = last.closed && !last.complete && last.kind != TestKind::drift &&
+                       last.closing_reason != ended_by_cnc;
 }
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
@@ -357,7 +355,8 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
         supervisor_.instrument(channel_of(*roles_.laser).instrument).count_modulus();
     if (!run.datums.empty() && !counting_rate_hz(run))
         now.limits.rate_hz = co_await laser_rate_hz(limit);
-    if (history_.newest() && history_.newest()->value()) now.laser = history_.newest();
+    if (readings_.reference().newest() && readings_.reference().newest()->value())
+        now.laser = readings_.reference().newest();
     if (!waives_limits(contents.revisions.preflight))
         now.outside_limits =
             outside_limits(config_.environment, environment_facts(), scheduler_.now());
@@ -372,9 +371,10 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
 Task<double> Station::laser_rate_hz(MonotonicTime limit) {
     constexpr Duration second = std::chrono::seconds{1};
     while (scheduler_.now() < limit) {
-        const auto newest = history_.newest();
-        if (newest && history_.reaches_back_to(newest->at - 2 * second - look_every)) {
-            const auto latest = history_.between(newest->at - second - look_every, newest->at);
+        const auto newest = readings_.reference().newest();
+        if (newest && readings_.reference().reaches_back_to(newest->at - 2 * second - look_every)) {
+            const auto latest =
+                readings_.reference().between(newest->at - second - look_every, newest->at);
             if (const auto rate_hz = counting_rate_hz(latest)) co_return *rate_hz;
         }
         co_await scheduler_.sleep_for(look_every);
@@ -386,7 +386,8 @@ Task<Result<void>>
 Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::string proof) {
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
-    const std::uint32_t epoch = history_.newest() ? history_.newest()->epoch : 0;
+    const std::uint32_t epoch =
+        readings_.reference().newest() ? readings_.reference().newest()->epoch : 0;
     RunRecord header = run;
     header.points.clear();
     RunSetup setup = setup_of(run);
@@ -399,9 +400,8 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     const std::string away = is_same_boot(run.boot_id, boot_id_)
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))
                                  : "while " + restart_text(run.boot_id, boot_id_);
-    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
-                         "The station recorded nothing " + away + ". " +
-                             taken_up_text(run) + proof, Fault::none, 0}});
+    record(EventKind::interrupted,
+           "The station recorded nothing " + away + ". " + taken_up_text(run) + proof);
     feed(EnvironmentNow{within_limits(live_scale_now())});
     port_state_ = PortState::armed;
     note("Run " + run_->header.run_id + " goes on after " + std::to_string(run.points.size()) +
@@ -442,7 +442,7 @@ Station::close_left_over(std::string path, std::string reason, Fault fault, bool
     const auto stored = co_await journal_.summarize(path);
     if (auto reopened = co_await journal_.reopen(path); !reopened) co_return reopened;
     if (stored) mark_another_boot(stored->boot_id);
-    perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, fault, 0}});
+    record(EventKind::closed, reason, fault);
     if (whole) reason = "Every planned point is durable; not every retake was done: " + reason;
     if (auto closed = co_await close_file_for_now(whole, reason); !closed) {
         co_await journal_.let_go();

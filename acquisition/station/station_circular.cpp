@@ -27,7 +27,7 @@ Result<void> Station::ready_for_circles() const {
 }
 
 Result<void> Station::ballbar_speaks() const {
-    const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+    const auto& reading = readings_.latest(*roles_.ballbar);
     if (!reading || scheduler_.now() - reading->at > bar_limit)
         return fail(Fault::link_timeout, "the ballbar (" + config_.ballbar->instrument +
                                              ") sends nothing; see 'axiscal devices'");
@@ -37,7 +37,7 @@ Result<void> Station::ballbar_speaks() const {
 CircularSetup Station::circular_setup() const {
     CircularSetup setup = config_.circular->setup;
     setup.bar_temperature_channel = roles_.bar_temperature;
-    setup.capture.sample_rate_hz = bar_rate_.hz();
+    setup.capture.sample_rate_hz = readings_.bar_rate_hz();
     return setup;
 }
 
@@ -101,8 +101,7 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
     begin_circular(std::move(header), std::move(path), setup);
     note_orders_of_arming(request.by, checks);
     journal_.note(std::move(checks));
-    perform(
-        RecordEvent{{EventKind::armed, scheduler_.now(), 0, "Armed for circles.", Fault::none, 0}});
+    record(EventKind::armed, "Armed for circles.");
     port_->publish_armed();
     perform(SetState{PortState::armed});
     if (auto kept = co_await journal_.flush(); !kept) co_return tl::unexpected<Error>(kept.error());
@@ -120,7 +119,7 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
     circular_.emplace(setup);
     last_receipt_.reset();
     left_over_fault_.reset();
-    refused_note_.clear();
+    notices_.nothing_refused();
     datum_.reset();
     for (auto& logged : logged_)
         logged.reset();
@@ -128,9 +127,9 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
 
 /// A reading of the bar, whatever is going on.
 void Station::take_bar(const Sample& sample) {
-    bar_rate_.take(sample);
+    readings_.take_bar(sample);
     if (drift_open() && drift_->bar) drift_->bar->push(sample);
-    log_sensor(sample);
+    readings_.log(sample);
     if (!circular_ || !recording()) return;
     if (const auto value = sample.value()) circular_->view.push(*value);
     if (auto chunk = circular_->chunker.push(sample)) keep_chunk(*std::move(chunk));
@@ -141,8 +140,7 @@ void Station::keep_chunk(StreamChunk chunk) {
     if (circular_->dropped++ > 0) return;
     const std::string message = "The disk does not keep up: readings of the ballbar are dropped.";
     note(message);
-    perform(
-        RecordEvent{{EventKind::instrument, scheduler_.now(), 0, message, Fault::not_durable, 0}});
+    record(EventKind::instrument, message, Fault::not_durable);
 }
 
 std::optional<Error> Station::take_circular(const TriggerEvent& event) {
@@ -190,15 +188,14 @@ Task<void> Station::commit_circle(TriggerEvent event,
     circular_->order.durable();
     last_receipt_ = *receipt;
     run_->refusal.reset();
-    refused_note_.clear();
+    notices_.nothing_refused();
     port_->acknowledge(*receipt);
     if (last) end_circular({true, "Every circle was driven.", Fault::none});
 }
 
 void Station::end_circular(Close close) {
     if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
-    perform(RecordEvent{{close.complete ? EventKind::closed : EventKind::aborted, scheduler_.now(),
-                         0, close.reason, close.fault, 0}});
+    record(close.complete ? EventKind::closed : EventKind::aborted, close.reason, close.fault);
     perform(SetState{PortState::idle});
     perform(std::move(close));
 }
@@ -210,7 +207,7 @@ std::optional<StreamView> Station::stream(std::size_t most) const {
     view.run_id = run_->header.run_id;
     view.channel = bar.instrument_name + "/" + bar.name;
     view.recording = recording();
-    view.rate_hz = bar_rate_.hz();
+    view.rate_hz = readings_.bar_rate_hz();
     view.samples = circular_->view.samples();
     view.samples_a_stretch = circular_->view.samples_of_each(most);
     view.gaps = circular_->chunker.gaps();

@@ -47,7 +47,7 @@ CircleResume Station::judge_circles(const RunFileContents& contents) const {
     now.boot_id = boot_id_;
     if (roles_.ballbar) {
         const Instrument& bar = supervisor_.instrument(channel_of(*roles_.ballbar).instrument);
-        const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+        const auto& reading = readings_.latest(*roles_.ballbar);
         now.speaks = reading.has_value();
         if (reading && reading->value()) now.bar = reading;
         now.incremental = bar.incremental();
@@ -67,7 +67,7 @@ Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileCon
     // Its first bytes may have waited since before: their numbers would prove nothing.
     const MonotonicTime settled = scheduler_.now() + settling, limit = settled + return_limit;
     const auto bar_is_back = [this, settled] {
-        const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+        const auto& reading = readings_.latest(*roles_.ballbar);
         return reading && reading->at >= settled;
     };
     while (roles_.ballbar && !bar_is_back() && scheduler_.now() < limit)
@@ -97,7 +97,7 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
         co_return tl::unexpected<Error>(reopened.error());
     if (stored) mark_another_boot(stored->boot_id);
     const std::string reason = "Every circle was driven.";
-    perform(RecordEvent{{EventKind::closed, scheduler_.now(), 0, reason, Fault::none, 0}});
+    record(EventKind::closed, reason);
     if (auto closed = co_await close_file_for_now(true, reason); !closed) {
         co_await journal_.let_go();
         co_return closed;
@@ -128,7 +128,7 @@ Station::resume_circles(std::string path, RunFileContents contents, CircleResume
     begin_circular(std::move(contents.run), std::move(path), setup);
     circular_.emplace(setup, verdict.before, std::move(behind));
     run_->resumed = true;
-    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0, message, Fault::none, 0}});
+    record(EventKind::interrupted, message);
     if (verdict.before.last == 0) port_->publish_armed();
     perform(SetState{PortState::armed});
     note("Run " + run_->header.run_id + " goes on. " + message);

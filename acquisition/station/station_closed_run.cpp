@@ -13,8 +13,6 @@
 namespace axiscal {
 namespace {
 
-constexpr Length reading_slack = mm(0.05); // of two neighbouring readings, beside the axis's speed
-constexpr Duration buffer_time = std::chrono::seconds{1};  // older bytes may wait in a USB buffer
 constexpr Duration answer_limit = std::chrono::seconds{5}; // for a station that was just started
 
 } // namespace
@@ -22,26 +20,9 @@ constexpr Duration answer_limit = std::chrono::seconds{5}; // for a station that
 /// While no run is open nobody captures; the counter's zero is watched by its readings: since the
 /// run was closed, or, of a run that an earlier daemon closed, since the start.
 void Station::watch_set_up(const Sample& sample) {
-    if ((run_ && (!run_->closed || !datum_)) || !set_up_lost_.empty()) return;
-    if (!first_sample_) first_sample_ = sample;
-    if (!run_ && !settled_sample_ && sample.value() && sample.at - first_sample_->at >= buffer_time)
-        settled_sample_ = sample;
-    const std::uint32_t epoch = run_ ? datum_epoch_ : first_sample_->epoch;
-    const char* const since =
-        run_ && interruption_.empty() ? " since the run was closed" : " since axiscald was started";
-    if (sample.epoch != epoch)
-        set_up_lost_ = "the " + reference_word() + "'s counter lost its zero" + since;
-    else if (sample.quality() == Quality::beam_lost)
-        set_up_lost_ = "the " + reference_word() + "'s beam was interrupted" + since;
-    else if (sample.value() && last_reading_ && config_.capture.fastest.si() > 0) {
-        const auto jump = abs(metre(*sample.value()) - metre(*last_reading_->value()));
-        const auto reach =
-            metre(config_.capture.fastest.si() * seconds_of(sample.at - last_reading_->at));
-        if (jump > reach + reading_slack)
-            set_up_lost_ = "the " + reference_word() + "'s reading jumped by " + in_mm(jump) +
-                           since + ", faster than the axis can move";
-    }
-    if (sample.value()) last_reading_ = sample;
+    if (run_ && (!run_->closed || !datum_)) return;
+    set_up_.take(sample,
+                 {run_.has_value(), datum_epoch_, interruption_.empty(), config_.capture.fastest});
 }
 
 /// What is written now counts by another monotonic clock: who tells its times has to know.
@@ -51,8 +32,7 @@ void Station::mark_another_boot(const BootId& boot_of_run) {
     std::string sentence =
         certain ? "What follows was written after " : "What follows may count by another clock: ";
     sentence += restart_text(boot_of_run, boot_id_) + ".";
-    perform(
-        RecordEvent{{EventKind::note, scheduler_.now(), 0, std::move(sentence), Fault::none, 0}});
+    record(EventKind::note, std::move(sentence));
 }
 
 Task<Result<RunSummary>> Station::newest_closed_run() {
@@ -75,13 +55,13 @@ Task<Result<RunSummary>> Station::newest_closed_run() {
 /// open run that is resumed, and the proof is kept for the record.
 Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
     const MonotonicTime limit = scheduler_.now() + answer_limit;
-    while (!settled_sample_ && set_up_lost_.empty() && scheduler_.now() < limit)
+    while (!set_up_.settled() && set_up_.lost().empty() && scheduler_.now() < limit)
         co_await scheduler_.sleep_for(look_every);
     StationNow now;
     now.config_hash = config_hash_;
     now.boot_id = boot_id_;
     now.laser_serial = laser_serial();
-    now.laser = settled_sample_;
+    now.laser = set_up_.settled();
     now.limits.fastest = config_.capture.fastest;
     if (roles_.laser)
         now.limits.count_modulus =
@@ -98,7 +78,7 @@ Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
 }
 
 /// Only when a person asks: a station that is started shows no old run. An exclusion needs no
-/// set-up; a retake is refused with `set_up_lost_`.
+/// set-up; a retake is refused with what it lost.
 Task<Result<void>> Station::take_over_closed_run() {
     if (run_ || arming_) co_return Result<void>{};
     AXISCAL_CO_TRY(const RunSummary newest, co_await newest_closed_run());
@@ -114,7 +94,7 @@ Task<Result<void>> Station::take_over_closed_run() {
     RunSetup setup = setup_of(contents.run);
     last.limits_waived = waives_limits(contents.revisions.preflight);
     setup.revisions = std::move(contents.revisions);
-    const std::uint32_t epoch = first_sample_ ? first_sample_->epoch : 0;
+    const std::uint32_t epoch = set_up_.first_epoch();
     machine_.emplace(
         RunMachine::of_closed(std::move(setup), contents.run, epoch, scheduler_.now()));
     contents.run.points.clear();
@@ -122,7 +102,7 @@ Task<Result<void>> Station::take_over_closed_run() {
     run_ = std::move(last);
     datum_ = machine_->view().datum;
     datum_epoch_ = epoch;
-    if (set_up_lost_.empty()) set_up_lost_ = std::move(doubt);
+    set_up_.lose(std::move(doubt));
     co_return Result<void>{};
 }
 

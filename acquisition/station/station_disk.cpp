@@ -110,10 +110,10 @@ Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
         co_return co_await finish_after_disk();
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     if (auto kept = co_await journal_.flush(); !kept) co_return kept;
-    perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
-                         "The disk took no records for " + in_seconds(scheduler_.now() - since) +
-                             "; the file was verified and synced anew.",
-                         Fault::not_durable, 0}});
+    record(EventKind::interrupted,
+           "The disk took no records for " + in_seconds(scheduler_.now() - since) +
+               "; the file was verified and synced anew.",
+           Fault::not_durable);
     if (auto flushed = co_await journal_.flush(); !flushed) co_return flushed;
     auto contents = co_await journal_.contents(path);
     if (!contents) co_return tl::unexpected<Error>(contents.error());

@@ -41,7 +41,7 @@ Result<void> Station::ready_for_drift(bool of_bar) const {
     AXISCAL_CHECK(disk_takes_records());
     AXISCAL_CHECK(nothing_goes_on());
     AXISCAL_CHECK(ballbar_speaks());
-    const auto& reading = latest_[static_cast<std::size_t>(*roles_.ballbar)];
+    const auto& reading = readings_.latest(*roles_.ballbar);
     if (!reading || !reading->value())
         return fail(Fault::signal_error, "the ballbar (" + config_.ballbar->instrument +
                                              ") shows no good reading now; mount it so that it "
@@ -83,12 +83,12 @@ Result<DriftSetup> Station::drift_setup_of(const DriftRequest& request, const Ru
 /// behind any position of its table.
 Result<void> Station::rests_at(Length place) const {
     constexpr Length near = mm(1);
-    if (!run_ || !datum_ || run_->header.rotary || !set_up_lost_.empty() || !datum_stands())
+    if (!run_ || !datum_ || run_->header.rotary || !set_up_.lost().empty() || !datum_stands())
         return {};
-    const auto reading = history_.newest();
+    const auto reading = readings_.reference().newest();
     if (!reading || !reading->value()) return {};
-    const Length seen =
-        live_position(run_->header.laser, *datum_, metre(*reading->value()), live_scale_);
+    const Length seen = live_position(run_->header.laser, *datum_, metre(*reading->value()),
+                                      readings_.last_scale_minus_1());
     if (abs(seen - place) <= near) return {};
     const std::string there = plain_number(seen.in(mm), 1);
     return refuse(Fault::bad_request, "place_mm",
@@ -144,10 +144,10 @@ Result<Station::RestingTest> Station::drift_of_axis(const DriftRequest& request)
 
 /// Before its first second nothing is known of it; intervals are counted as missing then.
 Result<void> Station::check_rate_of_bar() const {
-    const double readings = bar_rate_.hz() * seconds_of(config_.capture.window);
-    if (bar_rate_.hz() == 0 || readings >= fewest_of_bar) return {};
+    const double readings = readings_.bar_rate_hz() * seconds_of(config_.capture.window);
+    if (readings_.bar_rate_hz() == 0 || readings >= fewest_of_bar) return {};
     return fail(Fault::refused, "the ballbar (" + config_.ballbar->instrument + ") sends " +
-                                    plain_number(bar_rate_.hz(), 1) +
+                                    plain_number(readings_.bar_rate_hz(), 1) +
                                     " readings a second: let it send at least two within each " +
                                     plain_number(seconds_of(config_.capture.window), 3) +
                                     " s, over which each reading is a mean");
@@ -190,8 +190,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
     if (auto opened = co_await journal_.open(path, std::move(order.header), std::move(attachments));
         !opened)
         co_return tl::unexpected<Error>(opened.error());
-    const auto newest =
-        of_bar ? latest_[static_cast<std::size_t>(order.watched)] : history_.newest();
+    const auto newest = of_bar ? readings_.latest(order.watched) : readings_.reference().newest();
     DriftRecorder recorder{order.setup, order.watched, newest ? newest->epoch : 0,
                            scheduler_.now()};
     drift_.emplace(CurrentDrift{
@@ -222,8 +221,8 @@ Task<void> Station::record_drift(std::string run_id) {
 void Station::note_drift() {
     const DriftLimits limits{config_.capture.window, config_.axis.air.oldest,
                              drift_->bar ? fewest_of_bar : config_.capture.minimum_samples};
-    const SampleHistory& watched = drift_->bar ? *drift_->bar : history_;
-    auto readings = drift_->recorder.take(scheduler_.now(), watched, latest_, limits);
+    const SampleHistory& watched = drift_->bar ? *drift_->bar : readings_.reference();
+    auto readings = drift_->recorder.take(scheduler_.now(), watched, readings_.latest(), limits);
     if (!readings.empty()) journal_.note(std::move(readings));
 }
 

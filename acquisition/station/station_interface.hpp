@@ -9,8 +9,8 @@
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
-#include "drivers/sample.hpp"
 #include "drivers/loop/scheduler.hpp"
+#include "drivers/sample.hpp"
 #include "drivers/trigger/trigger_port.hpp"
 
 #include <functional>
@@ -188,9 +188,9 @@ public:
     /// reason why the point is refused.
     virtual Result<void> type_reading(double seconds_of_arc) = 0;
     /// Returns when the run, or the drift test, is closed. @errors Fault::busy while a record is
-    /// still on its way to the disk, or another program reads the file, Fault::not_durable where the
-    /// file could not be closed: nothing more is taken then, and the station closes it as soon as it
-    /// can.
+    /// still on its way to the disk, or another program reads the file, Fault::not_durable where
+    /// the file could not be closed: nothing more is taken then, and the station closes it as soon
+    /// as it can.
     virtual Task<Result<RunEnding>> abort(std::string reason, Orderer by) = 0;
     /// What arming would meet now. @errors Fault::bad_request for an override that is none.
     virtual Task<Result<std::vector<PreflightRecord>>> preflight(ArmRequest request) = 0;

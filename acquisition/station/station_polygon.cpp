@@ -43,7 +43,7 @@ std::string arcsec_of_um(double thousandths) {
 } // namespace
 
 void Station::take_face(const Sample& sample) {
-    history_.push(in_degrees(sample));
+    readings_.take_reference(in_degrees(sample));
 }
 
 Error Station::no_still_face(const StillnessVerdict& seen) const {
@@ -85,7 +85,7 @@ std::string Station::news_of_autocollimator(const InstrumentView& view) {
 Result<void> Station::autocollimator_speaks() const {
     const auto id = roles_.autocollimator;
     if (!id) return {};
-    const auto& last = latest_[static_cast<std::size_t>(*id)];
+    const auto& last = readings_.latest(*id);
     if (last && scheduler_.now() - last->at <= laser_limit) return {};
     return fail(Fault::link_timeout, "the autocollimator (" + channel_of(*id).instrument_name +
                                          ") sends nothing; see 'axiscal devices'");
@@ -95,8 +95,7 @@ std::optional<int> Station::autocollimator_for(PreflightFacts& facts) const {
     const auto id = roles_.autocollimator;
     if (!id || facts.circular) return std::nullopt;
     facts.faces_read = true;
-    if (const auto& last = latest_[static_cast<std::size_t>(*id)])
-        facts.face_age = facts.now - last->at;
+    if (const auto& last = readings_.latest(*id)) facts.face_age = facts.now - last->at;
     return id;
 }
 

@@ -15,10 +15,6 @@ stated(const ArmRequest& request, const std::string& key, const std::string& in_
 
 } // namespace
 
-void Station::log_sensor(const Sample& sample) {
-    sensor_logs_[static_cast<std::size_t>(sample.channel)].take(sample);
-}
-
 SensorFacts Station::sensor_facts(int id) const {
     const StationChannel& channel = channel_of(id);
     const ChannelView view = channel_view(channel);
@@ -29,7 +25,7 @@ SensorFacts Station::sensor_facts(int id) const {
     facts.on_scale = std::ranges::find(roles_.scale, id) != roles_.scale.end();
     facts.fresh = view.value.has_value();
     facts.quality = view.quality;
-    facts.log = &sensor_logs_[static_cast<std::size_t>(id)];
+    facts.log = &readings_.log_of(id);
     return facts;
 }
 
@@ -81,21 +77,20 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         if (channel.kind == ChannelKind::strength && channel.instrument == seat)
             facts.strengths.push_back(sensor_facts(channel.id));
     if (facts.circular) {
-        if (const auto& reading = latest_[static_cast<std::size_t>(*length_id)])
-            facts.bar_age = now - reading->at;
-        facts.bar = &sensor_logs_[static_cast<std::size_t>(*length_id)];
+        if (const auto& reading = readings_.latest(*length_id)) facts.bar_age = now - reading->at;
+        facts.bar = &readings_.log_of(*length_id);
         return facts;
     }
-    if (const auto reading = history_.newest(); reading && reading->value())
+    if (const auto reading = readings_.reference().newest(); reading && reading->value())
         facts.laser_age = now - reading->at;
-    facts.laser_samples = history_.between(now - drift_reach(config_.preflight), now);
-    const auto within = history_.between(now - config_.preflight.drift_window, now);
-    facts.laser_range = metre(history_.summary_of(within).spread_m());
+    facts.laser_samples = readings_.reference().between(now - drift_reach(config_.preflight), now);
+    const auto within = readings_.reference().between(now - config_.preflight.drift_window, now);
+    facts.laser_range = metre(readings_.reference().summary_of(within).spread_m());
     return facts;
 }
 
-Result<std::vector<PreflightRecord>>
-Station::judge(const ArmRequest& request, const std::optional<FoundEve>& eve) const {
+Result<std::vector<PreflightRecord>> Station::judge(const ArmRequest& request,
+                                                    const std::optional<FoundEve>& eve) const {
     PreflightFacts facts = preflight_facts(request);
     if (eve) {
         AXISCAL_TRY(facts.eve, eve_facts(request, *eve));

@@ -34,7 +34,7 @@ Result<void> Station::run_may_be_revised() const {
 /// the targets alone.
 Result<void> Station::datum_stands() const {
     if (reads_polygon()) return autocollimator_speaks();
-    const auto reading = history_.newest();
+    const auto reading = readings_.reference().newest();
     if (!reading || scheduler_.now() - reading->at > laser_limit || !reading->value())
         return fail(Fault::link_timeout, "the " + reference_word() + " gives no good reading now");
     if (reading->epoch != datum_epoch_)
@@ -45,7 +45,7 @@ Result<void> Station::datum_stands() const {
 
 /// For a run that was closed: the same instruments, and the datum that it was measured from.
 Result<void> Station::set_up_stands() const {
-    if (!set_up_lost_.empty()) return fail(Fault::datum_lost, set_up_lost_ + ": arm a new run");
+    if (!set_up_.lost().empty()) return fail(Fault::datum_lost, set_up_.lost() + ": arm a new run");
     AXISCAL_CHECK(datum_stands());
     // Behind those of the station file stands the artefact of a rotary axis, which nobody reads.
     const std::size_t read = std::min(config_.instruments.size(), run_->header.instruments.size());
@@ -57,7 +57,7 @@ Result<void> Station::set_up_stands() const {
                                                        "', the run's has '" + then.serial +
                                                        "': arm a new run");
     }
-    return watch_.check(scheduler_.now(), config_.axis.air.oldest);
+    return readings_.environment_is_fresh(scheduler_.now());
 }
 
 Task<Result<void>> Station::write_revision(Answer order, OrderRecord ordered) {
@@ -81,9 +81,9 @@ Task<Result<void>> Station::write_revision(Answer order, OrderRecord ordered) {
 /// Makes durable what the machine has just decided; on failure the order is taken back, and nothing
 /// else: what came in meanwhile, a commit that failed too, stays.
 Task<Result<void>> Station::keep_revision(Answer order, Orderer by) {
-    OrderRecord ordered =
-        order.retake ? order_of("retake", by, std::to_string(order.retake->retake.number))
-                     : order_of("exclude", by);
+    OrderRecord ordered = order.retake
+                              ? order_of("retake", by, std::to_string(order.retake->retake.number))
+                              : order_of("exclude", by);
     auto kept = co_await write_revision(std::move(order), std::move(ordered));
     if (kept) {
         feed(RevisionKept{scheduler_.now()});
@@ -107,9 +107,7 @@ void Station::run_is_open_again() {
     run_->certificate.clear();
     run_->no_certificate.reset();
     run_->refusal.reset();
-    if (!interruption_.empty())
-        perform(RecordEvent{{EventKind::interrupted, scheduler_.now(), 0,
-                             std::exchange(interruption_, {}), Fault::none, 0}});
+    if (!interruption_.empty()) record(EventKind::interrupted, std::exchange(interruption_, {}));
     log_environment_anew();
 }
 

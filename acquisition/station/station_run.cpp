@@ -46,7 +46,7 @@ Station::Answer Station::ask(RunInput input) {
 
 void Station::refresh_air() {
     const Result<double> scale = live_scale_now();
-    if (scale) live_scale_ = *scale; // also while nothing is captured
+    if (scale) readings_.keep_scale(*scale); // also while nothing is captured
     feed(EnvironmentNow{within_limits(scale)});
 }
 
@@ -59,7 +59,7 @@ void Station::feed_with_air(RunInput input) {
 void Station::handle(const RunInput& input) {
     if (const auto* environment = std::get_if<EnvironmentNow>(&input);
         environment && environment->scale_minus_1)
-        live_scale_ = *environment->scale_minus_1;
+        readings_.keep_scale(*environment->scale_minus_1);
     for (RunAction& action : machine_->handle(input))
         std::visit([this](auto& step) { perform(std::move(step)); }, action);
     const RunView view = machine_->view();
@@ -91,12 +91,12 @@ Task<void> Station::watch_window(OpenWindow window) {
     while (open_window_ == window.window && !stopping_) {
         const MonotonicTime now = scheduler_.now();
         if (drop_order_of_who_has_gone(now)) co_return;
-        const WindowSearch search = still.look(history_, now);
+        const WindowSearch search = still.look(readings_.reference(), now);
         Result<Capture> found = fail(Fault::none, "");
         if (search.failure)
             found = tl::unexpected(*search.failure);
         else if (search.window)
-            found = make_capture(history_, *search.window, claim, config_.capture);
+            found = make_capture(readings_.reference(), *search.window, claim, config_.capture);
         else if (now >= window.deadline)
             found = tl::unexpected(reads_faces() ? no_still_face(search.verdict)
                                                  : not_still(search, now - window.from));
@@ -113,8 +113,8 @@ Task<void> Station::watch_window(OpenWindow window) {
 bool Station::drop_order_of_who_has_gone(MonotonicTime now) {
     if (datum_ || !run_->orderer_has_gone || !run_->orderer_has_gone()) return false;
     feed(Abort{"Who armed the run hung up before its datum was tied.", now});
-    run_->not_tied = Error{Fault::refused, "who armed the run hung up before its datum was tied",
-                           {}, {}};
+    run_->not_tied =
+        Error{Fault::refused, "who armed the run hung up before its datum was tied", {}, {}};
     return true;
 }
 
@@ -143,7 +143,7 @@ void Station::settle(Result<JournalReceipt> receipt) {
     if (!receipt) return feed(CommitFailed{disk_text(receipt.error()), now});
     last_receipt_ = *receipt;
     run_->refusal.reset();
-    refused_note_.clear();
+    notices_.nothing_refused();
     if (receipt->step() >= 0) {
         if (run_->taken++ == 0) run_->first_taken = now;
         run_->last_taken = now;
@@ -201,6 +201,10 @@ void Station::perform(RecordEvent action) {
     journal_.note(std::move(action.event));
 }
 
+void Station::record(EventKind kind, std::string sentence, Fault fault) {
+    perform(RecordEvent{{kind, scheduler_.now(), 0, std::move(sentence), fault, 0}});
+}
+
 void Station::perform(RecordRetake action) {
     action.retake.utc_ns = scheduler_.clock_tie().utc_ns;
     if (answering_) answering_->retake = std::move(action);
@@ -237,9 +241,8 @@ Task<void> Station::close_run(Close action) {
     run_->closing = false;
     run_->closing_row_durable = closed.has_value();
     if (!closed) run_->closing_error = closed.error();
-    set_up_lost_.clear();
+    set_up_.begin();
     interruption_.clear();
-    last_reading_.reset();
     if (action.complete && closed) co_await certify(run_->header.run_id, run_->path);
 }
 

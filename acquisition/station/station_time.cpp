@@ -11,9 +11,6 @@ namespace {
 
 constexpr Duration heartbeat = std::chrono::milliseconds{100};
 constexpr Duration judge_every = std::chrono::seconds{1};
-constexpr Duration judge_outbox_every = std::chrono::seconds{10};
-/// Of an outbox that was empty: a person may have put something there.
-constexpr Duration look_into_empty_outbox_every = std::chrono::minutes{1};
 
 } // namespace
 
@@ -30,20 +27,14 @@ Task<void> Station::pause_before_looking() {
         co_return;
     }
     asleep_ = true;
-    co_await bell_.wait(scheduler_, outbox_due());
+    co_await bell_.wait(scheduler_, outbox_watch_.due());
     asleep_ = false;
 }
 
 bool Station::time_counts() const {
     const bool unwritten = run_ && !run_->closing_row_durable;
-    return run_open() || unwritten || drift_open() || aligning_ || supervisor_.somebody_speaks() ||
-           scheduler_.now() < time_counts_until_;
-}
-
-std::optional<MonotonicTime> Station::outbox_due() const {
-    if (config_.publish.destination.empty()) return std::nullopt;
-    const bool empty = outbox_waiting_ == 0 && outbox_alarm_.empty();
-    return judged_outbox_ + (empty ? look_into_empty_outbox_every : judge_outbox_every);
+    return run_open() || unwritten || drift_open() || beam_.running() ||
+           supervisor_.somebody_speaks() || scheduler_.now() < time_counts_until_;
 }
 
 /// While a person may still want the run: until its file is shut.
@@ -59,8 +50,7 @@ void Station::notice_sleep() {
     slept_ += slept;
     std::string message =
         "The computer was suspended for " + in_seconds(slept) + "; nothing was recorded meanwhile.";
-    if (recording() || drift_open())
-        perform(RecordEvent{{EventKind::note, scheduler_.now(), 0, message, Fault::none, 0}});
+    if (recording() || drift_open()) record(EventKind::note, message);
     note(std::move(message));
 }
 
@@ -74,25 +64,12 @@ void Station::look_at_the_time() {
         judge_instruments();
         judged_ = now;
     }
-    if (now - judged_outbox_ >= judge_outbox_every) {
-        judge_outbox();
-        judged_outbox_ = now;
-    }
+    if (const auto news = outbox_watch_.judge(scheduler_.clock_tie())) note(*news);
     feed_with_air(Tick{now});
     publish_to_port();
     if (run_ && !run_->closing_row_durable && journal_.failure() &&
         !std::exchange(waiting_for_disk_, true))
         spawn(scheduler_, wait_for_disk());
-}
-
-/// Told once when it begins and once when it is over, however the count goes meanwhile.
-void Station::judge_outbox() {
-    const OutboxView outbox = outbox_watch_.look(scheduler_.clock_tie());
-    outbox_waiting_ = outbox.waiting;
-    if (outbox.alarm.empty() == outbox_alarm_.empty()) return;
-    outbox_alarm_ = outbox.alarm;
-    note(outbox_alarm_.empty() ? "The share takes results again."
-                               : "Alarm: " + outbox_alarm_ + ".");
 }
 
 } // namespace axiscal

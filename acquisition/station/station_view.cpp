@@ -20,11 +20,10 @@ void Station::publish_to_port() {
     status.measured_mm = axis.position_mm;
     status.deviation_um = axis.deviation_um;
     const MonotonicTime now = scheduler_.now();
-    const Duration oldest = config_.axis.air.oldest;
-    status.air_degC = watch_.fresh_mean(EnvironmentRole::air_temperature, now, oldest);
-    status.pressure_Pa = watch_.fresh_mean(EnvironmentRole::air_pressure, now, oldest);
-    status.humidity_percent = watch_.fresh_mean(EnvironmentRole::air_humidity, now, oldest);
-    status.material_degC = watch_.fresh_mean(EnvironmentRole::material_temperature, now, oldest);
+    status.air_degC = readings_.mean(EnvironmentRole::air_temperature, now);
+    status.pressure_Pa = readings_.mean(EnvironmentRole::air_pressure, now);
+    status.humidity_percent = readings_.mean(EnvironmentRole::air_humidity, now);
+    status.material_degC = readings_.mean(EnvironmentRole::material_temperature, now);
     if (machine_) {
         const RunView view = machine_->view();
         if (view.next && !view.closed) {
@@ -48,10 +47,11 @@ AxisView Station::axis_view() const {
     axis.kind = config_.cycle.axis_kind;
     axis.reads_angle = reads_polygon();
     const MonotonicTime now = scheduler_.now();
-    const auto newest = history_.newest();
+    const auto newest = readings_.reference().newest();
     if (!newest || now - newest->at > laser_limit) return axis;
     const MonotonicTime begin = newest->at - config_.capture.window;
-    const StillnessVerdict verdict = judge_window(history_, begin, newest->at, config_.capture);
+    const StillnessVerdict verdict =
+        judge_window(readings_.reference(), begin, newest->at, config_.capture);
     axis.still = verdict.still;
     if (verdict.statistics.n > 1) {
         axis.spread_um = verdict.statistics.spread.in(um);
@@ -77,13 +77,14 @@ AxisView Station::axis_view() const {
 /// position that could be told.
 std::optional<double> Station::position_now_mm(Length reading) const {
     const RunRecord& run = run_->header;
-    if (!run.rotary) return live_position(run.laser, *datum_, reading, live_scale_).in(mm);
+    if (!run.rotary)
+        return live_position(run.laser, *datum_, reading, readings_.last_scale_minus_1()).in(mm);
     const auto next = machine_ ? machine_->view().next : std::nullopt;
     if (!next) return std::nullopt;
     const Length target = run.plan.targets[static_cast<std::size_t>(next->target_index)];
     const int index = artefact_index(*run.rotary, datum_->coordinate, target);
-    const auto position =
-        rotary_position(*run.rotary, run.laser.sign, *datum_, reading, live_scale_, index);
+    const auto position = rotary_position(*run.rotary, run.laser.sign, *datum_, reading,
+                                          readings_.last_scale_minus_1(), index);
     if (!position || abs(*position - target) > run.plan.near_tolerance) return std::nullopt;
     return position->in(mm);
 }
@@ -164,7 +165,7 @@ ChannelView Station::channel_view(const StationChannel& channel) const {
     else if (std::ranges::find(environment, channel.id) != environment.end())
         view.role = "environment";
     view.used = !view.role.empty();
-    const auto& sample = latest_[static_cast<std::size_t>(channel.id)];
+    const auto& sample = readings_.latest(channel.id);
     if (!sample) return view;
     const Duration age = scheduler_.now() - sample->at;
     const bool measures =
@@ -189,14 +190,14 @@ StationStatus Station::status() const {
     }
     status.instruments = supervisor_.view();
     status.trigger = port_->describe();
-    status.trigger_note = port_note_;
+    status.trigger_note = notices_.port();
     status.trigger_counters = port_->counters();
     status.cnc_silent = cnc_silent_;
     if (run_ && (machine_ || circular_)) status.run = run_status();
     status.run_open = run_open();
     if (drift_) status.drift = drift_view();
     status.outbox = outbox_watch_.look(scheduler_.clock_tie());
-    status.notes.assign(notes_.begin(), notes_.end());
+    status.notes.assign(notices_.last().begin(), notices_.last().end());
     return status;
 }
 

@@ -196,5 +196,43 @@ TEST(OutboxWatch, IsSilentWhereNoShareIsWanted) {
     EXPECT_EQ(view.alarm, "");
 }
 
+TEST(OutboxWatch, SaysOnceThatItsAlarmBeginsAndOnceThatItIsOver) {
+    Shelf shelf{2};
+    const auto judge = [&shelf] {
+        return shelf.watch.judge({shelf.mono, shelf.now_ns, shelf.mono});
+    };
+    shelf.watch.begin_judging(shelf.mono);
+    shelf.put("a", 0);
+    shelf.put("b", 0);
+    EXPECT_FALSE(judge()) << "looked at every ten seconds only";
+    shelf.pass(10);
+    const auto began = judge();
+    ASSERT_TRUE(began);
+    EXPECT_EQ(began->find("Alarm: 2 results wait for the share since"), 0U) << *began;
+    shelf.put("c", 0);
+    shelf.pass(10);
+    EXPECT_FALSE(judge()) << "another count is no news";
+    for (const char* entry : {"a", "b", "c"})
+        shelf.take(entry);
+    shelf.pass(10);
+    EXPECT_EQ(judge(), std::optional<std::string>{"The share takes results again."});
+}
+
+TEST(OutboxWatch, IsDueInTenSecondsWhileSomethingWaitsElseInAMinute) {
+    Shelf shelf;
+    const auto judge = [&shelf] {
+        return shelf.watch.judge({shelf.mono, shelf.now_ns, shelf.mono});
+    };
+    shelf.pass(10);
+    EXPECT_FALSE(judge());
+    EXPECT_EQ(shelf.watch.due(), shelf.mono + std::chrono::minutes{1});
+    shelf.put("a", 0);
+    shelf.pass(10);
+    EXPECT_FALSE(judge()) << "one result is no alarm";
+    EXPECT_EQ(shelf.watch.due(), shelf.mono + std::chrono::seconds{10});
+    const ScratchFolder nowhere;
+    EXPECT_FALSE(OutboxWatch(nowhere.path(), {}).due()) << "without a destination nothing is due";
+}
+
 } // namespace
 } // namespace axiscal::outbox_watch_test
