@@ -1,7 +1,7 @@
 #pragma once
 // The station file as checked structs. Reading opens no device.
 
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_record.hpp"
 #include "config/address_range.hpp"
 #include "config/environment_limits.hpp"

@@ -3,7 +3,7 @@
 
 #include "acquisition/journal/journal_clock.hpp"
 #include "acquisition/runfile/ed25519.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Part programs for circular tests, from the plan of the station file. Pure.
 
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "config/station_config.hpp"
 
 #include <string>

@@ -2,7 +2,7 @@
 // The order of requests in a circular test: one before each circle, with StartMethod::trigger also
 // one at each end of its arc, one more after the last circle. Pure.
 
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "drivers/trigger/trigger_port.hpp"
 
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/resume.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/stream_record.hpp"
 
 #include <optional>

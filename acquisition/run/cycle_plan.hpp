@@ -3,7 +3,7 @@
 // does not allow them (ISO 230-2:2014, 4.3 and 4.4). Pure.
 
 #include "acquisition/run/target_positions.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "config/station_config.hpp"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "acquisition/runfile/row.hpp"
 #include "acquisition/runfile/schema.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"

@@ -5,7 +5,7 @@
 #include "acquisition/run/run_events.hpp"
 #include "acquisition/station/outbox_watch.hpp"
 #include "acquisition/station/supervisor.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"

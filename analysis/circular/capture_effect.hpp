@@ -2,7 +2,8 @@
 // What averaging and filter of the bar's electronics leave of the form, and what they do to G.
 // Pure.
 
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/circular/circular_test.hpp"
+#include "analysis/record/circular_setup.hpp"
 
 #include <map>
 #include <optional>

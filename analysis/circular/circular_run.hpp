@@ -4,7 +4,7 @@
 
 #include "analysis/circular/circle_diagnosis.hpp"
 #include "analysis/circular/circular_parameters.hpp"
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
 #include "analysis/record/synchronisation.hpp"

@@ -47,10 +47,6 @@ Result<void> check_trace(const CircularTrace& trace, std::size_t index, double r
 
 } // namespace
 
-std::string_view name_of(Sense sense) {
-    return sense == Sense::ccw ? "ccw" : "cw";
-}
-
 const CircularTrace* CircularTest::find(Sense sense) const {
     const auto found = std::ranges::find(traces, sense, &CircularTrace::sense);
     return found == traces.end() ? nullptr : &*found;

@@ -3,20 +3,13 @@
 // in one or both senses. Pure.
 
 #include "analysis/quantity/result.hpp"
+#include "analysis/record/circular_setup.hpp"
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace axiscal {
-
-/// Contouring sense: counter-clockwise turns the first + axis to the second + axis.
-enum class Sense : std::uint8_t { ccw, cw };
-std::string_view name_of(Sense sense); ///< "ccw" | "cw"
-inline double sign_of(Sense sense) {
-    return sense == Sense::ccw ? 1 : -1;
-}
 
 /// What made the readings. Figures of the two are never mixed: ISO 230-4 keeps G, G(b), F and D for
 /// an instrument outside the machine; what the machine's own feedback signals give is called G_f.

@@ -3,6 +3,7 @@
 // beside it. Pure.
 
 #include "analysis/circular/circular_parameters.hpp"
+#include "analysis/record/circular_setup.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -10,21 +11,6 @@
 #include <vector>
 
 namespace axiscal {
-
-/// What is known of the measurement; what is absent contributes nothing and is named in
-/// `CircularBudget::not_stated`. Every `width` is the FULL width of a rectangular distribution,
-/// u = width / (2 sqrt 3).
-struct CircularUncertaintyStatement {
-    /// Of the transducer over the range of one test, without zero error and scale: what G sees.
-    std::optional<double> device_width_um;
-    std::optional<double> calibration_U_um, calibration_k; ///< of the bar's length
-    std::optional<double> repeatability_um; ///< standard deviation of one figure in repeated tests
-    std::optional<double> eve_um;           ///< E_VE: range of the drift test
-    std::optional<double> centre_width_um;  ///< of the set-up centre, in each coordinate
-    std::optional<double> machine_temperature_width_K, bar_temperature_width_K;
-    std::optional<double> machine_alpha_width_per_K, bar_alpha_width_per_K;
-    int runs = 1; ///< n: tests whose mean the readings are
-};
 
 struct CircularContribution {
     std::string term;    ///< "device", "calibration", "machine_temperature", ...

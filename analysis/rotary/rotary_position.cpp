@@ -26,10 +26,6 @@ tl::unexpected<Error> out_of_range(const RotarySetup& setup, const std::string& 
 
 } // namespace
 
-std::string_view name_of(AngleMethod method) {
-    return method == AngleMethod::polygon ? "polygon" : "indexing_table";
-}
-
 Length artefact_zero(const RotarySetup& setup, Length datum) {
     return setup.method == AngleMethod::polygon ? Length{} : datum;
 }

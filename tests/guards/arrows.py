@@ -113,7 +113,7 @@ def include_self_test(table):
         "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "acquisition/publish/x.cpp": "#include <libsmbclient.h>\n",
         "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/positioning/positioning_certificate.hpp"\n',
         "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
-        "acquisition/publish/z.cpp": '#include "acquisition/documents/pdf/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_setup.hpp"\n',
+        "acquisition/publish/z.cpp": '#include "acquisition/documents/pdf/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_run.hpp"\n',
         "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
     }
     fine = {"drivers/z.cpp": '#include "analysis/record/run_record.hpp"\n#include <modbus.h>\n', "acquisition/documents/pdf/x.cpp": "#include <cairo.h>\n"}

@@ -2,7 +2,7 @@
 // The stream of a bar that was driven through circles whose truth is known: rest, feed-in, arc with
 // overshoot, feed-out, rest. It knows the plan of the program and nothing of how circles are cut.
 
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/stream_record.hpp"
 #include "synthetic_circle.hpp"
 

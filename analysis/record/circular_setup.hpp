@@ -2,15 +2,21 @@
 // What is known of a circular test before the first circle: what is driven, how it is captured, the
 // bar, and what is stated for the uncertainty. Pure data.
 
-#include "analysis/circular/circular_test.hpp"
-#include "analysis/circular/circular_uncertainty.hpp"
-
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
+
+/// Contouring sense: counter-clockwise turns the first + axis to the second + axis.
+enum class Sense : std::uint8_t { ccw, cw };
+std::string_view name_of(Sense sense); ///< "ccw" | "cw"
+inline double sign_of(Sense sense) {
+    return sense == Sense::ccw ? 1 : -1;
+}
 
 enum class CircularPlane : std::uint8_t { xy, yz, zx };
 std::string_view name_of(CircularPlane plane); ///< "XY" | "YZ" | "ZX"
@@ -54,6 +60,21 @@ struct CircularCapture {
     double sample_rate_hz = 0;         ///< nominal
     std::optional<double> low_pass_hz; ///< cut-off of a filter; absent: none
     int averaged = 1;                  ///< readings averaged into one; 1: none
+};
+
+/// What is known of the measurement; what is absent contributes nothing and is named in
+/// `CircularBudget::not_stated`. Every `width` is the FULL width of a rectangular distribution,
+/// u = width / (2 sqrt 3).
+struct CircularUncertaintyStatement {
+    /// Of the transducer over the range of one test, without zero error and scale: what G sees.
+    std::optional<double> device_width_um;
+    std::optional<double> calibration_U_um, calibration_k; ///< of the bar's length
+    std::optional<double> repeatability_um; ///< standard deviation of one figure in repeated tests
+    std::optional<double> eve_um;           ///< E_VE: range of the drift test
+    std::optional<double> centre_width_um;  ///< of the set-up centre, in each coordinate
+    std::optional<double> machine_temperature_width_K, bar_temperature_width_K;
+    std::optional<double> machine_alpha_width_per_K, bar_alpha_width_per_K;
+    int runs = 1; ///< n: tests whose mean the readings are
 };
 
 /// The bar as its certificate states it, and the machine that it is compared with.

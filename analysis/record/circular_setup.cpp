@@ -1,6 +1,10 @@
-#include "analysis/circular/circular_setup.hpp"
+#include "analysis/record/circular_setup.hpp"
 
 namespace axiscal {
+
+std::string_view name_of(Sense sense) {
+    return sense == Sense::ccw ? "ccw" : "cw";
+}
 
 std::string_view name_of(CircularPlane plane) {
     if (plane == CircularPlane::xy) return "XY";
