@@ -133,6 +133,24 @@ ChainedRow row_of_touch(const ProbingTouch& touch) {
                     latched[0].si(), latched[1].si(), latched[2].si()});
 }
 
+std::vector<ChainedRow> rows_of(std::monostate /*positioning*/) {
+    return {};
+}
+
+std::vector<ChainedRow> rows_of(const DriftSetup& drift) {
+    const auto& [duration, interval, place, of_bar] = drift;
+    return {chained("drift",
+                    {whole(duration.count()), whole(interval.count()), place.si(), whole(of_bar)})};
+}
+
+std::vector<ChainedRow> rows_of(const ProbingRecord& probing) {
+    const auto& [feed_mm_per_min, probe, signal_path, touches] = probing;
+    std::vector<ChainedRow> rows{chained("probing", {feed_mm_per_min, probe, signal_path})};
+    for (const ProbingTouch& touch : touches)
+        rows.push_back(row_of_touch(touch));
+    return rows;
+}
+
 } // namespace
 
 std::span<const Table> chained_tables() {
@@ -185,22 +203,14 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
             rows.push_back(
                 chained("channel_correction", {whole(calibration.channel), reading, correction}));
     }
-    const auto& [alignment, drift, probing, eve_source, synchronisation] = attachments;
+    const auto& [alignment, setup, eve_source, synchronisation] = attachments;
     if (alignment) {
         rows.push_back(row_of_alignment(*alignment));
         for (const AlignmentPlace& place : alignment->places)
             rows.push_back(row_of_place(place));
     }
-    if (drift)
-        rows.push_back(
-            chained("drift", {whole(drift->duration.count()), whole(drift->interval.count()),
-                              drift->place.si(), whole(drift->of_bar)}));
-    if (probing) {
-        rows.push_back(
-            chained("probing", {probing->feed_mm_per_min, probing->probe, probing->signal_path}));
-        for (const ProbingTouch& touch : probing->touches)
-            rows.push_back(row_of_touch(touch));
-    }
+    std::ranges::move(std::visit([](const auto& known) { return rows_of(known); }, setup),
+                      std::back_inserter(rows));
     if (!eve_source.empty()) rows.push_back(chained("eve_source", {eve_source}));
     return rows;
 }

@@ -4,7 +4,6 @@
 
 #include "acquisition/runfile/row.hpp"
 #include "acquisition/runfile/schema.hpp"
-#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
@@ -23,7 +22,6 @@ struct Closing {
 
 /// Everything that rows are placed into.
 struct RecordedRun : RunRecord {
-    std::optional<CircularSetup> circular; ///< of a circular test
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
     RunRevisions revisions;

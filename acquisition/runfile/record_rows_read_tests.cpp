@@ -2,6 +2,26 @@
 #include "acquisition/runfile/record_readers.hpp"
 
 namespace axiscal::record_readers {
+namespace {
+
+/// That of this kind, made where none is there yet: the writer checks each row by itself.
+template <class Setup> Setup& setup_of(RecordedRun& run, RowReader& in) {
+    TestSetup& setup = run.attachments.setup;
+    if (!std::holds_alternative<Setup>(setup)) {
+        if (!std::holds_alternative<std::monostate>(setup))
+            in.reject("stands beside the set-up of another kind of test");
+        setup.emplace<Setup>();
+    }
+    return std::get<Setup>(setup);
+}
+
+/// The same, of which a file has one.
+template <class Setup> Setup& only_setup_of(RecordedRun& run, RowReader& in) {
+    if (std::holds_alternative<Setup>(run.attachments.setup)) in.reject("stands there twice");
+    return setup_of<Setup>(run, in);
+}
+
+} // namespace
 
 void read_alignment(RecordedRun& run, RowReader& in) {
     AlignmentRecord alignment;
@@ -42,22 +62,18 @@ void read_alignment_place(RecordedRun& run, RowReader& in) {
 }
 
 void read_drift(RecordedRun& run, RowReader& in) {
-    DriftSetup drift;
+    auto& drift = only_setup_of<DriftSetup>(run, in);
     drift.duration = Duration{in.integer()};
     drift.interval = Duration{in.integer()};
     drift.place = in.length();
     drift.of_bar = in.flag();
-    if (run.attachments.drift) return in.reject("stands there twice");
-    run.attachments.drift = drift;
 }
 
 void read_probing(RecordedRun& run, RowReader& in) {
-    ProbingRecord probing;
+    auto& probing = only_setup_of<ProbingRecord>(run, in);
     probing.feed_mm_per_min = in.real();
     probing.probe = in.text();
     probing.signal_path = in.text();
-    if (run.attachments.probing) return in.reject("stands there twice");
-    run.attachments.probing = std::move(probing);
 }
 
 void read_probing_touch(RecordedRun& run, RowReader& in) {
@@ -68,9 +84,7 @@ void read_probing_touch(RecordedRun& run, RowReader& in) {
     touch.approach = in.length();
     for (Length& coordinate : touch.latched)
         coordinate = in.length();
-    auto& probing = run.attachments.probing;
-    if (!probing) probing.emplace(); // the writer checks each row by itself
-    probing->touches.push_back(touch);
+    setup_of<ProbingRecord>(run, in).touches.push_back(touch);
 }
 
 void read_eve_source(RecordedRun& run, RowReader& in) {
@@ -101,7 +115,7 @@ void read_circular(RecordedRun& run, RowReader& in) {
         coordinate = in.real();
     plan.tool_offset = in.text();
     plan.work_offset = in.text();
-    CircularSetup& setup = run.circular.emplace();
+    auto& setup = setup_of<CircularSetup>(run, in);
     setup.plan = std::move(plan);
     setup.capture.sample_rate_hz = in.real();
     setup.capture.low_pass_hz = in.optional_real();
@@ -111,8 +125,7 @@ void read_circular(RecordedRun& run, RowReader& in) {
 }
 
 void read_circular_bar(RecordedRun& run, RowReader& in) {
-    if (!run.circular) run.circular.emplace(); // the writer checks each row by itself
-    CircularSetup& setup = *run.circular;
+    auto& setup = setup_of<CircularSetup>(run, in);
     setup.bar_instrument = in.text();
     setup.bar_sign = in.number<int>();
     setup.bar_length_mm = in.real();
@@ -123,8 +136,7 @@ void read_circular_bar(RecordedRun& run, RowReader& in) {
 }
 
 void read_circular_uncertainty(RecordedRun& run, RowReader& in) {
-    if (!run.circular) run.circular.emplace();
-    CircularUncertaintyStatement& statement = run.circular->uncertainty;
+    CircularUncertaintyStatement& statement = setup_of<CircularSetup>(run, in).uncertainty;
     for (auto* value :
          {&statement.device_width_um, &statement.calibration_U_um, &statement.calibration_k,
           &statement.repeatability_um, &statement.eve_um, &statement.centre_width_um,

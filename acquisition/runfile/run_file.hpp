@@ -120,8 +120,7 @@ struct StoredResult {
 struct RunFileContents {
     RunRecord run; ///< of points that were taken again, the last ones
     RunRevisions revisions;
-    int results = 0;                       ///< stored so far
-    std::optional<CircularSetup> circular; ///< of a circular test
+    int results = 0; ///< stored so far
     std::vector<StreamSetup> streams;
     std::vector<StreamBlock> blocks; ///< as they were written
     RunAttachments attachments;

@@ -211,6 +211,13 @@ Result<void> set_superseded_aside(RecordedRun& run, const std::string& path) {
     return {};
 }
 
+Result<void> check_setup(const RecordedRun& run, const std::string& path) {
+    const std::size_t setup = run.attachments.setup.index();
+    if (setup == 0 || setup == static_cast<std::size_t>(run.kind)) return {};
+    return bad(path, "it is a " + std::string{name_of(run.kind)} + " test with the set-up of a " +
+                         std::string{name_of(static_cast<TestKind>(setup))} + " test");
+}
+
 void put_in_order(RunRecord& run) {
     std::ranges::stable_sort(run.environment, {}, &EnvironmentReading::at);
 }
@@ -229,12 +236,12 @@ Result<RunFileContents> read_run_file_contents(const std::string& path) {
         AXISCAL_CHECK(take_link(contents, recorded, *next, path));
         AXISCAL_CHECK(next->advance(path));
     }
+    AXISCAL_CHECK(check_setup(recorded, path));
     AXISCAL_CHECK(set_superseded_aside(recorded, path));
     put_in_order(recorded);
     AXISCAL_TRY(const auto results, database->integer_of("SELECT count(*) FROM result"));
     contents.results = static_cast<int>(results);
     contents.revisions = std::move(recorded.revisions);
-    contents.circular = std::move(recorded.circular);
     contents.streams = std::move(recorded.streams);
     contents.blocks = std::move(recorded.blocks);
     contents.attachments = std::move(recorded.attachments);

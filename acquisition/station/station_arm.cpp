@@ -314,7 +314,7 @@ void Station::keep_hold_of_broken_off(const StoredRuns& stored) {
 
 Task<Result<void>> Station::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
-    if (const auto& drift = contents.attachments.drift) {
+    if (const auto* drift = std::get_if<DriftSetup>(&contents.attachments.setup)) {
         const bool of_bar = drift->of_bar;
         std::string why = std::string{"Nobody watched the resting "} +
                           (of_bar ? "ballbar" : "axis") + " while the station was away.";

@@ -42,6 +42,8 @@ MonotonicTime last_sign_of(const RunFileContents& contents) {
 } // namespace
 
 CircleResume Station::judge_circles(const RunFileContents& contents) const {
+    const auto* known = std::get_if<CircularSetup>(&contents.attachments.setup);
+    const CircularSetup setup = known != nullptr ? *known : CircularSetup{};
     BarNow now;
     now.config_hash = config_hash_;
     now.boot_id = boot_id_;
@@ -53,14 +55,12 @@ CircleResume Station::judge_circles(const RunFileContents& contents) const {
         now.incremental = bar.incremental();
         now.limits.count_modulus = bar.count_modulus();
         now.limits.rate_hz = stored_rate_hz(contents.blocks);
-        if (now.limits.rate_hz <= 0 && contents.circular)
-            now.limits.rate_hz = contents.circular->capture.sample_rate_hz;
+        if (now.limits.rate_hz <= 0) now.limits.rate_hz = setup.capture.sample_rate_hz;
     }
     const auto stream = samples_of(contents.blocks, 0);
     const StreamSamples none;
-    return decide_circle_resume({contents.run, contents.circular.value_or(CircularSetup{}),
-                                 stream ? *stream : none, last_sighting_of(contents)},
-                                now);
+    return decide_circle_resume(
+        {contents.run, setup, stream ? *stream : none, last_sighting_of(contents)}, now);
 }
 
 Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileContents contents) {
@@ -73,7 +73,7 @@ Task<Result<void>> Station::resume_or_close_circles(std::string path, RunFileCon
     while (roles_.ballbar && !bar_is_back() && scheduler_.now() < limit)
         co_await scheduler_.sleep_for(look_every);
     CircleResume verdict = judge_circles(contents);
-    if (!contents.circular)
+    if (!std::holds_alternative<CircularSetup>(contents.attachments.setup))
         verdict = {CircleResume::Decision::close_incomplete,
                    Fault::incomplete_run,
                    "The station ended before the plan of the circles was kept.",
@@ -121,7 +121,7 @@ Station::resume_circles(std::string path, RunFileContents contents, CircleResume
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
     const std::string message = interruption_text(contents, verdict);
-    const CircularSetup setup = *contents.circular;
+    const auto setup = std::get<CircularSetup>(contents.attachments.setup);
     StreamChunker behind{0};
     if (!contents.blocks.empty())
         behind = StreamChunker{contents.blocks.back(), last_sighting_of(contents).has_value()};

@@ -186,7 +186,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
     std::string path = config_.state_directory + "/runs/" + id + std::string{run_file_ending};
     RunAttachments attachments;
     if (!of_bar) attachments.alignment = alignment_for_run();
-    attachments.drift = order.setup;
+    attachments.setup = order.setup;
     if (auto opened = co_await journal_.open(path, std::move(order.header), std::move(attachments));
         !opened)
         co_return tl::unexpected<Error>(opened.error());

@@ -1,17 +1,18 @@
 #pragma once
-// What a run file holds beside the measured readings: how the beam was aligned, what kind of test
-// it is where it is no positioning run, where a figure of the budget came from, what the uncertain
-// time of the samples adds to each capture. Pure data, beside
-// RunRecord.
+// What a run file holds beside the measured readings: how the beam was aligned, what only one kind
+// of test has, where a figure of the budget came from, what the uncertain time of the samples adds
+// to each capture. Pure data, beside RunRecord.
 
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/time.hpp"
 #include "analysis/record/alignment_record.hpp"
+#include "analysis/record/circular_setup.hpp"
 #include "analysis/record/probing_record.hpp"
 #include "analysis/record/synchronisation.hpp"
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace axiscal {
@@ -25,10 +26,14 @@ struct DriftSetup {
     bool of_bar = false;
 };
 
+/// What only RunRecord::kind has, one alternative a TestKind in its order. Of a positioning run the
+/// plan says all; that of a circular test comes with its first block, and nothing stands for it
+/// before.
+using TestSetup = std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord>;
+
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
-    std::optional<DriftSetup> drift;          ///< the run is a drift test: it has no points
-    std::optional<ProbingRecord> probing; ///< the run is a probing test: it has no points either
+    TestSetup setup;
     /// Id of the drift test that UncertaintySetup::eve comes from, of a circular test
     /// CircularUncertaintyStatement::eve_um; or empty.
     std::string eve_source;

@@ -95,7 +95,7 @@ Result<std::string> make_run_file(const StationConfig& config, const ProbingOrde
         return tl::unexpected<Error>(results.error());
     const RunRecord header = header_of(config, order);
     RunAttachments attachments;
-    attachments.probing = std::move(record);
+    attachments.setup = std::move(record);
     std::string path = order.out + "/" + header.run_id + std::string{run_file_ending};
     AXISCAL_TRY(RunFileWriter writer, RunFileWriter::create(path, header, attachments));
     AXISCAL_CHECK(writer.close(true, "", tie_now()));

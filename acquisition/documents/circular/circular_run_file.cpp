@@ -101,9 +101,10 @@ CircularRun header_of(const RunRecord& run, const CircularSetup& setup) {
 } // namespace
 
 Result<CircularRun> circular_run_of(const RunFileContents& contents) {
-    if (!contents.circular || contents.streams.empty())
+    const auto* known = std::get_if<CircularSetup>(&contents.attachments.setup);
+    if (known == nullptr || contents.streams.empty())
         return fail(Fault::refused, "run " + contents.run.run_id + " holds no circular test");
-    const CircularSetup& setup = *contents.circular;
+    const CircularSetup& setup = *known;
     CircularRun circular = header_of(contents.run, setup);
     circular.preflight = contents.revisions.preflight;
     circular.orders = contents.revisions.orders;

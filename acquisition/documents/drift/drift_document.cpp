@@ -192,9 +192,10 @@ std::vector<const ChannelDrift*> every_channel_of(const RunDrift& drift) {
 Result<DriftResult> drift_result_of(const std::string& path, RunFileContents contents) {
     if (!contents.closed)
         return fail(Fault::incomplete_run, path + " is still open: close the run first");
-    if (!contents.attachments.drift) return fail(Fault::bad_run_file, path + " has no row drift");
+    const auto* setup = std::get_if<DriftSetup>(&contents.attachments.setup);
+    if (setup == nullptr) return fail(Fault::bad_run_file, path + " has no row drift");
     DriftResult result;
-    AXISCAL_TRY(result.drift, evaluate_drift(contents.run, *contents.attachments.drift));
+    AXISCAL_TRY(result.drift, evaluate_drift(contents.run, *setup));
     tell_times_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.retakes,
                             contents.run.closed);
     tell_orders_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.orders);

@@ -62,10 +62,10 @@ Json run_of(const ProbingResult& document) {
 Result<ProbingResult> probing_result_of(const std::string& path, RunFileContents contents) {
     if (!contents.closed || !contents.run.complete)
         return fail(Fault::incomplete_run, path + " is not closed as complete");
-    if (!contents.attachments.probing)
-        return fail(Fault::bad_run_file, path + " has no row probing");
+    auto* record = std::get_if<ProbingRecord>(&contents.attachments.setup);
+    if (record == nullptr) return fail(Fault::bad_run_file, path + " has no row probing");
     ProbingResult result;
-    result.record = std::move(*contents.attachments.probing);
+    result.record = std::move(*record);
     AXISCAL_TRY(result.results, evaluate_probing_delay(case_of(result.record)));
     result.run = std::move(contents.run);
     result.result_digest = digest_of(result.results);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <random>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace axiscal::testing {
@@ -51,14 +52,15 @@ public:
         return run;
     }
 
-    RunAttachments attachments() {
+    /// Of a run of this kind; a circular test brings its set-up with the first block.
+    RunAttachments attachments(TestKind kind) {
         RunAttachments beside;
         if (pick(2) == 0) fill_alignment(beside.alignment.emplace());
-        if (pick(2) == 0)
-            beside.drift =
+        if (kind == TestKind::drift)
+            beside.setup =
                 DriftSetup{Duration{integer()}, Duration{integer()}, length(), pick(2) == 0};
-        if (pick(2) == 0) {
-            ProbingRecord& probing = beside.probing.emplace();
+        if (kind == TestKind::probing) {
+            auto& probing = beside.setup.emplace<ProbingRecord>();
             probing.feed_mm_per_min = number(), probing.probe = text();
             probing.signal_path = text();
             for (int i = pick(9); i > 0; --i)
@@ -229,6 +231,9 @@ template <> struct IsVector<WindowSamples> : std::true_type {};
 template <class T> struct IsOptional : std::false_type {};
 template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
+template <class T> struct IsVariant : std::false_type {};
+template <class... T> struct IsVariant<std::variant<T...>> : std::true_type {};
+
 template <class T> bool same_bits(const T& a, const T& b) {
     if constexpr (std::is_floating_point_v<T>) {
         return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -241,6 +246,11 @@ template <class T> bool same_bits(const T& a, const T& b) {
         return same;
     } else if constexpr (IsOptional<T>::value) {
         return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));
+    } else if constexpr (IsVariant<T>::value) {
+        return a.index() == b.index() &&
+               std::visit([&b]<class Held>(
+                              const Held& held) { return same_bits(held, std::get<Held>(b)); },
+                          a);
     } else if constexpr (std::is_aggregate_v<T>) {
         const auto left = boost::pfr::structure_tie(a), right = boost::pfr::structure_tie(b);
         return [&]<std::size_t... i>(std::index_sequence<i...>) {

@@ -89,30 +89,72 @@ TEST(RunFile, ChainsTheCertificatesOfChannels) {
     }
 }
 
-RunAttachments some_attachments() {
+RunAttachments some_attachments(TestSetup setup) {
     RunAttachments beside;
     beside.alignment.emplace().far = FarRest{metre(1), um(8), um(2), um(1), 9, true};
     beside.alignment->places = {{mm(0), mm(40), 100, 71, 80, 90}};
-    beside.drift = DriftSetup{std::chrono::minutes{30}, std::chrono::seconds{1}, mm(900)};
-    beside.probing.emplace().touches = {{{-1, 0, 0}, false, mm(2), {um(3), mm(-10), mm(-10)}}};
+    beside.setup = std::move(setup);
     beside.eve_source = "bench-20261121T100000Z-X";
     return beside;
 }
 
-TEST(RunFile, ChainsWhatStandsBesideTheRun) {
+DriftSetup some_drift() {
+    return {std::chrono::minutes{30}, std::chrono::seconds{1}, mm(900)};
+}
+
+ProbingRecord some_probing() {
+    ProbingRecord probing;
+    probing.touches = {{{-1, 0, 0}, false, mm(2), {um(3), mm(-10), mm(-10)}}};
+    return probing;
+}
+
+RunRecord header_of(TestKind kind) {
+    RunRecord run = RandomRun{23}.header();
+    run.kind = kind;
+    return run;
+}
+
+void expect_chained(TestKind kind,
+                    const TestSetup& setup,
+                    std::initializer_list<const char*> changes) {
     const ScratchFolder scratch;
-    for (const std::string change :
-         {"UPDATE alignment SET far_last_m = 1e-9", "UPDATE alignment SET lost = lost + 1",
-          "DELETE FROM alignment", "DELETE FROM alignment_place",
-          "UPDATE alignment_place SET weakest_percent = 99.0", "UPDATE drift SET place_m = 0.0",
-          "DELETE FROM drift", "UPDATE probing_touch SET x_m = 1.0", "DELETE FROM probing",
-          "UPDATE eve_source SET run_id = 'another'"}) {
+    for (const std::string change : changes) {
         const auto path = scratch.file(sha256_hex(change) + ".axiscal");
-        ASSERT_TRUE(RunFileWriter::create(path, RandomRun{23}.header(), some_attachments()));
+        ASSERT_TRUE(RunFileWriter::create(path, header_of(kind), some_attachments(setup)));
         EXPECT_TRUE(read_run_file(path)) << change;
         run_sql(path, change);
         EXPECT_FALSE(read_run_file(path)) << change;
     }
+}
+
+TEST(RunFile, ChainsWhatStandsBesideTheRun) {
+    expect_chained(TestKind::positioning, {},
+                   {"UPDATE alignment SET far_last_m = 1e-9",
+                    "UPDATE alignment SET lost = lost + 1", "DELETE FROM alignment",
+                    "DELETE FROM alignment_place",
+                    "UPDATE alignment_place SET weakest_percent = 99.0",
+                    "UPDATE eve_source SET run_id = 'another'"});
+}
+
+TEST(RunFile, ChainsTheSetUpOfADriftTest) {
+    expect_chained(TestKind::drift, some_drift(),
+                   {"UPDATE drift SET place_m = 0.0", "DELETE FROM drift"});
+}
+
+TEST(RunFile, ChainsTheTouchesOfAProbingTest) {
+    expect_chained(TestKind::probing, some_probing(),
+                   {"UPDATE probing_touch SET x_m = 1.0", "DELETE FROM probing"});
+}
+
+TEST(RunFile, RefusesTheSetUpOfAnotherKindOfTest) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    const auto made =
+        RunFileWriter::create(path, header_of(TestKind::circular), some_attachments(some_drift()));
+    ASSERT_FALSE(made);
+    EXPECT_NE(describe(made.error()).find("a circular test with the set-up of a drift test"),
+              std::string::npos)
+        << describe(made.error());
 }
 
 TEST(RunFile, ChainsHowAnAngleWasMeasured) {
@@ -158,7 +200,7 @@ TEST(RunFile, ChainsTheScaleThatMeasuredTheAxis) {
 TEST(RunFile, RefusesAFarRestInParts) {
     const ScratchFolder scratch;
     const auto path = scratch.file("r.axiscal");
-    ASSERT_TRUE(RunFileWriter::create(path, RandomRun{24}.header(), some_attachments()));
+    ASSERT_TRUE(RunFileWriter::create(path, RandomRun{24}.header(), some_attachments({})));
     run_sql(path, "UPDATE alignment SET far_scatter_m = NULL");
     EXPECT_FALSE(read_run_file(path));
 }

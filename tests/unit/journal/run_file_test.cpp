@@ -185,7 +185,7 @@ TEST(RunFile, BringsBackWhatStandsBesideTheRun) {
         RandomRun random{seed};
         const auto path = scratch.file(std::to_string(seed) + ".axiscal");
         const RunRecord run = random.header();
-        const RunAttachments beside = random.attachments();
+        const RunAttachments beside = random.attachments(run.kind);
         ASSERT_TRUE(RunFileWriter::create(path, run, beside));
         const auto read = read_run_file_contents(path);
         ASSERT_TRUE(read) << describe(read.error());

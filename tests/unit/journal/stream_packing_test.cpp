@@ -183,7 +183,9 @@ CircularSetup full_setup() {
 std::string write_file(const ScratchFolder& scratch) {
     RandomRun random{11};
     const std::string path = scratch.file("circle.axiscal");
-    auto writer = RunFileWriter::create(path, random.header()).value();
+    RunRecord header = random.header();
+    header.kind = TestKind::circular;
+    auto writer = RunFileWriter::create(path, header).value();
     RunBatch batch;
     batch.circular = full_setup();
     batch.streams.push_back({0, 4, "ballbar", "m", 1000});
@@ -201,8 +203,9 @@ TEST(CircularRunFile, GivesBackPlanBarStatementAndStream) {
     const ScratchFolder scratch;
     const auto read = read_run_file_contents(write_file(scratch));
     ASSERT_TRUE(read) << read.error().detail;
-    ASSERT_TRUE(read->circular);
-    const CircularSetup &found = *read->circular, wanted = full_setup();
+    const auto* kept = std::get_if<CircularSetup>(&read->attachments.setup);
+    ASSERT_NE(kept, nullptr);
+    const CircularSetup &found = *kept, wanted = full_setup();
     EXPECT_EQ(found.plan.plane, wanted.plan.plane);
     EXPECT_EQ(found.plan.senses, wanted.plan.senses);
     EXPECT_EQ(found.plan.feed_mm_per_s, wanted.plan.feed_mm_per_s);

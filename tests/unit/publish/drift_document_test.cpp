@@ -46,9 +46,9 @@ RunRecord made_run() {
 /// At its datum, where neither air nor material acts on a path.
 DriftResult made_document(RunRecord run = made_run()) {
     DriftResult document;
-    document.attachments.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1},
+    document.attachments.setup = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1},
                                             run.plan.datum, run.laser.instrument == "gauge"};
-    const auto drift = evaluate_drift(run, *document.attachments.drift);
+    const auto drift = evaluate_drift(run, std::get<DriftSetup>(document.attachments.setup));
     EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
     document.drift = drift.value_or(RunDrift{});
     document.run = std::move(run);
@@ -186,7 +186,7 @@ TEST(DriftDocument, OfABallbarIsVerifiedAgainstItsRunFile) {
     const std::string path = folder.file("bar.axiscal");
     RunRecord run = of_the_bar();
     RunAttachments beside;
-    beside.drift = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}, true};
+    beside.setup = DriftSetup{std::chrono::minutes{10}, std::chrono::minutes{1}, Length{}, true};
     auto writer = RunFileWriter::create(path, run, beside).value();
     ASSERT_TRUE(testing::append(writer, run.environment));
     ASSERT_TRUE(writer.close(true, "The test is over.", {}));

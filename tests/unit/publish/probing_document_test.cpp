@@ -26,7 +26,7 @@ protected:
         RunRecord run = test::probing_header();
         run.statements.machine = "Machining centre MC-800";
         RunAttachments attachments;
-        attachments.probing = test::probed_block();
+        attachments.setup = test::probed_block();
         auto writer = RunFileWriter::create(path, run, attachments).value();
         if (close) {
             EXPECT_TRUE(writer.close(true, "", run.closed));

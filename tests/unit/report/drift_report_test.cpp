@@ -73,9 +73,9 @@ RunRecord creeping(const std::function<double(double)>& creep_um, double duratio
 
 DriftResult document_of(RunRecord run, Duration duration = 2h) {
     DriftResult document;
-    document.attachments.drift =
+    document.attachments.setup =
         DriftSetup{duration, 10s, mm(900), run.laser.instrument == "gauge"};
-    auto drift = evaluate_drift(run, *document.attachments.drift);
+    auto drift = evaluate_drift(run, std::get<DriftSetup>(document.attachments.setup));
     EXPECT_TRUE(drift) << (drift ? "" : describe(drift.error()));
     document.drift = drift.value_or(RunDrift{});
     document.run = std::move(run);

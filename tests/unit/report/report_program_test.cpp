@@ -75,7 +75,7 @@ TEST_F(ReportProgram, GivesEqualBytesEachTime) {
 
 TEST_F(ReportProgram, StagesTheFourFilesOfAProbingTest) {
     RunAttachments attachments;
-    attachments.probing = test::probed_block();
+    attachments.setup = test::probed_block();
     const std::string run = write_run(test::probing_header(), true, attachments);
     for (const char* place : {"outbox", "to"}) { // the station's own report, and an export
         const std::string folder = folder_.file(place);

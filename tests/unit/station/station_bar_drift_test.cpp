@@ -92,12 +92,12 @@ TEST_F(StationBarDrifts, AStationWithABallbarAloneRecordsItAtRest) {
     const RunFileContents file = contents();
     EXPECT_TRUE(file.closed && file.run.complete);
     EXPECT_EQ(file.run.kind, TestKind::drift);
-    EXPECT_TRUE(file.attachments.drift->of_bar);
+    EXPECT_TRUE(std::get<DriftSetup>(file.attachments.setup).of_bar);
     EXPECT_EQ(file.run.laser.instrument, "ballbar");
     EXPECT_EQ(file.run.statements.axis, "XY");
     ASSERT_EQ(file.run.channels.size(), 7U); // light, three of the air, two contacts, the bar
     EXPECT_EQ(file.run.channels.front().instrument, "ballbar");
-    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    const auto drift = evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup));
     ASSERT_TRUE(drift) << describe(drift.error());
     EXPECT_TRUE(drift->of_bar);
     EXPECT_EQ(drift->axis.times.size(), 60U);
@@ -125,12 +125,12 @@ TEST_F(StationBarDrifts, BesideAnAxisItMustBeAskedFor) {
         ASSERT_TRUE(file);
         const bool of_bar = file->run.run_id == **id;
         EXPECT_EQ(file->run.kind, TestKind::drift);
-        EXPECT_EQ(file->attachments.drift->of_bar, of_bar);
+        EXPECT_EQ(std::get<DriftSetup>(file->attachments.setup).of_bar, of_bar);
         EXPECT_EQ(file->run.laser.instrument, of_bar ? "ballbar" : "laser");
         EXPECT_EQ(file->run.channels.front().instrument, of_bar ? "ballbar" : "laser");
         EXPECT_EQ(file->run.laser.vacuum_wavelength.si() == 0, of_bar);
         if (!of_bar) continue;
-        const auto drift = evaluate_drift(file->run, *file->attachments.drift);
+        const auto drift = evaluate_drift(file->run, std::get<DriftSetup>(file->attachments.setup));
         ASSERT_TRUE(drift) << describe(drift.error());
         EXPECT_NEAR(drift->eve.range, 2.5, 0.03);
     }
@@ -212,7 +212,8 @@ TEST_F(StationBarDrifts, WhatTheBarDoesNotTellIsMissingAndCounted) {
     EXPECT_NEAR(view.missing, 20, 1);
     EXPECT_EQ(view.taken + view.missing, 60);
     const RunFileContents file = contents();
-    EXPECT_EQ(evaluate_drift(file.run, *file.attachments.drift)->missing, view.missing);
+    EXPECT_EQ(evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup))->missing,
+              view.missing);
 }
 
 TEST_F(StationBarDrifts, CirclesWaitForItsEndAndItForTheirs) {
@@ -259,9 +260,10 @@ TEST_F(StationBarDrifts, FeedsTheBudgetOfLaterCirclesWithItsName) {
     for (const std::string& path : shop.run_files()) {
         const auto file = read_run_file_contents(path);
         ASSERT_TRUE(file) << describe(file.error());
-        if (file->attachments.drift) continue;
-        ASSERT_TRUE(file->circular && file->circular->uncertainty.eve_um);
-        EXPECT_NEAR(*file->circular->uncertainty.eve_um, 2.5, 1e-9);
+        if (std::holds_alternative<DriftSetup>(file->attachments.setup)) continue;
+        const auto* circular = std::get_if<CircularSetup>(&file->attachments.setup);
+        ASSERT_TRUE(circular && circular->uncertainty.eve_um);
+        EXPECT_NEAR(*circular->uncertainty.eve_um, 2.5, 1e-9);
         EXPECT_EQ(file->attachments.eve_source, **id);
         EXPECT_FALSE(file->run.uncertainty);
     }
@@ -303,8 +305,9 @@ TEST_F(StationBarDrifts, AndATestOfTheAxisAreNotEachOthersSource) {
     life.run(1s);
     ASSERT_TRUE(arm_circles(life));
     const auto circles = read_run_file_contents(life.status().run->file);
-    ASSERT_TRUE(circles && circles->circular);
-    EXPECT_NEAR(circles->circular->uncertainty.eve_um.value_or(0), 2.5, 1e-9);
+    ASSERT_TRUE(circles && std::holds_alternative<CircularSetup>(circles->attachments.setup));
+    const auto& stated = std::get<CircularSetup>(circles->attachments.setup).uncertainty;
+    EXPECT_NEAR(stated.eve_um.value_or(0), 2.5, 1e-9);
 }
 
 TEST_F(StationBarDrifts, OfAnotherBarIsNotItsOwn) {

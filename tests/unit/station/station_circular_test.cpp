@@ -132,15 +132,16 @@ TEST(StationCircular, TheInjectedErrorsComeBackOfTheRunFile) {
 
     const RunFileContents read = contents_of(bay.shop);
     EXPECT_TRUE(read.run.complete);
-    ASSERT_TRUE(read.circular);
-    EXPECT_EQ(read.circular->capture.sample_rate_hz, 1000);
+    ASSERT_TRUE(std::holds_alternative<CircularSetup>(read.attachments.setup));
+    const auto& setup = std::get<CircularSetup>(read.attachments.setup);
+    EXPECT_EQ(setup.capture.sample_rate_hz, 1000);
     const auto stream = samples_of(read.blocks, 0);
     ASSERT_TRUE(stream) << stream.error().detail;
     EXPECT_TRUE(stream->gaps.empty());
     std::vector<CircleMark> marks;
     for (const EventRecord& event : read.run.events)
         if (event.sequence != 0) marks.push_back({event.sequence, event.at});
-    const auto cut = cut_circles(*read.circular, *stream, marks);
+    const auto cut = cut_circles(setup, *stream, marks);
     ASSERT_TRUE(cut) << cut.error().detail;
     CircularTest test{50, 100, SignalSource::external, {(*cut)[0].trace, (*cut)[1].trace}};
     const auto found = diagnose_circle(test, {"X", "Y"}).value();
@@ -391,8 +392,9 @@ void expect_both_circles(const Bay& bay, const std::string& told) {
     EXPECT_TRUE(read.run.complete) << read.run.closing_reason;
     const auto stream = samples_of(read.blocks, 0);
     ASSERT_TRUE(stream) << stream.error().detail;
-    const auto cut =
-        cut_circles(*read.circular, *stream, circle_marks(read.circular->plan, read.run.events));
+    ASSERT_TRUE(std::holds_alternative<CircularSetup>(read.attachments.setup));
+    const auto& setup = std::get<CircularSetup>(read.attachments.setup);
+    const auto cut = cut_circles(setup, *stream, circle_marks(setup.plan, read.run.events));
     ASSERT_TRUE(cut) << cut.error().detail;
     ASSERT_EQ(cut->size(), 2U);
     for (const CircleCapture& circle : *cut)

@@ -38,12 +38,12 @@ TEST_F(StationDrifts, RecordsEveryChannelWithoutACnc) {
     EXPECT_EQ(life.status().drift->state, "complete");
     const RunFileContents file = contents();
     EXPECT_TRUE(file.closed && file.run.complete);
-    ASSERT_TRUE(file.attachments.drift);
-    EXPECT_EQ(file.attachments.drift->place, mm(900));
-    EXPECT_EQ(file.attachments.drift->duration, 60s);
+    ASSERT_TRUE(std::holds_alternative<DriftSetup>(file.attachments.setup));
+    EXPECT_EQ(std::get<DriftSetup>(file.attachments.setup).place, mm(900));
+    EXPECT_EQ(std::get<DriftSetup>(file.attachments.setup).duration, 60s);
     EXPECT_EQ(file.run.statements.operator_name, "Shift 2");
     EXPECT_EQ(file.run.channels.size(), 6U);
-    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    const auto drift = evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup));
     ASSERT_TRUE(drift) << describe(drift.error());
     EXPECT_EQ(drift->axis.times.size(), 60U);
     EXPECT_EQ(drift->missing, 0);
@@ -73,7 +73,7 @@ TEST_F(StationDrifts, RecordsWhatNoRunUsesWithoutAMedium) {
     life.run(70s);
     const RunFileContents file = contents();
     ASSERT_EQ(file.run.channels.size(), 7U);
-    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    const auto drift = evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup));
     ASSERT_TRUE(drift) << describe(drift.error());
     EXPECT_EQ(drift->reading.name, "axis 1");
     for (const ChannelDrift& channel : drift->channels) {
@@ -94,7 +94,7 @@ TEST_F(StationDrifts, AChannelThatStaysSilentIsTold) {
     life.run(70s);
     const RunFileContents file = contents();
     EXPECT_EQ(file.run.channels.size(), 6U);
-    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    const auto drift = evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup));
     ASSERT_TRUE(drift) << describe(drift.error()); // the last readings are fresh for a minute
     for (const ChannelDrift& channel : drift->channels)
         EXPECT_LE(channel.series.times.size(), 1U) << channel.name;
@@ -110,7 +110,7 @@ TEST_F(StationDrifts, SeesTheAxisCreep) {
     life.begin_drift(short_test());
     life.run(70s);
     const RunFileContents file = contents();
-    const auto drift = evaluate_drift(file.run, *file.attachments.drift);
+    const auto drift = evaluate_drift(file.run, std::get<DriftSetup>(file.attachments.setup));
     ASSERT_TRUE(drift);
     // 59 intervals of 1 s; in air 22.6 degC warm steel: 3e-5 shorter. The bench's light is
     // longer by 2.7e-4, its air nearly as much.
@@ -237,7 +237,7 @@ TEST_F(StationDrifts, FeedsTheBudgetOfLaterRuns) {
     ASSERT_TRUE(life.arm());
     for (const std::string& path : shop.run_files()) {
         const auto file = read_run_file_contents(path);
-        if (file->attachments.drift) continue;
+        if (std::holds_alternative<DriftSetup>(file->attachments.setup)) continue;
         ASSERT_TRUE(file->run.uncertainty && file->run.uncertainty->eve);
         EXPECT_NEAR(file->run.uncertainty->eve->in(um), 1.25, 1e-9);
         EXPECT_EQ(file->attachments.eve_source, **id);

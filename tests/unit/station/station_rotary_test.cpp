@@ -126,8 +126,8 @@ TEST(StationRotary, ADriftTestGivesEveInSecondsOfArcToLaterBudgets) {
     EXPECT_EQ(life.status().drift->place_mm, -2) << "at the datum, unless said otherwise";
     const std::string path = shop.run_files().at(0);
     const auto file = read_run_file_contents(path);
-    ASSERT_TRUE(file && file->attachments.drift);
-    const auto drift = evaluate_drift(file->run, *file->attachments.drift);
+    ASSERT_TRUE(file && std::holds_alternative<DriftSetup>(file->attachments.setup));
+    const auto drift = evaluate_drift(file->run, std::get<DriftSetup>(file->attachments.setup));
     ASSERT_TRUE(drift) << describe(drift.error());
     // 19 intervals; the bench's index is 2.7e-4, the air's 2.65e-4.
     EXPECT_NEAR(drift->eve.range, 1.9, 1e-4);
@@ -141,7 +141,7 @@ TEST(StationRotary, ADriftTestGivesEveInSecondsOfArcToLaterBudgets) {
     ASSERT_TRUE(armed) << describe(armed.error());
     for (const std::string& one : shop.run_files()) {
         const auto run = read_run_file_contents(one).value();
-        if (run.attachments.drift) continue;
+        if (std::holds_alternative<DriftSetup>(run.attachments.setup)) continue;
         EXPECT_NEAR(run.run.uncertainty.value().eve->in(mm)*3600, 1.9, 1e-9);
         EXPECT_EQ(run.attachments.eve_source, **id);
     }
