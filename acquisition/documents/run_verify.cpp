@@ -212,7 +212,7 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
 
 namespace {
 
-std::string as_phrase(SignatureVerdict verdict) {
+std::string name_with_article(SignatureVerdict verdict) {
     return verdict == SignatureVerdict::unknown_key ? "of an unknown key"
                                                     : std::string{name_of(verdict)};
 }
@@ -248,7 +248,8 @@ std::string to_text(const VerifyReport& report) {
         line("  no certificate.json beside it was held against it");
     else if (report.certificate_findings.empty())
         line("  " + report.certificate + " says the same");
-    line("  signature " + as_phrase(report.signature.verdict) + ": " + report.signature.sentence);
+    line("  signature " + name_with_article(report.signature.verdict) + ": " +
+         report.signature.sentence);
     line("  anchor " + std::string{name_of(report.anchor.verdict)} + ": " + report.anchor.sentence);
     return text;
 }

@@ -20,7 +20,7 @@ double counts_per_mm(AxisKind kind) {
     return kind == AxisKind::rotary ? 1e5 : 1e4;
 }
 
-std::string as_phrase(const RunPlan& plan, const PlannedPoint& point, bool again) {
+std::string name_of_point(const RunPlan& plan, const PlannedPoint& point, bool again) {
     return "target index " + std::to_string(point.target_index) + " at " +
            in_axis_unit(plan.axis_kind,
                         plan.targets[static_cast<std::size_t>(point.target_index)]) +
@@ -30,7 +30,7 @@ std::string as_phrase(const RunPlan& plan, const PlannedPoint& point, bool again
 }
 
 /// What is off by whole steps is the table, not the axis.
-std::string artefact_phrase(const RotarySetup& setup, Length beside) {
+std::string hint_at_indexing(const RotarySetup& setup, Length beside) {
     constexpr double share_of_step = 0.1;
     if (setup.method == AngleMethod::polygon) return {};
     const double steps = beside.in(mm) / setup.step_deg;
@@ -118,7 +118,7 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
     const auto& plan = setup_.plan;
     const PlannedPoint point = planned_at(step);
     const std::string next =
-        "; the plan's next point is " + as_phrase(plan, point, step != point.step) + ".";
+        "; the plan's next point is " + name_of_point(plan, point, step != point.step) + ".";
     if (event.target_index && *event.target_index != point.target_index)
         return Error{Fault::wrong_target,
                      "The CNC claims target index " + std::to_string(*event.target_index) + next,
@@ -212,7 +212,7 @@ std::string RunMachine::place_text(Length position, Length target) const {
     for (const auto other : setup_.plan.targets)
         if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
             text += "; it stands at the target at " + shown(other);
-    if (setup_.rotary) text += artefact_phrase(*setup_.rotary, position - target);
+    if (setup_.rotary) text += hint_at_indexing(*setup_.rotary, position - target);
     return text + ".";
 }
 

@@ -141,7 +141,7 @@ std::string OutboxWatch::alarm_of(const OutboxView& view) const {
     const bool old = view.oldest_s.value_or(0) > seconds_of(config_.alarm_age);
     if (!old && view.waiting < config_.alarm_count) return "";
     std::string words = waiting_text(view.waiting) + " for the share since " +
-                        age_phrase(view.oldest_s.value_or(0)) + ": ";
+                        rounded_age(view.oldest_s.value_or(0)) + ": ";
     if (!view.publisher_runs)
         return words + "axiscal-publish does not run (systemctl start axiscal-publish)";
     return words + (view.reason.empty() ? "axiscal-publish is at work" : view.reason);
@@ -151,7 +151,7 @@ std::string waiting_text(int count) {
     return std::to_string(count) + (count == 1 ? " result waits" : " results wait");
 }
 
-std::string age_phrase(double seconds) {
+std::string rounded_age(double seconds) {
     struct Unit {
         double seconds;
         const char* name;

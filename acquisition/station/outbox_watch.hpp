@@ -69,6 +69,6 @@ private:
 /// "12 results wait", "1 result waits".
 std::string waiting_text(int count);
 /// "40 s", "22 min", "5 h", "3 d".
-std::string age_phrase(double seconds);
+std::string rounded_age(double seconds);
 
 } // namespace axiscal

@@ -189,7 +189,7 @@ void Station::log_environment(int channel, const Sample& sample) {
     journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
 }
 
-std::string Station::state_phrase(const InstrumentView& view) {
+std::string Station::news_of_state(const InstrumentView& view) {
     const bool plays = view.state == InstrumentState::available && !view.tape.empty();
     return plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
 }
@@ -197,7 +197,7 @@ std::string Station::state_phrase(const InstrumentView& view) {
 void Station::on_instrument_state(const InstrumentView& view) {
     const auto id = roles_.autocollimator;
     const bool sees_faces = id && view.name == channel_of(*id).instrument_name;
-    const std::string how = sees_faces ? news_of_autocollimator(view) : state_phrase(view);
+    const std::string how = sees_faces ? news_of_autocollimator(view) : news_of_state(view);
     if (!how.empty()) record_instrument(view.name + " " + how + ".", Fault::none);
 }
 

@@ -399,7 +399,7 @@ private:
     void log_environment(int channel, const Sample& sample);
     void log_environment_anew(); ///< the first point needs a reading before it
     void record_instrument(const std::string& sentence, Fault fault);
-    [[nodiscard]] static std::string state_phrase(const InstrumentView& view); ///< "is faulty"
+    [[nodiscard]] static std::string news_of_state(const InstrumentView& view); ///< "is faulty"
     void note(const std::string& sentence) { notices_.note(sentence); }
     /// A run takes records: neither closing nor closed.
     [[nodiscard]] bool recording() const;

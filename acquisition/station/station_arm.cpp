@@ -167,7 +167,7 @@ void Station::note_orders_of_arming(const Orderer& by, const std::vector<Preflig
         journal_.note(order_of("override", by, check.name));
         overridden += (overridden.empty() ? ", overriding " : ", ") + check.name;
     }
-    note("Run " + run_->header.run_id + " was armed by " + as_phrase(by) + overridden + ".");
+    note("Run " + run_->header.run_id + " was armed by " + name_of(by) + overridden + ".");
 }
 
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
@@ -222,14 +222,14 @@ Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
     if (drift_open()) {
         if (drift_->closing) co_return fail(Fault::busy, "the drift test is being closed");
         journal_.note(order_of("abort", by));
-        note("The drift test was aborted by " + as_phrase(by) + ".");
+        note("The drift test was aborted by " + name_of(by) + ".");
         const std::string test = drift_->run_id;
         spawn(scheduler_, abort_drift(std::move(reason)));
         co_return co_await await_drift_closing(test);
     }
     if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     journal_.note(order_of("abort", by));
-    note("Run " + run_->header.run_id + " was aborted by " + as_phrase(by) + ".");
+    note("Run " + run_->header.run_id + " was aborted by " + name_of(by) + ".");
     if (circular_)
         end_circular({false, std::move(reason), Fault::none});
     else

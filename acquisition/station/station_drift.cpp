@@ -197,7 +197,7 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
         id, std::move(path), std::move(recorder), {}, false, false, false, {}, {}, {}, {}});
     if (of_bar) drift_->bar.emplace(SampleHistory::Limits{2 * config_.capture.window});
     journal_.note(order_of("drift", request.by));
-    note("Drift test " + id + " has begun, ordered by " + as_phrase(request.by) + ": leave " +
+    note("Drift test " + id + " has begun, ordered by " + name_of(request.by) + ": leave " +
          (of_bar ? "machine and ballbar" : "the axis") + " alone.");
     spawn(scheduler_, record_drift(id));
     co_return id;

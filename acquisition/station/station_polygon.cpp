@@ -78,7 +78,7 @@ std::string Station::news_of_autocollimator(const InstrumentView& view) {
     if (view.state == InstrumentState::faulty) return "answers, and sees no face";
     return before == InstrumentState::faulty && view.state == InstrumentState::available
                ? "sees a face"
-               : state_phrase(view);
+               : news_of_state(view);
 }
 
 /// On the way to its first face it sees none: that it speaks is enough.

@@ -147,7 +147,7 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
             {point.step, run_->header.plan.points[static_cast<std::size_t>(point.planned_step)]});
     note(counted(static_cast<long>(answer.points.size()), "point") + " of run " +
          run_->header.run_id + " to be taken again: " + request.reason + "; ordered by " +
-         as_phrase(request.by));
+         name_of(request.by));
     co_return answer;
 }
 
@@ -167,7 +167,7 @@ Task<Result<int>> Station::exclude(RevisionRequest request) {
     }
     if (!kept) co_return tl::unexpected<Error>(kept.error());
     note(counted(count, "reading") + " of run " + run_->header.run_id +
-         " left out: " + request.reason + "; ordered by " + as_phrase(request.by));
+         " left out: " + request.reason + "; ordered by " + name_of(request.by));
     co_return count;
 }
 

@@ -26,7 +26,7 @@ std::string filter_text(const CircularCapture& capture) {
     return words.empty() ? "none" : words;
 }
 
-std::string feed_phrase(const CircularPlan& plan) {
+std::string feed_in_text(const CircularPlan& plan) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "radial, %.6g mm from %s the circle", plan.feed_in_mm,
                   plan.feed_in_outside ? "outside" : "inside");
@@ -54,7 +54,7 @@ CircularConditions conditions_of(const CircularRun& run) {
     conditions.filter = filter_text(run.capture);
     conditions.angle_origin = angle_text(run);
     conditions.overshoot_deg = run.plan.overshoot_deg;
-    conditions.feed_in = feed_phrase(run.plan);
+    conditions.feed_in = feed_in_text(run.plan);
     conditions.repeats = run.plan.repeats;
     conditions.warm_up = run.plan.warm_up;
     conditions.air = run.air_temperature;

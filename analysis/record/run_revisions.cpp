@@ -2,7 +2,7 @@
 
 namespace axiscal {
 
-std::string as_phrase(const Orderer& by) {
+std::string name_of(const Orderer& by) {
     std::string door = by.door == "socket" ? std::string{} : by.door;
     if (by.uid) {
         if (!by.user.empty()) door = "user " + by.user + ", ";

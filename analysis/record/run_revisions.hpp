@@ -60,7 +60,7 @@ struct OrderRecord {
 };
 
 /// "Jo Miller (user jo, uid 1000)", "user jo, uid 1000", "Jo Miller (token)", "not known".
-std::string as_phrase(const Orderer& by);
+std::string name_of(const Orderer& by);
 
 struct RunRevisions {
     std::vector<PreflightRecord> preflight;

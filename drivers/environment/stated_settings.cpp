@@ -37,7 +37,7 @@ void StatedSettings::forget() {
     seen_.assign(settings_.size(), Seen{});
 }
 
-std::string StatedSettings::as_phrase(const ModbusSetting& setting) const {
+std::string StatedSettings::full_name_of(const ModbusSetting& setting) const {
     return model_ + ": " + setting.name + " (" + place_of(setting.field) + ")";
 }
 
@@ -45,7 +45,7 @@ std::string StatedSettings::complaint(const ModbusSetting& setting, const std::s
     std::string spoilt;
     for (const std::size_t channel : setting.channels)
         spoilt += (spoilt.empty() ? "" : ", ") + channels_.at(channel);
-    return as_phrase(setting) + " is " + is + " and must be " + number_text(setting.must_be) +
+    return full_name_of(setting) + " is " + is + " and must be " + number_text(setting.must_be) +
            ": no value of " + spoilt +
            " meanwhile. Set it there; if the instrument was calibrated with it, state it as "
            "must_be in a copy of the profile";
@@ -80,7 +80,7 @@ std::vector<std::string> StatedSettings::refuse(const RegisterBlock& block,
         const bool never_shown = seen.state == State::unread;
         seen = {never_shown ? State::hidden : State::wrong, {}};
         complaints.push_back(
-            never_shown ? as_phrase(setting) +
+            never_shown ? full_name_of(setting) +
                               " cannot be read, and is taken as the profile states it: " + reason
                         : complaint(setting, "hidden"));
     }

@@ -37,7 +37,7 @@ private:
         State state = State::unread;
         std::optional<double> number; ///< the last that was told as wrong
     };
-    [[nodiscard]] std::string as_phrase(const ModbusSetting& setting) const;
+    [[nodiscard]] std::string full_name_of(const ModbusSetting& setting) const;
     [[nodiscard]] std::string complaint(const ModbusSetting& setting, const std::string& is) const;
 
     std::string model_;

@@ -25,7 +25,7 @@ bool means_silence(int exception) {
     return exception == 5 || exception == 6 || exception == 10 || exception == 11;
 }
 
-std::string as_phrase(int exception) {
+std::string exception_text(int exception) {
     const std::string number = "exception " + std::to_string(exception);
     switch (exception) {
     case 1: return number + " (it does not know this function)";
@@ -202,7 +202,7 @@ Result<ModbusWords> ModbusBus::Line::judged(const ModbusRead& request, ModbusAns
     case Kind::words: return ModbusWords{std::move(answer.words), {}, {}};
     case Kind::exception:
         return failed(means_silence(answer.exception) ? Fault::link_timeout : Fault::refused,
-                      request.unit_id, as_phrase(answer.exception));
+                      request.unit_id, exception_text(answer.exception));
     case Kind::damaged:
         return failed(Fault::checksum, request.unit_id, "the checksum of its answer is wrong");
     case Kind::another:

@@ -6,7 +6,7 @@
 namespace axiscal {
 namespace {
 
-std::string cosine_phrase(const std::optional<CosineError>& found) {
+std::string cosine_error_text(const std::optional<CosineError>& found) {
     if (!found) return "not seen";
     std::string words =
         fixed(found->error.in(um), 2) + " µm over " + fixed(found->distance.in(mm), 0) + " mm";
@@ -41,11 +41,11 @@ void draw_alignment(Sheet& sheet, const std::optional<AlignmentRecord>& alignmen
                             fixed(alignment->travel.in(mm), 1) + " mm"},
         {"Strength of the signal", strength_text(alignment->places)},
         {"Reading at the far end, as left", reading_text(alignment->far)},
-        {"Cosine error, by the reading", cosine_phrase(cosine_error_by_reading(*alignment))}};
+        {"Cosine error, by the reading", cosine_error_text(cosine_error_by_reading(*alignment))}};
     if (alignment->spot_offset)
         fields.push_back({"Cosine error, by the return spot (" +
                               fixed(alignment->spot_offset->in(mm), 2) + " mm)",
-                          cosine_phrase(cosine_error_by_spot(*alignment))});
+                          cosine_error_text(cosine_error_by_spot(*alignment))});
     sheet.fields(fields, 1);
     sheet.text("A beam at the angle γ reads D cos γ: short by D (1 − cos γ), never long. By the "
                "reading: highest − last at the far end, bounded by the scatter for the tilts that "

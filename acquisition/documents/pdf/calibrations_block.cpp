@@ -25,7 +25,7 @@ std::string uncertainty_text(const ChannelCalibration& given, const ChannelRecor
     return words.empty() ? "not stated" : words + ", k = " + as_stated(given.coverage);
 }
 
-std::string table_phrase(const ChannelCalibration& given, const ChannelRecord& channel) {
+std::string corrections_text(const ChannelCalibration& given, const ChannelRecord& channel) {
     const ChannelPaper paper = paper_of(channel.kind, channel.medium);
     std::string words;
     for (const auto& [reading, correction] : given.corrections) {
@@ -55,7 +55,7 @@ void draw_calibrations(Sheet& sheet,
         rows.push_back({channel->name, stated(calibration.certificate_number),
                         stated(calibration.calibrated_on), due_text(calibration.due_on, run_date),
                         uncertainty_text(calibration, *channel),
-                        table_phrase(calibration, *channel)});
+                        corrections_text(calibration, *channel)});
     }
     sheet.heading("Certificates of channels", 60);
     sheet.table({{"Channel", "", Align::left, true},

@@ -18,7 +18,7 @@ std::string words_of(const DeviceLimit& limit) {
     return words;
 }
 
-std::string device_phrase(const UncertaintySetup& setup, const UncertaintyStatement& s) {
+std::string stated_device(const UncertaintySetup& setup, const UncertaintyStatement& s) {
     const bool stated_here = setup.device_U.stated() || setup.device_width.stated();
     if (!stated_here)
         return "U = " + fixed(s.device_U.value_or(0), 3) +
@@ -29,7 +29,7 @@ std::string device_phrase(const UncertaintySetup& setup, const UncertaintyStatem
     return "R_D = " + words_of(setup.device_width);
 }
 
-std::string alignment_phrase(const UncertaintySetup& setup) {
+std::string stated_misalignment(const UncertaintySetup& setup) {
     if (setup.misalignment) return "e = " + as_stated(setup.misalignment->in(mm)) + " mm over L";
     if (!setup.misalignment_angle) return {};
     return "δ = " + as_stated(setup.misalignment_angle->in(radian)*1e3) + " mrad";
@@ -89,8 +89,8 @@ std::vector<TermLine> term_lines(const Certificate& certificate) {
         return {{device, "Instrument, artefact and set-up u_D", angle_device_text(setup)},
                 {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + "″"}};
     std::vector<TermLine> lines{
-        {device, "Laser system u_D", device_phrase(setup, s)},
-        {misalignment, "Misalignment of the beam u_MIS", alignment_phrase(setup)},
+        {device, "Laser system u_D", stated_device(setup, s)},
+        {misalignment, "Misalignment of the beam u_MIS", stated_misalignment(setup)},
         {machine_temperature, "Temperature of the material u_M,M", temperature_text(setup, s)},
         {machine_expansion, "Expansion coefficient u_E,M", expansion_text(s)},
         {environment, "Environment u_EVE", "E_VE = " + as_stated(s.eve.value_or(0)) + " µm"}};

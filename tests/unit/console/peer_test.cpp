@@ -23,12 +23,12 @@ TEST(UserName, IsThatOfTheFileAndEmptyForOneThatItDoesNotName) {
 }
 
 TEST(Orderer, IsToldInWordsWithWhatIsKnown) {
-    EXPECT_EQ(as_phrase({"socket", 1000, "jo", "Jo Miller"}), "Jo Miller (user jo, uid 1000)");
-    EXPECT_EQ(as_phrase({"socket", 1000, "jo", ""}), "user jo, uid 1000");
-    EXPECT_EQ(as_phrase({"socket", 4711, "", "Jo"}), "Jo (uid 4711)");
-    EXPECT_EQ(as_phrase({"token", std::nullopt, "", "Jo"}), "Jo (token)");
-    EXPECT_EQ(as_phrase({"token", std::nullopt, "", ""}), "token");
-    EXPECT_EQ(as_phrase({}), "not known");
+    EXPECT_EQ(name_of(Orderer{"socket", 1000, "jo", "Jo Miller"}), "Jo Miller (user jo, uid 1000)");
+    EXPECT_EQ(name_of(Orderer{"socket", 1000, "jo", ""}), "user jo, uid 1000");
+    EXPECT_EQ(name_of(Orderer{"socket", 4711, "", "Jo"}), "Jo (uid 4711)");
+    EXPECT_EQ(name_of(Orderer{"token", std::nullopt, "", "Jo"}), "Jo (token)");
+    EXPECT_EQ(name_of(Orderer{"token", std::nullopt, "", ""}), "token");
+    EXPECT_EQ(name_of(Orderer{}), "not known");
 }
 
 } // namespace

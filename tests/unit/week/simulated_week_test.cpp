@@ -38,7 +38,7 @@ bool all_of_it() {
 }
 // NOLINTEND(concurrency-mt-unsafe)
 
-std::string as_phrase(const Tally& tally) {
+std::string summary_of(const Tally& tally) {
     std::string words = std::to_string(tally.complete) + " of " + std::to_string(tally.armed) +
                         " runs complete, " + std::to_string(tally.requests) + " requests, " +
                         std::to_string(tally.acknowledged) + " done, " +
@@ -117,7 +117,7 @@ void live_a_week(std::uint64_t seed, Duration laser_idle_period) {
     for (int hour = 0; hour < hours_of_a_week; ++hour)
         week.hour();
     week.settle();
-    std::cout << "week " << seed << ": " << as_phrase(week.tally()) << "\n";
+    std::cout << "week " << seed << ": " << summary_of(week.tally()) << "\n";
     expect_a_good_week(week.tally());
     expect_flat(week.tally().bytes_at_midnight);
 }

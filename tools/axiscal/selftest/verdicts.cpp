@@ -8,7 +8,7 @@ namespace axiscal {
 namespace {
 
 /// "0.21 ms" or "35 us".
-std::string as_phrase(double us) {
+std::string in_ms_or_us(double us) {
     char text[32];
     if (us >= 100)
         std::snprintf(text, sizeof text, "%.3g ms", us / 1000);
@@ -40,16 +40,16 @@ Delays delays_of(std::vector<double> samples_us) {
 SelftestVerdict judge_commit(const Delays& commit) {
     if (commit.median_us < least_commit_us)
         return {false,
-                "The disk answers in " + as_phrase(commit.median_us) +
+                "The disk answers in " + in_ms_or_us(commit.median_us) +
                     ": no disk writes so fast, so it acknowledges from a cache, or the folder "
                     "lies in memory. A power cut can take points that the CNC was told are "
                     "safe. Put the state directory on a real disk with write-through."};
     if (commit.median_us > slow_commit_us)
-        return {false, "Each point holds the CNC " + as_phrase(commit.median_us) +
+        return {false, "Each point holds the CNC " + in_ms_or_us(commit.median_us) +
                            " longer than it must: a slow disk or a network folder. Nothing is lost "
                            "by it. A local SSD takes below 1 ms."};
-    return {true, "After its window a point takes " + as_phrase(commit.median_us) +
-                      " to be on disk, at worst " + as_phrase(commit.worst_us) +
+    return {true, "After its window a point takes " + in_ms_or_us(commit.median_us) +
+                      " to be on disk, at worst " + in_ms_or_us(commit.worst_us) +
                       "; the CNC waits that long for its answer. No reading waits for it."};
 }
 
@@ -58,24 +58,24 @@ SelftestVerdict judge_timer(const Delays& timer) {
                                " in it, unless the instrument numbers its own samples.";
     if (timer.p99_us > 5000)
         return {false,
-                "The computer wakes up to " + as_phrase(timer.worst_us) +
-                    " late (99 of 100: " + as_phrase(timer.p99_us) +
+                "The computer wakes up to " + in_ms_or_us(timer.worst_us) +
+                    " late (99 of 100: " + in_ms_or_us(timer.p99_us) +
                     "): it is busy with something else. Points at rest are not harmed, their "
                     "window is searched in the samples. " +
                     moving};
-    return {true, "The computer wakes " + as_phrase(timer.median_us) +
-                      " late, 99 of 100 times within " + as_phrase(timer.p99_us) + ", at worst " +
-                      as_phrase(timer.worst_us) +
+    return {true, "The computer wakes " + in_ms_or_us(timer.median_us) +
+                      " late, 99 of 100 times within " + in_ms_or_us(timer.p99_us) + ", at worst " +
+                      in_ms_or_us(timer.worst_us) +
                       ". Points at rest do not feel it: their window is searched in the samples. " +
                       moving};
 }
 
 SelftestVerdict judge_serial(const Delays& serial) {
     return {serial.p99_us <= 5000,
-            "A byte needs " + as_phrase(serial.median_us) +
+            "A byte needs " + in_ms_or_us(serial.median_us) +
                 " from the kernel to the program, 99 of "
                 "100 within " +
-                as_phrase(serial.p99_us) + ", at worst " + as_phrase(serial.worst_us) +
+                in_ms_or_us(serial.p99_us) + ", at worst " + in_ms_or_us(serial.worst_us) +
                 ". The adapter's own hold-back comes on top: name your ports to see it."};
 }
 
