@@ -9,7 +9,7 @@
 #include "drivers/trigger/single_register_map.hpp"
 #include "tests/bench/loopback.hpp"
 #include "tests/bench/row.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>

@@ -5,8 +5,8 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/fuzz/judge.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <algorithm>
 #include <filesystem>

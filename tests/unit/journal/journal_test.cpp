@@ -5,8 +5,8 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 #include "tests/unit/journal/manual_clock.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>

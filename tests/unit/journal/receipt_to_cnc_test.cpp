@@ -7,7 +7,7 @@
 #include "tests/support/port_bench.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/virtual_scheduler.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "drivers/loop/asio_scheduler.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/journal/manual_clock.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>

@@ -3,7 +3,7 @@
 
 #include "acquisition/runfile/digest.hpp"
 #include "pdf_tools.hpp"
-#include "tests/unit/publish/written_circle.hpp"
+#include "tests/unit/documents/written_circle.hpp"
 
 #include <nlohmann/json.hpp>
 

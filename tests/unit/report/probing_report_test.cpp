@@ -5,7 +5,7 @@
 #include "analysis/probing/probing_case.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
-#include "tests/unit/publish/probed_block.hpp"
+#include "tests/unit/documents/probed_block.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/publish/probed_block.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/documents/probed_block.hpp"
 
 #include <filesystem>
 #include <gtest/gtest.h>

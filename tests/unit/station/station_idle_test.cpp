@@ -1,6 +1,6 @@
 // A station with nothing to do: what it wakes for, what it opens, and that it is there at once.
 #include "tests/support/opening_count.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 #include <algorithm>

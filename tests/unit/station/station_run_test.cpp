@@ -2,7 +2,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
-#include "tests/unit/journal/one_row.hpp"
+#include "tests/unit/runfile/one_row.hpp"
 
 namespace axiscal::testing::station_run_test {
 namespace {

@@ -1,9 +1,9 @@
 #include "acquisition/runfile/run_file.hpp"
 
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/journal/random_run.hpp"
-#include "tests/unit/journal/written_run.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/runfile/random_run.hpp"
+#include "tests/unit/runfile/written_run.hpp"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>

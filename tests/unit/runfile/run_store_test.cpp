@@ -4,8 +4,8 @@
 
 #include "tests/support/opening_count.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>

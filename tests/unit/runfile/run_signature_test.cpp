@@ -3,8 +3,8 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/random_run.hpp"
-#include "tests/unit/journal/written_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
+#include "tests/unit/runfile/written_run.hpp"
 
 #include <gtest/gtest.h>
 

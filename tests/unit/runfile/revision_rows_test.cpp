@@ -5,7 +5,7 @@
 #include "acquisition/runfile/run_file_verify.hpp"
 #include "acquisition/runfile/statement.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/one_row.hpp"
+#include "tests/unit/runfile/one_row.hpp"
 
 #include <gtest/gtest.h>
 

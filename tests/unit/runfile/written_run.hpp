@@ -2,7 +2,7 @@
 // Writes run files, changes them from outside and hears what is told of them.
 
 #include "acquisition/runfile/run_file.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>

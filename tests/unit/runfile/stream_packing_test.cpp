@@ -5,7 +5,7 @@
 #include "acquisition/runfile/stream_packing.hpp"
 
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <gtest/gtest.h>
 

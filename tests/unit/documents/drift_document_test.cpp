@@ -6,8 +6,8 @@
 #include "acquisition/documents/run_verify.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/publish/evaluated.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/documents/evaluated.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "acquisition/runfile/run_store.hpp"
 
 #include "tests/support/scratch_folder.hpp"
-#include "tests/unit/journal/one_row.hpp"
-#include "tests/unit/journal/random_run.hpp"
+#include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/runfile/random_run.hpp"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
