@@ -84,7 +84,7 @@ Result<GivenNumbers> read_numbers(const FileHandle& file, const std::string& pat
         if (!given)
             return fail(Fault::refused,
                         path + ", line " + std::to_string(line) +
-                            " is damaged: put the file back from a backup. It tells which numbers "
+                            " is damaged: put the file back from a backup. It says which numbers "
                             "certificates bear, so that none is given twice");
         numbers.all.push_back(*std::move(given));
         numbers.bytes = end + 1;

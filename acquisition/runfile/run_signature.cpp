@@ -211,7 +211,7 @@ Result<SignatureReport> check_signatures(const std::string& run_file,
         return SignatureReport{
             SignatureVerdict::unknown_key,
             "signed with the key " + keys_text(file) +
-                "; --public-key with the station's public-keys.pem tells whether "
+                "; --public-key with the station's public-keys.pem shows whether "
                 "it is the station's"};
     for (const Row& row : file.signatures)
         if (std::string why = fault_of(file, row, known); !why.empty())

@@ -150,7 +150,7 @@ Result<StationKey> open_station_key(const std::string& state_directory,
     AXISCAL_TRY(auto found, read_key_file(path));
     if (machine_id.empty())
         return StationKey{nullptr,
-                          "Runs are closed without a signature: /etc/machine-id tells no machine, "
+                          "Runs are closed without a signature: /etc/machine-id names no machine, "
                           "and the key is tied to it ('sudo systemd-machine-id-setup', then start "
                           "axiscald anew).",
                           true};

@@ -94,7 +94,7 @@ Result<void> check_chunk(const StreamChunk& chunk) {
     if (!std::ranges::all_of(chunk.value, [](double value) { return std::isfinite(value); }))
         return bad(block, "holds a value that is no number");
     if (chunk.at.front() != block.begin || chunk.at.back() != block.end)
-        return bad(block, "begins or ends at another time than told");
+        return bad(block, "begins or ends at another time than stated");
     return {};
 }
 
@@ -126,7 +126,7 @@ StreamBlock packed(const StreamChunk& chunk) {
 
 Result<StreamChunk> unpacked(const StreamBlock& block) {
     if (block.samples < 1 || static_cast<std::size_t>(block.samples) > most_samples_a_block)
-        return bad(block, "tells an impossible number of samples");
+        return bad(block, "states an impossible number of samples");
     const auto count = static_cast<std::size_t>(block.samples);
     std::string bytes(count * 16, '\0');
     const char form = block.packed.empty() ? '\0' : block.packed.front();
@@ -135,7 +135,7 @@ Result<StreamChunk> unpacked(const StreamBlock& block) {
     const std::size_t size = ZSTD_decompress(bytes.data(), bytes.size(), block.packed.data() + 1,
                                              block.packed.size() - 1);
     if (ZSTD_isError(size) != 0 || size != bytes.size())
-        return bad(block, "does not hold the samples that it tells");
+        return bad(block, "does not hold the samples that it states");
     StreamChunk chunk{block, {}, {}};
     chunk.head.packed.clear();
     const std::string_view all = bytes;
@@ -161,7 +161,7 @@ Result<StreamSamples> samples_of(std::span<const StreamBlock> blocks, int stream
     std::int64_t next = 0;
     for (const StreamBlock& block : blocks) {
         if (block.stream != stream) continue;
-        if (block.index > most_blocks) return bad(block, "tells an impossible place");
+        if (block.index > most_blocks) return bad(block, "states an impossible place");
         if (block.index < next && stands_before(blocks, block)) continue;
         AXISCAL_TRY(StreamChunk chunk, unpacked(block));
         if (block.index < next) return bad(block, "comes out of order");

@@ -61,7 +61,7 @@ Result<CheckedPoints> check_points(Values x, Values y) {
                           " distinct point(s); a circle needs three");
     if (box.extent() < smallest_extent)
         return refuse(Fault::bad_case, "points",
-                      "lie within 1e-30 of each other: no circle is to be told");
+                      "lie within 1e-30 of each other: no circle can be fitted");
     const auto n = static_cast<double>(x.size());
     return CheckedPoints{box, seen.sum_x / n, seen.sum_y / n, std::move(distinct)};
 }

@@ -106,7 +106,7 @@ std::string advice_for(const CauseContribution& contribution,
         return "Drive at another feed and with the spindle and pumps off; what stays is the "
                "instrument's own noise or a control loop set too tight.";
     if (cause == "not_separable")
-        return "Drive a full circle in both senses: then each of them is told by itself.";
+        return "Drive a full circle in both senses: then each of them is determined by itself.";
     return about_axis(cause, axes);
 }
 

@@ -91,7 +91,8 @@ std::string remark_on_clock(Duration farthest) {
     if (farthest < noticeable) return {};
     return "The clock of the station's computer was set in mid-run, by up to " +
            std::to_string(std::llround(seconds_of(farthest))) +
-           " s. The times told here follow from its reading at the opening and from the monotonic "
+           " s. The times stated here follow from its reading at the opening and from the "
+           "monotonic "
            "clock, which nobody sets; the run file also keeps what the clock said.";
 }
 

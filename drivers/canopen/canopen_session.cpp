@@ -185,7 +185,7 @@ void CanOpenSession::judge_error_register(unsigned errors) {
     if (in_error_ || !tells_a_fault(errors)) return;
     in_error_ = true;
     context_.sink->note(Fault::signal_error, node_->name() +
-                                                 " tells of a fault in its error register, " +
+                                                 " reports a fault in its error register, " +
                                                  hexadecimal(errors));
 }
 
@@ -242,8 +242,8 @@ void CanOpenSession::take_emergency(const Emergency& emergency) {
         context_.sink->note(Fault::signal_error,
                             node_->name() +
                                 (emergency.code >> 8U == 0
-                                     ? " tells that a fault is over and another lasts: "
-                                     : " tells of a fault: ") +
+                                     ? " reports that a fault is over and another lasts: "
+                                     : " reports a fault: ") +
                                 emergency.describe());
 }
 

@@ -76,7 +76,8 @@ Task<Result<Cia404Unit>> CanOpen404::read_unit(std::uint8_t sub) {
     const auto unit = word ? cia404_unit(*word) : std::nullopt;
     if (!unit)
         co_return fail(Fault::bad_configuration,
-                       session_.node().name() + " tells no unit of temperature in " + name_of(key) +
+                       session_.node().name() + " states no unit of temperature in " +
+                           name_of(key) +
                            ": set unit = \"degC\", \"K\" or \"degF\" in the station file");
     co_return *unit;
 }
@@ -89,7 +90,7 @@ Task<Result<int>> CanOpen404::read_digits(std::uint8_t sub) {
         co_return tl::unexpected<Error>(digits.error());
     if (!digits || *digits > most_digits)
         co_return fail(Fault::bad_configuration,
-                       session_.node().name() + " tells no number of digits in " + name_of(key) +
+                       session_.node().name() + " states no number of digits in " + name_of(key) +
                            ": set digits = ... in the station file");
     co_return static_cast<int>(*digits);
 }

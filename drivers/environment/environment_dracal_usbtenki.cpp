@@ -154,7 +154,7 @@ Task<Result<void>> DracalUsbTenki::survey(UsbLink& link, InstrumentContext conte
     const int channels = count.bytes.size() == 1 ? static_cast<int>(byte_at(count.bytes, 0)) : 0;
     if (channels < 1 || channels > most_channels)
         co_return fail(Fault::bad_frame,
-                       link_settings_.describe() + " tells no number of channels");
+                       link_settings_.describe() + " states no number of channels");
     for (int channel = 0; channel < channels; ++channel) {
         AXISCAL_CO_TRY(const TimedBytes chip, co_await ask(link, context, get_chip, channel));
         chips_.push_back(chip.bytes.size() == 1 ? static_cast<int>(byte_at(chip.bytes, 0)) : -1);

@@ -51,7 +51,7 @@ Result<double> judged(long milli_degC) {
         return fail(Fault::signal_error, "85 degC is what the sensor shows after power-on: its "
                                          "supply broke, or no conversion took place");
     if (milli_degC == failed_milli_degC)
-        return fail(Fault::signal_error, "the sensor tells that its conversion failed");
+        return fail(Fault::signal_error, "the sensor reports that its conversion failed");
     if (milli_degC < lowest_milli_degC || milli_degC > highest_milli_degC)
         return fail(Fault::signal_error, "a temperature that the sensor cannot have");
     return static_cast<double>(milli_degC) / 1000;

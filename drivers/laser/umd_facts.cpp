@@ -82,7 +82,7 @@ std::string UmdFacts::missing() const {
     if (!setup_.resolution && !counts_per_cycle())
         text += " counts per cycle (code 20, or key counts_per_cycle)";
     if (!phase()) text += " phase format (code 10, or key phase)";
-    return "not told by the instrument:" + text;
+    return "not reported by the instrument:" + text;
 }
 
 std::string UmdFacts::contradiction() const {

@@ -70,7 +70,7 @@ std::string bar(double share_percent) {
 }
 
 std::string places_text(const Json& places) {
-    if (places.empty()) return "Strength   is not told by this laser\n";
+    if (places.empty()) return "Strength   is not reported by this laser\n";
     std::string text = "    from      to mm   mean  weakest   last %\n";
     for (const Json& place : places) {
         char line[128];

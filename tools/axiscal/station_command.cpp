@@ -164,7 +164,7 @@ Result<std::string> instrument_blocks(const std::vector<Chosen>& chosen,
         AXISCAL_TRY(const InstrumentDriver* driver, find_driver(one.driver));
         if (!driver->shows)
             return fail(Fault::bad_request, one.driver + " is no driver of a device: its page in "
-                                                         "docs/instruments tells its lines");
+                                                         "docs/instruments lists its lines");
         std::string block = toml_block(one.device, *driver, wires);
         const auto begin = block.find("name = \"") + 8;
         const std::string name = block.substr(begin, block.find('"', begin) - begin);

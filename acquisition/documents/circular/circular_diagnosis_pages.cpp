@@ -32,7 +32,7 @@ void draw_ranking(Sheet& sheet, const CircularCertificate& certificate) {
                         um_of(cause.G_mm), um_of(cause.G_b_mm),
                         sentence_on_paper(circular::with_names(cause.words, axes)),
                         cause.significant ? circular::advice_for(cause, diagnosis, axes)
-                                          : "Nothing: it is not told from 0."});
+                                          : "Nothing: it is not distinguishable from 0."});
     if (rows.empty()) {
         sheet.text("No cause rises above a picometre.", {7.5});
         return;

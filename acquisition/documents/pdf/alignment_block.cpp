@@ -16,7 +16,7 @@ std::string cosine_error_text(const std::optional<CosineError>& found) {
 }
 
 std::string strength_text(const std::vector<AlignmentPlace>& places) {
-    if (places.empty()) return "not told by the instrument";
+    if (places.empty()) return "not reported by the instrument";
     const auto weakest = std::ranges::min_element(places, {}, &AlignmentPlace::weakest_percent);
     return fixed(places.front().mean_percent, 0) + " % near, " +
            fixed(places.back().mean_percent, 0) + " % far; weakest " +

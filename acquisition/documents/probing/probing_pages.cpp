@@ -253,7 +253,7 @@ std::vector<std::string> saw_tooth_words(const std::vector<ProbingDelay>& result
         words.push_back("Saw-tooth found: " + found +
                         ". The control latches at ticks of its own, that far apart.");
     for (const auto& [reason, symbols] : lacking)
-        words.emplace_back(symbols).append(": no period is told: ").append(reason).append(".");
+        words.emplace_back(symbols).append(": no period is stated: ").append(reason).append(".");
     return words;
 }
 

@@ -157,7 +157,7 @@ TEST(CaseTable, IsRefusedByLineAndColumnWithTheWayOut) {
 TEST(CaseTable, IsRefusedWithoutItsUnitsOrTheKindOfItsReadings) {
     const std::string rows = "0,0.001,-0.001\n500,0.002,0.001\n";
     const std::string bare = refusal("target,run1 +,run1 -\n" + rows);
-    EXPECT_NE(bare.find("tells no unit"), std::string::npos) << bare;
+    EXPECT_NE(bare.find("states no unit"), std::string::npos) << bare;
     EXPECT_NE(bare.find("axiscal case new"), std::string::npos) << bare;
     const std::string kind = refusal("target [mm],run1 + [mm],run1 - [mm]\n" + rows);
     EXPECT_NE(kind.find("# readings: deviations"), std::string::npos) << kind;

@@ -112,7 +112,8 @@ TEST_F(ProbingReport, TellsTheServoTickAndTheSawToothThatItMakes) {
     const std::string text = in_one_line(text_of(document_of(test::probed_block())));
     EXPECT_THAT(text, HasSubstr("at 480 mm/min the tip moves 8.00 µm in 1 ms"));
     EXPECT_THAT(text, HasSubstr("Saw-tooth found: E_TD,X 1.000 ms (standard uncertainty"));
-    EXPECT_THAT(text, HasSubstr("E_TD,Y, E_TD,Z: no period is told: the readings lie on 2 levels"));
+    EXPECT_THAT(text,
+                HasSubstr("E_TD,Y, E_TD,Z: no period is stated: the readings lie on 2 levels"));
 }
 
 TEST_F(ProbingReport, TellsWhoProbedWhatAndMarksEachPagePreliminary) {
@@ -260,7 +261,7 @@ TEST(ProbingWords, TellWhyNoSawToothWasFoundOnceForEachReason) {
     EXPECT_THAT(saw_tooth_words(results),
                 ElementsAre("Saw-tooth found: E_TD,Y 4.000 ms (standard uncertainty 0.013 ms). "
                             "The control latches at ticks of its own, that far apart.",
-                            "E_TD,X, E_TD,Z: no period is told: fewer than 5 readings."));
+                            "E_TD,X, E_TD,Z: no period is stated: fewer than 5 readings."));
 }
 
 } // namespace

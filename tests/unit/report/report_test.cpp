@@ -268,7 +268,7 @@ TEST_F(Report, SaysHowTheBeamWasAligned) {
     alignment.far->passed_maximum = false;
     alignment.places.clear();
     EXPECT_THAT(text(), HasSubstr("or more: the maximum was not passed"));
-    EXPECT_THAT(text(), HasSubstr("not told by the instrument"));
+    EXPECT_THAT(text(), HasSubstr("not reported by the instrument"));
 }
 
 TEST_F(Report, PrintsTheCertificatesOfChannels) {

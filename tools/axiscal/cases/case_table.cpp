@@ -62,13 +62,13 @@ Result<std::string> common_unit(const CaseTable& table,
         if (own.empty() || own == unit) continue;
         if (!unit.empty())
             return refuse_column(table, table.header.cells[column],
-                                 "is in '" + printable(own) + "' where another tells '" +
+                                 "is in '" + printable(own) + "' where another states '" +
                                      printable(unit) + "': one unit for all");
         unit = own;
     }
     if (!unit.empty()) return unit;
     return refuse_column(table, table.header.cells[columns.front()],
-                         "tells no unit: write \"" +
+                         "states no unit: write \"" +
                              heading_of(table.header.cells[columns.front()]).name + " [" + usual +
                              "]\", or \"# " + key + ": " + usual + "\" above the header");
 }
@@ -246,7 +246,7 @@ Result<json> trace_of(const CaseTable& table, std::size_t column, const std::str
         return refuse_column(table, table.header.cells[column], "must be \"ccw\" or \"cw\"");
     if (heading.unit != "mm" && heading.unit != "um")
         return refuse_column(table, table.header.cells[column],
-                             "tells no unit: write \"" + sense + " [um]\" or \"" + sense +
+                             "states no unit: write \"" + sense + " [um]\" or \"" + sense +
                                  " [mm]\"");
     const std::string angles = "angle_" + angle_unit;
     json trace{{"sense", sense}, {angles, json::array()}, {"radial_deviation_mm", json::array()}};
@@ -266,7 +266,7 @@ Result<json> circular_of(const CaseTable& table) {
     const std::string unit = heading_of(table.header.cells[0]).unit;
     if (unit != "deg" && unit != "rad")
         return refuse_column(table, table.header.cells[0],
-                             "tells no unit: write \"angle [deg]\" or \"angle [rad]\"");
+                             "states no unit: write \"angle [deg]\" or \"angle [rad]\"");
     for (std::size_t column = 1; column < table.header.cells.size(); ++column) {
         AXISCAL_TRY(json trace, trace_of(table, column, unit));
         object["traces"].push_back(std::move(trace));

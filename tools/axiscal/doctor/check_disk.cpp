@@ -31,7 +31,7 @@ Finding check_commit(const std::string& folder) {
     const auto took = measure_commit(folder, commits);
     if (!took)
         return {Health::broken, "disk", "no point can be made durable: " + describe(took.error()),
-                "sudo dmesg | tail tells why a disk fails; is it full or read-only?"};
+                "sudo dmesg | tail shows why a disk fails; is it full or read-only?"};
     const SelftestVerdict verdict = judge_commit(*took);
     return {verdict.ok ? Health::good : Health::note, "disk", verdict.sentence,
             verdict.ok ? "" : "axiscal selftest --state-directory " + folder};

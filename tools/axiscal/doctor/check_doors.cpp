@@ -99,7 +99,7 @@ std::vector<Finding> check_account(const CheckedSystem& checked) {
     else
         found.push_back(
             {Health::note, "rights", "axiscald does not answer at its socket",
-             "sudo systemctl start axiscald; journalctl -u axiscald tells why it ended"});
+             "sudo systemctl start axiscald; journalctl -u axiscald shows why it ended"});
     return found;
 }
 
