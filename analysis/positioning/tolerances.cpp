@@ -11,7 +11,15 @@ namespace {
 /// Travels are written in decimals.
 constexpr double rounding = 1e-6;
 
-JudgedFigure judge_one(const FigureToJudge& figure, const ToleranceLimit* limit) {
+/// Why the rule decides nothing; empty: it does.
+std::string why_undecided(DecisionRule rule, const FigureToJudge& figure) {
+    if (rule == DecisionRule::none) return "no decision rule is stated";
+    if (rule != DecisionRule::simple && !figure.expanded_uncertainty) return "U not evaluated";
+    return {};
+}
+
+JudgedFigure
+judge_one(const FigureToJudge& figure, const ToleranceLimit* limit, DecisionRule rule) {
     JudgedFigure judged;
     judged.parameter = figure.parameter;
     judged.value = figure.value;
@@ -30,10 +38,11 @@ JudgedFigure judge_one(const FigureToJudge& figure, const ToleranceLimit* limit)
     }
     const double value = std::fabs(*figure.value);
     judged.comparison = value <= limit->limit ? "within_limit" : "beyond_limit";
-    if (!figure.expanded_uncertainty)
-        judged.reason = "U not evaluated";
-    else
-        judged.verdict = name_of(verdict_of(value, limit->limit, *figure.expanded_uncertainty));
+    judged.reason = why_undecided(rule, figure);
+    if (!judged.reason.empty()) return judged;
+    judged.guard_band =
+        guard_band_of(rule, figure.expanded_uncertainty.value_or(0), figure.coverage);
+    judged.verdict = name_of(verdict_of(value, limit->limit, *judged.guard_band));
     return judged;
 }
 
@@ -55,7 +64,8 @@ limit_for(const std::vector<ToleranceLimit>& limits, std::string_view parameter,
 
 std::vector<JudgedFigure> judge_figures(const std::vector<ToleranceLimit>& limits,
                                         const std::vector<FigureToJudge>& figures,
-                                        double travel) {
+                                        double travel,
+                                        DecisionRule rule) {
     std::vector<JudgedFigure> judged;
     for (const ToleranceLimit& limit : limits) {
         if (std::ranges::find(judged, limit.parameter, &JudgedFigure::parameter) != judged.end())
@@ -63,9 +73,15 @@ std::vector<JudgedFigure> judge_figures(const std::vector<ToleranceLimit>& limit
         const auto figure = std::ranges::find(figures, limit.parameter, &FigureToJudge::parameter);
         judged.push_back(
             judge_one(figure == figures.end() ? FigureToJudge{limit.parameter, {}, {}} : *figure,
-                      limit_for(limits, limit.parameter, travel)));
+                      limit_for(limits, limit.parameter, travel), rule));
     }
     return judged;
+}
+
+std::string_view overall_verdict(std::span<const JudgedFigure> judged) {
+    for (const std::string_view worst : {"fail", "not_provable", "not_evaluated", "pass"})
+        if (std::ranges::find(judged, worst, &JudgedFigure::verdict) != judged.end()) return worst;
+    return {};
 }
 
 } // namespace axiscal

@@ -291,7 +291,7 @@ class Result(Scratch):
             self.assertEqual(summary["parameters"][key]["U"], parameter["expanded_uncertainty"]["value"])
 
     def test_limits_give_verdicts_and_a_partial_result_has_none(self):
-        limits = self.file("limits.json", json.dumps({"name": "agreed", "source": "order 17", "unit": "um", "limits": [
+        limits = self.file("limits.json", json.dumps({"name": "agreed", "source": "order 17", "unit": "um", "rule": "guard-U", "limits": [
             {"parameter": "A", "limit": 1e6}, {"parameter": "B", "limit": 0.001}]}))
         whole = self.expect(0, "result", self.aborted(50, complete=True), "--tolerances", limits, "--json")
         parameters = json.loads(whole.stdout)["parameters"]

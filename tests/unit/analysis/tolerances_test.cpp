@@ -3,8 +3,12 @@
 #include "analysis/positioning/tolerances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 #include <random>
+#include <string_view>
+#include <vector>
 
 namespace axiscal::tolerances_test {
 namespace {
@@ -41,8 +45,10 @@ TEST(LimitFor, OrderOfTheBandsDoesNotMatter) {
     }
 }
 
-JudgedFigure judged(const FigureToJudge& figure, double travel = 400) {
-    const auto all = judge_figures(bands, {figure}, travel);
+JudgedFigure judged(const FigureToJudge& figure,
+                    double travel = 400,
+                    DecisionRule rule = DecisionRule::guard_U) {
+    const auto all = judge_figures(bands, {figure}, travel, rule);
     return *std::ranges::find(all, figure.parameter, &JudgedFigure::parameter);
 }
 
@@ -53,6 +59,56 @@ TEST(JudgeFigures, WithUncertaintyTheVerdictIsThatOfIso14253) {
     EXPECT_EQ(judged({"A", 24.1, 2}).verdict, "fail");
     EXPECT_EQ(judged({"A", 24.1, 2}).comparison, "beyond_limit");
     EXPECT_TRUE(judged({"A", 24.1, 2}).reason.empty());
+}
+
+TEST(JudgeFigures, WithoutARuleNothingIsDecided) {
+    const auto undecided = judged({"A", 1, 0.1}, 400, DecisionRule::none);
+    EXPECT_EQ(undecided.verdict, "not_evaluated");
+    EXPECT_EQ(undecided.comparison, "within_limit");
+    EXPECT_EQ(undecided.reason, "no decision rule is stated");
+    EXPECT_FALSE(undecided.guard_band);
+}
+
+TEST(JudgeFigures, TheSimpleRuleTakesTheBareNumbers) {
+    for (const std::optional<double> U : {std::optional<double>{}, std::optional{3.0}}) {
+        const auto at_limit = judged({"A", 22, U}, 400, DecisionRule::simple);
+        EXPECT_EQ(at_limit.verdict, "pass");
+        EXPECT_EQ(at_limit.guard_band, 0);
+        EXPECT_EQ(judged({"A", 22.001, U}, 400, DecisionRule::simple).verdict, "fail");
+    }
+}
+
+/// Probability that a normal figure lies below the limit, by the error function.
+double probability_of_conformity(double value, double limit, double u) {
+    return 0.5 * std::erfc((value - limit) / (u * std::sqrt(2.0)));
+}
+
+TEST(JudgeFigures, TheRuleOf2017ProvesWithAProbabilityOf95Percent) {
+    const double limit = 22;
+    for (const double coverage : {2.0, 3.0}) {
+        for (int i = 0; i <= 200; ++i) {
+            const FigureToJudge figure{"A", 18 + 0.04 * i, 2.0, coverage};
+            const double probability =
+                probability_of_conformity(*figure.value, limit, 2.0 / coverage);
+            const std::string_view wanted = probability >= 0.95   ? "pass"
+                                            : probability <= 0.05 ? "fail"
+                                                                  : "not_provable";
+            EXPECT_EQ(judged(figure, 400, DecisionRule::iso_14253_1_2017).verdict, wanted)
+                << *figure.value << " k " << coverage;
+        }
+    }
+}
+
+TEST(OverallVerdict, IsThatOfTheWorstFigure) {
+    const auto of = [](const std::vector<FigureToJudge>& figures) {
+        return overall_verdict(
+            judge_figures({{"A", {}, 22}, {"B", {}, 10}}, figures, 400, DecisionRule::guard_U));
+    };
+    EXPECT_EQ(of({{"A", 1, 1}, {"B", 1, 1}}), "pass");
+    EXPECT_EQ(of({{"A", 1, 1}, {"B", 1, {}}}), "not_evaluated");
+    EXPECT_EQ(of({{"A", 22, 1}, {"B", 1, {}}}), "not_provable");
+    EXPECT_EQ(of({{"A", 22, 1}, {"B", 12, 1}}), "fail");
+    EXPECT_EQ(overall_verdict({}), "");
 }
 
 TEST(JudgeFigures, WithoutUncertaintyOnlyTheNumbersAreCompared) {
@@ -74,11 +130,13 @@ TEST(JudgeFigures, SaysWhyThereIsNoVerdict) {
     EXPECT_EQ(judged({"A", 5, 1}, 5000).reason, "the travel is longer than every band");
     EXPECT_TRUE(judged({"A", 5, 1}, 5000).comparison.empty());
     // a parameter that the result does not have at all
-    EXPECT_EQ(judge_figures(bands, {}, 400)[1].reason, "the figure was not evaluated");
+    EXPECT_EQ(judge_figures(bands, {}, 400, DecisionRule::guard_U)[1].reason,
+              "the figure was not evaluated");
 }
 
 TEST(JudgeFigures, GivesOneVerdictAParameterInTheOrderOfTheSet) {
-    const auto all = judge_figures(bands, {{"M", 1, {}}, {"A", 1, {}}, {"E", 1, {}}}, 400);
+    const auto all = judge_figures(bands, {{"M", 1, {}}, {"A", 1, {}}, {"E", 1, {}}}, 400,
+                                   DecisionRule::guard_U);
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[0].parameter, "A");
     EXPECT_EQ(all[1].parameter, "B");

@@ -19,7 +19,8 @@ json limited_case() {
         "axis":{"name":"X","kind":"linear"},"unit":"mm","readings":"deviations",
         "targets":[0,100,200],"forward":[[0.001,0.003],[0.002,0.004],[0.003,0.005]],
         "backward":[[-0.001,0.001],[0,0.002],[0.001,0.003]],
-        "tolerances":{"name":"agreed","source":"order 17","unit":"um","limits":[
+        "tolerances":{"name":"agreed","source":"order 17","unit":"um",
+          "rule":"guard-U","limits":[
           {"parameter":"E","travel_up_to_mm":150,"limit":3},
           {"parameter":"E","travel_up_to_mm":500,"limit":5},
           {"parameter":"B","limit":1.5},{"parameter":"U_max","limit":1}]}})");

@@ -87,6 +87,15 @@ Result<std::vector<ToleranceLimit>> limits_of(const json& member, const LimitRea
     return limits;
 }
 
+Result<DecisionRule> rule_of(const json& member) {
+    Words names;
+    for (const DecisionRule rule : stated_rules)
+        names.emplace_back(name_of(rule));
+    AXISCAL_TRY(const std::string stated, one_of(member, "rule", "tolerances.rule", names));
+    return *std::ranges::find_if(stated_rules,
+                                 [&](DecisionRule rule) { return name_of(rule) == stated; });
+}
+
 ordered_json verdict_json(const JudgedFigure& judged, const char* band_key) {
     ordered_json verdict;
     verdict["verdict"] = judged.verdict;
@@ -95,6 +104,7 @@ ordered_json verdict_json(const JudgedFigure& judged, const char* band_key) {
     if (judged.value) verdict["value"] = *judged.value;
     if (judged.expanded_uncertainty) verdict["expanded_uncertainty"] = *judged.expanded_uncertainty;
     if (judged.limit) verdict["limit"] = *judged.limit;
+    if (judged.guard_band) verdict["guard_band"] = *judged.guard_band;
     if (judged.travel_up_to) verdict[band_key] = *judged.travel_up_to;
     return verdict;
 }
@@ -114,7 +124,7 @@ std::vector<FigureToJudge> figures_of(const ordered_json& parameters) {
 } // namespace
 
 Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) {
-    AXISCAL_CHECK(check_object(member, "tolerances", {"unit", "limits", "to_be_checked"}));
+    AXISCAL_CHECK(check_object(member, "tolerances", {"unit", "limits", "to_be_checked", "rule"}));
     ToleranceSet set;
     set.kind = axis.kind;
     const bool linear = axis.kind == AxisKind::linear;
@@ -128,6 +138,10 @@ Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) 
             return refuse(Fault::bad_case, "tolerances.to_be_checked", "must be true or false");
         set.to_be_checked = member.at("to_be_checked").get<bool>();
     }
+    if (member.contains("rule")) {
+        AXISCAL_TRY(set.rule, rule_of(member));
+    }
+    set.unit = axis.unit;
     AXISCAL_TRY(set.limits, limits_of(member, {linear ? "travel_up_to_mm" : "travel_up_to_deg",
                                                unit, axis.unit}));
     return set;
@@ -136,11 +150,12 @@ Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) 
 void add_verdicts(const ToleranceSet& set, double travel, ordered_json& document) {
     document["tolerances"]["name"] = set.name;
     document["tolerances"]["source"] = set.source;
+    document["tolerances"]["rule"] = name_of(set.rule);
     document["tolerances"]["to_be_checked"] = set.to_be_checked;
     const char* band_key = set.kind == AxisKind::linear ? "travel_up_to_mm" : "travel_up_to_deg";
     ordered_json& verdicts = document["verdicts"] = ordered_json::object();
     for (const JudgedFigure& judged :
-         judge_figures(set.limits, figures_of(document.at("parameters")), travel))
+         judge_figures(set.limits, figures_of(document.at("parameters")), travel, set.rule))
         verdicts[judged.parameter] = verdict_json(judged, band_key);
 }
 

@@ -8,20 +8,19 @@
 
 namespace axiscal {
 
-struct ToleranceSet {
-    std::string name, source;
-    bool to_be_checked = false;
+/// Limits in the unit of the case; travels in mm or degrees.
+struct ToleranceSet : ToleranceRecord {
     AxisKind kind = AxisKind::linear;
-    std::vector<ToleranceLimit> limits; ///< in the unit of the case; travels in mm or degrees
 };
 
-/// {"name", "source", "unit", "to_be_checked", "limits": [{"parameter", "travel_up_to_mm" or
-/// "travel_up_to_deg", "limit"}]}; converted to the unit of the axis.
+/// {"name", "source", "unit", "rule", "to_be_checked", "limits": [{"parameter", "travel_up_to_mm"
+/// or "travel_up_to_deg", "limit"}]}; converted to the unit of the axis. Without `rule` nothing is
+/// decided.
 /// @errors Fault::bad_case by field; a parameter that no standard knows, a band that stands twice.
 Result<ToleranceSet> tolerance_set_of(const nlohmann::json& member, const CaseAxis& axis);
 
-/// Adds `tolerances` (name, source, mark) and `verdicts`; values and expanded uncertainties are
-/// taken from `parameters` of the finished document. `travel` in mm or degrees.
+/// Adds `tolerances` (name, source, rule, mark) and `verdicts`; values and expanded uncertainties
+/// are taken from `parameters` of the finished document. `travel` in mm or degrees.
 void add_verdicts(const ToleranceSet& set, double travel, nlohmann::ordered_json& document);
 
 } // namespace axiscal

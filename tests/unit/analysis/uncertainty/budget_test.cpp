@@ -228,7 +228,7 @@ TEST(UncertaintyBudgetRefuses, WhatIsIncompleteTwiceOrOfTheOtherAxis) {
 }
 
 TEST(Verdict, ProvesOnlyWhatLiesBeyondTheUncertainty) {
-    // ISO 14253-1: conformity up to limit - U, non-conformity above limit + U
+    // ISO 14253-1: conformity up to limit - g, non-conformity above limit + g
     EXPECT_EQ(verdict_of(8, 10, 2), Verdict::pass);
     EXPECT_EQ(verdict_of(std::nextafter(8.0, 9), 10, 2), Verdict::not_provable);
     EXPECT_EQ(verdict_of(12, 10, 2), Verdict::not_provable);
