@@ -133,6 +133,15 @@ ChainedRow row_of_touch(const ProbingTouch& touch) {
                     latched[0].si(), latched[1].si(), latched[2].si()});
 }
 
+std::vector<ChainedRow> rows_of(const ToleranceRecord& set) {
+    const auto& [name, source, unit, rule, to_be_checked, limits] = set;
+    std::vector<ChainedRow> rows{
+        chained("tolerance_set", {name, source, unit, text(name_of(rule)), whole(to_be_checked)})};
+    for (const auto& [parameter, travel_up_to, limit] : limits)
+        rows.push_back(chained("tolerance_limit", {parameter, optional(travel_up_to), limit}));
+    return rows;
+}
+
 std::vector<ChainedRow> rows_of(std::monostate /*positioning*/) {
     return {};
 }
@@ -191,6 +200,9 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
         for (const auto& [parameter, limit] : header.uncertainty->targets)
             rows.push_back(chained("uncertainty_target", {parameter, limit.si()}));
     }
+    if (header.tolerances) std::ranges::move(rows_of(*header.tolerances), std::back_inserter(rows));
+    for (const std::string& name : header.standards)
+        rows.push_back(chained("standard", {name}));
     for (const auto& [name, value] : named_statements)
         rows.push_back(chained("statement", {text(name), header.statements.*value}));
     for (const auto& instrument : header.instruments)

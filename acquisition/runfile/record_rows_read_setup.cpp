@@ -156,6 +156,31 @@ void read_uncertainty_target(RunRecord& run, RowReader& in) {
     run.uncertainty->targets.push_back(std::move(target));
 }
 
+void read_tolerance_set(RunRecord& run, RowReader& in) {
+    ToleranceRecord set;
+    set.name = in.text();
+    set.source = in.text();
+    set.unit = in.text();
+    set.rule = in.choice({DecisionRule::none, DecisionRule::iso_14253_1_2017,
+                          DecisionRule::guard_U, DecisionRule::simple});
+    set.to_be_checked = in.flag();
+    if (run.tolerances) return in.reject("stands there twice");
+    run.tolerances = std::move(set);
+}
+
+void read_tolerance_limit(RunRecord& run, RowReader& in) {
+    ToleranceLimit limit;
+    limit.parameter = in.text();
+    limit.travel_up_to = in.optional_real();
+    limit.limit = in.real();
+    if (!run.tolerances) run.tolerances.emplace(); // the writer checks each row by itself
+    run.tolerances->limits.push_back(std::move(limit));
+}
+
+void read_standard(RunRecord& run, RowReader& in) {
+    run.standards.push_back(in.text());
+}
+
 void read_statement(RunRecord& run, RowReader& in) {
     const std::string name = in.text();
     const auto known = std::ranges::find(named_statements, name, &NamedStatement::name);

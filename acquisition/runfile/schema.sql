@@ -45,6 +45,15 @@ CREATE TABLE uncertainty(link INTEGER PRIMARY KEY, device_U_m ANY, device_U_per_
     eve_model TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE uncertainty_target(link INTEGER PRIMARY KEY, parameter TEXT NOT NULL UNIQUE,
     limit_m ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+-- The limits that were agreed on, in `unit` of the set, and the rule by which figures are held against them.
+CREATE TABLE tolerance_set(link INTEGER PRIMARY KEY, name TEXT NOT NULL, source TEXT NOT NULL,
+    unit TEXT NOT NULL, rule TEXT NOT NULL, to_be_checked INTEGER NOT NULL,
+    hash BLOB NOT NULL) STRICT;
+CREATE TABLE tolerance_limit(link INTEGER PRIMARY KEY, parameter TEXT NOT NULL, travel_up_to ANY,
+    largest ANY NOT NULL, hash BLOB NOT NULL) STRICT;
+-- By which the figures are computed and named, the certificate's own first.
+CREATE TABLE standard(link INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,
+    hash BLOB NOT NULL) STRICT;
 CREATE TABLE statement(link INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, value TEXT NOT NULL,
     hash BLOB NOT NULL) STRICT;
 CREATE TABLE instrument(link INTEGER PRIMARY KEY, name TEXT NOT NULL, driver TEXT NOT NULL,

@@ -8,6 +8,7 @@
 #include "analysis/quantity/time.hpp"
 #include "analysis/record/rotary_setup.hpp"
 #include "analysis/record/test_kind.hpp"
+#include "analysis/record/tolerance_record.hpp"
 
 #include <array>
 #include <cstdint>
@@ -297,6 +298,10 @@ struct RunRecord {
     /// The reference is this scale: of `laser` instrument and sign count, of `air` the age alone.
     std::optional<ScaleSetup> scale;
     std::optional<UncertaintySetup> uncertainty;
+    std::optional<ToleranceRecord> tolerances; ///< of this kind of test; absent: none was agreed
+    /// By which the figures are computed and named (analysis/positioning/standards.hpp), the
+    /// certificate's own first; empty: the kind's usual one.
+    std::vector<std::string> standards;
     Statements statements;
     std::vector<InstrumentRecord> instruments;
     std::vector<ChannelRecord> channels;

@@ -126,7 +126,10 @@ def linear(reference):
     rows = with_synchronisation(read(reference))
     put_behind(rows, "air", [("uncertainty", [None, None, 2.0, 2e-6, 1e-6, 0.001, None, 1.0, 2e-6, 1.7e-6, "mean"]),
                              ("uncertainty_target", ["A", 0.000005]),
-                             ("uncertainty_target", ["B_mean", 0.000005])])
+                             ("uncertainty_target", ["B_mean", 0.000005]),
+                             ("tolerance_set", ["agreed", "order 17", "um", "guard-U", 0]),
+                             ("tolerance_limit", ["A", 500.0, 20.0]), ("tolerance_limit", ["B", None, 6.0]),
+                             ("standard", ["ISO 230-2:2014"]), ("standard", ["VDI/DGQ 3441"])])
     put_behind(rows, "channel", [
         ("channel_calibration", [1, "C-1", "2026-01-01", "2027-01-01", 0.1, None, 2.0]),
         ("channel_calibration", [4, "C-4", "2026-01-01", "2027-01-01", 0.1, None, 2.0]),

@@ -25,6 +25,7 @@ RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 KINDS = ("linear", "revised", "circular", "rotary", "scale", "probing", "drift")
 # What the schema holds to be unique gets another value in a copied row.
 NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement", "name"): "name || '2'",
+            ("standard", "name"): "name || '2'",
             ("channel_calibration", "channel"): "channel + 100", ("linear_scale_sensor", "channel"): "channel + 100",
             ("point", "step"): "step + 1000",
             ("stream", "id"): "id + 100", ("retake", "number"): "number + 100",

@@ -36,6 +36,9 @@ public:
         run.air = {pick(2) == 0 ? AirFormula::edlen : AirFormula::ciddor, number(),
                    Duration{integer()}};
         if (pick(3) > 0) fill_uncertainty(run.uncertainty.emplace());
+        if (pick(2) == 0) fill_tolerances(run.tolerances.emplace());
+        for (int i = pick(3); i > 0; --i)
+            run.standards.push_back(text() + std::to_string(i)); // each once
         boost::pfr::for_each_field(run.statements, [&](std::string& field) { field = text(); });
         for (int i = pick(4); i > 0; --i) {
             auto& instrument = run.instruments.emplace_back();
@@ -186,6 +189,15 @@ private:
         rotary.run_out = text();
         for (int i = pick(9); i > 0; --i)
             rotary.deviations_arcsec.push_back(number());
+    }
+
+    void fill_tolerances(ToleranceRecord& set) {
+        set.name = text(), set.source = text(), set.unit = text();
+        set.rule = static_cast<DecisionRule>(pick(4));
+        set.to_be_checked = pick(2) == 0;
+        for (int i = pick(5); i > 0; --i)
+            set.limits.push_back(
+                {text(), pick(2) == 0 ? std::optional{number()} : std::nullopt, number()});
     }
 
     void fill_alignment(AlignmentRecord& alignment) {

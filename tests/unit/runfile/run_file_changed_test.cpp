@@ -205,6 +205,29 @@ TEST(RunFile, RefusesAFarRestInParts) {
     EXPECT_FALSE(read_run_file(path));
 }
 
+TEST(RunFile, ChainsTheLimitsTheRuleAndTheStandards) {
+    const ScratchFolder scratch;
+    RunRecord run = RandomRun{27}.header();
+    run.tolerances = ToleranceRecord{
+        "agreed", "order 17", "um", DecisionRule::guard_U, false, {{"A", 500, 20}, {"B", {}, 6}}};
+    run.standards = {"ISO 230-2:2006", "VDI/DGQ 3441"};
+    for (const std::string change :
+         {"UPDATE tolerance_set SET rule = 'simple'", "UPDATE tolerance_set SET rule = 'mine'",
+          "UPDATE tolerance_limit SET largest = 30.0 WHERE parameter = 'A'",
+          "UPDATE tolerance_limit SET travel_up_to = NULL", "DELETE FROM tolerance_limit",
+          "DELETE FROM tolerance_set", "UPDATE standard SET name = 'mine' WHERE name LIKE 'V%'",
+          "DELETE FROM standard"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        const auto read = read_run_file(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(run.tolerances, read->tolerances));
+        EXPECT_EQ(run.standards, read->standards);
+        run_sql(path, change);
+        EXPECT_FALSE(read_run_file(path)) << change;
+    }
+}
+
 TEST(RunFile, ChainsTheUncertaintyStatement) {
     const ScratchFolder scratch;
     for (const std::string change :
