@@ -189,6 +189,9 @@ struct StationConfig {
     std::optional<UncertaintySetup> uncertainty; ///< of a linear axis; absent: no such table
     /// Drift test that E_VE comes from: its run id, or "latest"; empty: uncertainty->eve counts.
     std::string eve_run;
+    /// Of every kind of test; limits in um, those of a rotary axis in arcsec; travels in mm or
+    /// degrees. `unit` is left to the run.
+    std::optional<ToleranceRecord> tolerances;
     Statements statements;
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.

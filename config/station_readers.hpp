@@ -82,6 +82,8 @@ void read_trigger(Settings trigger,
 /// Nothing without the table. `eve_run`: StationConfig::eve_run.
 std::optional<UncertaintySetup>
 read_uncertainty(Settings root, AxisKind kind, std::string& eve_run);
+/// Nothing without the table. After the axis, whose kind gives the units.
+void read_tolerances(Settings root, StationConfig& config);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// Addresses and networks that may connect, as in ["192.168.10.20", "192.168.20.0/24"].

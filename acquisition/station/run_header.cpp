@@ -67,6 +67,15 @@ std::optional<ScaleSetup> scale_of(const RunHeaderParts& parts) {
     return scale;
 }
 
+/// Those of this kind of test, in the unit of its figures.
+std::optional<ToleranceRecord> tolerances_of(const StationConfig& config, TestKind kind) {
+    if (!config.tolerances) return std::nullopt;
+    auto set = limits_of_kind(*config.tolerances, kind);
+    const bool angle = config.cycle.axis_kind == AxisKind::rotary && kind != TestKind::circular;
+    if (set) set->unit = angle ? "arcsec" : "um";
+    return set;
+}
+
 /// What the device says of itself, completed by what the station file states.
 InstrumentRecord instrument_of(const InstrumentConfig& config, const Identity& identity) {
     return {.name = config.name,
@@ -185,6 +194,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     if (config.axis.angle) run.rotary = config.axis.angle->setup;
     run.scale = scale_of(parts);
     run.uncertainty = config.uncertainty;
+    run.tolerances = tolerances_of(config, parts.kind);
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
     for (const auto& [key, value] : request.statements) {

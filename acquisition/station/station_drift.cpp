@@ -169,6 +169,7 @@ Result<Station::RestingTest> Station::drift_of_bar(const DriftRequest& request) 
     header.statements.axis = plane;
     header.laser = {};
     header.laser.instrument = config_.ballbar->instrument;
+    if (header.rotary) header.tolerances.reset(); // stated in arcsec, of the axis
     header.rotary.reset();
     header.scale.reset();
     header.channels = every_channel(*roles_.ballbar, roles_.of_circles());

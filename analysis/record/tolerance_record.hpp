@@ -2,9 +2,12 @@
 // The limits that a customer and a maker agreed on, and the rule by which a figure with an
 // uncertainty is held against them. Pure data.
 
+#include "analysis/record/test_kind.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,5 +48,11 @@ struct ToleranceRecord {
     bool to_be_checked = false; ///< nobody has compared the numbers with their source
     std::vector<ToleranceLimit> limits;
 };
+
+/// The figures of this kind of test that a limit can name, those of every standard for positioning.
+std::span<const std::string_view> judged_parameters(TestKind kind);
+
+/// The set with the limits of this kind alone; nothing where it has none.
+std::optional<ToleranceRecord> limits_of_kind(const ToleranceRecord& set, TestKind kind);
 
 } // namespace axiscal

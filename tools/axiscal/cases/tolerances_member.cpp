@@ -1,46 +1,12 @@
 #include "tools/axiscal/cases/tolerances_member.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace axiscal {
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-/// Every parameter of every standard here.
-constexpr std::array<std::string_view, 31> judged_parameters{"A",
-                                                             "A_forward",
-                                                             "A_backward",
-                                                             "E",
-                                                             "E_forward",
-                                                             "E_backward",
-                                                             "M",
-                                                             "R",
-                                                             "R_forward",
-                                                             "R_backward",
-                                                             "B",
-                                                             "B_mean",
-                                                             "P",
-                                                             "Pa",
-                                                             "Ps_max",
-                                                             "Ps_mean",
-                                                             "U_max",
-                                                             "U_mean",
-                                                             "A_raw",
-                                                             "A_raw_forward",
-                                                             "A_raw_backward",
-                                                             "R_raw",
-                                                             "R_raw_forward",
-                                                             "R_raw_backward",
-                                                             "accuracy",
-                                                             "accuracy_forward",
-                                                             "accuracy_backward",
-                                                             "repeatability",
-                                                             "repeatability_forward",
-                                                             "repeatability_backward",
-                                                             "positioning"};
 
 /// From one unit to another; the quotient of powers of ten is taken so that 22 um are 0.022 mm.
 double converted(double value, const std::string& from, const std::string& to) {
@@ -58,8 +24,8 @@ limit_of(const json& object, const std::string& field, const LimitReader& reader
     AXISCAL_CHECK(check_object(object, field, {"parameter", band_key, "limit"}));
     ToleranceLimit limit;
     AXISCAL_TRY(limit.parameter, text_of(object, "parameter", field + ".parameter"));
-    if (limit.parameter != "lost_motion" &&
-        std::ranges::find(judged_parameters, limit.parameter) == judged_parameters.end())
+    const auto known = judged_parameters(TestKind::positioning);
+    if (std::ranges::find(known, limit.parameter) == known.end())
         return refuse(Fault::bad_case, field + ".parameter",
                       "is no parameter of any standard; see docs/analysis/positioning.md");
     AXISCAL_TRY(const double stated, positive_at(object, "limit", field + ".limit"));

@@ -1,0 +1,111 @@
+// [tolerances]: the limits that were agreed on, and the rule by which a figure is held against
+// them.
+#include "config/station_readers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axiscal {
+namespace {
+
+/// 20 um are no binary fraction of a metre: what was written comes back to a billionth.
+double as_written(double value) {
+    return std::round(value * 1e9) / 1e9;
+}
+
+std::vector<std::string> parameters_of(std::initializer_list<TestKind> kinds) {
+    std::vector<std::string> names;
+    for (const TestKind kind : kinds)
+        for (const std::string_view name : judged_parameters(kind))
+            names.emplace_back(name);
+    return names;
+}
+
+bool is_of(TestKind kind, std::string_view parameter) {
+    const auto known = judged_parameters(kind);
+    return std::ranges::find(known, parameter) != known.end();
+}
+
+/// In um; of a rotary axis the figures of its positioning and its drift in arcsec.
+double read_limit(Settings& table, const std::string& parameter, AxisKind kind) {
+    const bool angle = kind == AxisKind::rotary && (is_of(TestKind::positioning, parameter) ||
+                                                    is_of(TestKind::drift, parameter));
+    if (!angle) return as_written(table.length("limit", nm(1), metre(1)).in(um));
+    constexpr double arcsec_per_degree = 3600;
+    return as_written(table.rotary_length("limit", nm(1), metre(1)).in(mm)*arcsec_per_degree);
+}
+
+void read_band(Settings& table, AxisUnits units, ToleranceLimit& limit) {
+    const auto band = units.optional_coordinate(table, "travel_up_to", mm(0.001), farthest);
+    if (!band) return;
+    limit.travel_up_to = as_written(band->in(mm));
+    if (!limit.parameter.empty() && !is_of(TestKind::positioning, limit.parameter))
+        table.refuse("travel_up_to",
+                     limit.parameter + " has no travel: only figures of positioning have bands");
+}
+
+ToleranceLimit read_one(Settings table, AxisKind kind) {
+    ToleranceLimit limit;
+    limit.parameter =
+        table.choice("parameter", parameters_of({TestKind::positioning, TestKind::circular,
+                                                 TestKind::drift, TestKind::probing}));
+    if (table.refused("parameter")) limit.parameter.clear();
+    limit.limit = read_limit(table, limit.parameter, kind);
+    read_band(table, AxisUnits{kind}, limit);
+    return limit;
+}
+
+void read_limits(Settings& table, bool stated, AxisKind kind, ToleranceRecord& set) {
+    for (Settings& one : table.tables("limits")) {
+        ToleranceLimit limit = read_one(one, kind);
+        const bool twice = std::ranges::any_of(set.limits, [&](const ToleranceLimit& other) {
+            return other.parameter == limit.parameter && other.travel_up_to == limit.travel_up_to;
+        });
+        if (twice && !limit.parameter.empty())
+            one.refuse("parameter", limit.parameter + " stands there twice for the same travel: "
+                                                      "keep one");
+        set.limits.push_back(std::move(limit));
+    }
+    if (stated && set.limits.empty() && !table.refused("limits"))
+        table.refuse("limits",
+                     "is empty: write limits = [{ parameter = \"A\", limit = \"20 um\" }]");
+}
+
+DecisionRule read_rule(Settings& table) {
+    std::vector<std::string> names;
+    for (const DecisionRule rule : stated_rules)
+        names.emplace_back(name_of(rule));
+    const std::string stated =
+        table.choice("rule", names, std::string{name_of(DecisionRule::none)});
+    const auto* found = std::ranges::find_if(
+        stated_rules, [&](DecisionRule rule) { return name_of(rule) == stated; });
+    return found == stated_rules.end() ? DecisionRule::none : *found;
+}
+
+void warn_without_rule(const Settings& table, StationConfig& config) {
+    config.warnings.push_back(
+        {config.file, table.line(), "tolerances.rule",
+         "no decision rule: certificates compare with the limits and state no verdict; agree on "
+         "\"14253-1:2017\", \"guard-U\" or \"simple\" and write it here"});
+}
+
+} // namespace
+
+void read_tolerances(Settings root, StationConfig& config) {
+    const bool stated = root.has("tolerances");
+    Settings table = root.table("tolerances");
+    ToleranceRecord set;
+    set.name = table.text("name", "limits of the station file");
+    set.source = table.text("source", "");
+    set.to_be_checked = table.flag("to_be_checked", false);
+    set.rule = read_rule(table);
+    read_limits(table, stated, config.cycle.axis_kind, set);
+    if (!stated) return;
+    if (set.source.empty() && !table.refused("source"))
+        table.refuse("source", "is missing: where are these limits from? An order, a data sheet, a "
+                               "standard with its table; it is printed");
+    if (!table.has("rule")) warn_without_rule(table, config);
+    config.tolerances = std::move(set);
+}
+
+} // namespace axiscal
