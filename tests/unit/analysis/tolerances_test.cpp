@@ -1,6 +1,6 @@
 // Limits by travel band, and what is said of a figure.
 
-#include "analysis/positioning/tolerances.hpp"
+#include "analysis/conformity/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // `tolerances` of a positioning case: the user's limits, and the verdicts on them. Pure.
 
-#include "analysis/positioning/tolerances.hpp"
+#include "analysis/conformity/tolerances.hpp"
 #include "tools/axiscal/cases/positioning_input.hpp"
 
 #include <nlohmann/json.hpp>

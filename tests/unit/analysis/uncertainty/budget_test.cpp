@@ -1,6 +1,6 @@
 #include "analysis/uncertainty/budget.hpp"
 
-#include "analysis/uncertainty/verdict.hpp"
+#include "analysis/conformity/verdict.hpp"
 #include "tests/unit/analysis/reference_data.hpp"
 
 #include <cmath>

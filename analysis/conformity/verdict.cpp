@@ -1,4 +1,4 @@
-#include "analysis/uncertainty/verdict.hpp"
+#include "analysis/conformity/verdict.hpp"
 
 namespace axiscal {
 

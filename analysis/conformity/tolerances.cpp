@@ -1,6 +1,6 @@
-#include "analysis/positioning/tolerances.hpp"
+#include "analysis/conformity/tolerances.hpp"
 
-#include "analysis/uncertainty/verdict.hpp"
+#include "analysis/conformity/verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
