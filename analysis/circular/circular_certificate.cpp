@@ -196,6 +196,24 @@ bool CircularCertificate::needs(std::string_view term) const {
     });
 }
 
+namespace {
+
+/// With the U that the certificate prints.
+std::vector<FigureToJudge> figures_to_judge(const CircularCertificate& certificate) {
+    std::vector<FigureToJudge> figures;
+    for (const auto& [key, value_mm] : circular::figures_by_key(certificate.parameters)) {
+        FigureToJudge figure{key, value_mm, {}};
+        if (const auto* known = certificate.uncertainty_of(key)) {
+            figure.expanded_uncertainty = known->expanded_mm;
+            figure.coverage = certificate.budget->coverage;
+        }
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+} // namespace
+
 Result<CircularCertificate> evaluate_measurement(CircularMeasurement measured,
                                                  std::string file_sha256) {
     CircularCertificate out;
@@ -211,6 +229,7 @@ Result<CircularCertificate> evaluate_measurement(CircularMeasurement measured,
         out.capture_effect = capture_effect(from.test, from.run.capture);
     }
     AXISCAL_CHECK(evaluate_uncertainty(out));
+    out.conformity = conformity_of(from.run.tolerances, figures_to_judge(out), "mm");
     return out;
 }
 

@@ -4,7 +4,7 @@
 
 #include "analysis/circular/capture_effect.hpp"
 #include "analysis/circular/circular_run.hpp"
-#include "analysis/circular/circular_uncertainty.hpp"
+#include "analysis/conformity/conformity.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <cstddef>
@@ -61,6 +61,7 @@ struct CircularCertificate {
     std::string result_digest;            ///< of canonical_bytes(parameters); filled by the caller
     std::vector<std::string> remarks;
     std::string replaces; ///< the certificate that this one replaces; empty: it is the first
+    std::optional<Conformity> conformity; ///< of a run with limits
     /// U of one figure, where every term that counts in it is stated: with one left out it would be
     /// too small. Null otherwise.
     [[nodiscard]] const CircularFigureUncertainty* uncertainty_of(std::string_view key) const;

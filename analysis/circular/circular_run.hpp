@@ -6,6 +6,7 @@
 #include "analysis/circular/circular_parameters.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_record.hpp"
+#include "analysis/record/tolerance_record.hpp"
 #include "analysis/record/run_revisions.hpp"
 #include "analysis/record/synchronisation.hpp"
 
@@ -59,6 +60,7 @@ struct CircularRun {
     CircularTemperature bar_temperature, machine_temperature, air_temperature;
     std::optional<double> machine_alpha_per_K;
     CircularUncertaintyStatement uncertainty;
+    std::optional<ToleranceRecord> tolerances; ///< in um
     std::string eve_source; ///< drift test that its E_VE is of; empty: somebody stated it
     std::uint64_t gaps = 0, missing = 0; ///< of the whole stream
     std::uint64_t dropped_blocks = 0;    ///< lost because the disk did not keep up

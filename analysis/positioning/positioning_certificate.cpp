@@ -6,6 +6,7 @@
 #include "analysis/record/run_clock.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -259,6 +260,40 @@ private:
 
 } // namespace
 
+namespace {
+
+/// With the U that the certificate prints, in the unit of the result.
+std::vector<FigureToJudge> figures_to_judge(const Certificate& certificate) {
+    const PositioningParameters& p = certificate.result.parameters;
+    const double budget_units = budget_units_per(certificate.result.unit);
+    const std::array<std::optional<double>, positioning_parameters.size()> values{
+        p.A, p.A_forward, p.A_backward, p.E, p.E_forward, p.E_backward,
+        p.M, p.R,         p.R_forward,  p.R_backward, p.B, p.B_mean};
+    std::vector<FigureToJudge> figures;
+    const auto& budget = certificate.uncertainty.budget;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        FigureToJudge figure{std::string{positioning_parameters[i]}, values[i], {}};
+        const auto* known = budget ? budget->find(figure.parameter) : nullptr;
+        if (known) {
+            figure.expanded_uncertainty = known->expanded / budget_units;
+            figure.coverage = budget->coverage;
+        }
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+} // namespace
+
+std::optional<Conformity> conformity_of(const Certificate& certificate,
+                                        const std::optional<ToleranceRecord>& limits,
+                                        std::optional<double> travel) {
+    if (certificate.completeness.partial()) return std::nullopt;
+    const auto [low, high] = std::ranges::minmax(certificate.planned_targets);
+    return conformity_of(limits, figures_to_judge(certificate), certificate.result.unit,
+                         travel.value_or(high - low));
+}
+
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256) {
     return make_certificate(std::move(run), {}, std::move(run_file_sha256));
 }
@@ -313,6 +348,7 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);
+    certificate.conformity = conformity_of(certificate, certificate.run.tolerances);
     return certificate;
 }
 

@@ -2,6 +2,7 @@
 // Everything a certificate prints, computed once from a closed run. Rendering only formats it.
 // Pure.
 
+#include "analysis/conformity/conformity.hpp"
 #include "analysis/positioning/completeness.hpp"
 #include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/record/run_attachments.hpp"
@@ -11,6 +12,7 @@
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,8 @@ struct Certificate {
     RunAttachments attachments;      ///< of the same file; left empty by make_certificate()
     /// The certificate that this one replaces; left empty by make_certificate(), and for the first.
     std::string replaces = {};
+    /// Of a complete result with limits.
+    std::optional<Conformity> conformity = {};
 };
 
 /// The whole road from a run to its certificate. Of a run that was not closed as complete
@@ -69,6 +73,12 @@ struct Certificate {
 Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256);
 Result<Certificate>
 make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256);
+
+/// A result against other limits than those of its run; `travel` left out: what the targets of the
+/// plan reach over. Nothing of a partial result, which has no verdict.
+std::optional<Conformity> conformity_of(const Certificate& certificate,
+                                        const std::optional<ToleranceRecord>& limits,
+                                        std::optional<double> travel = {});
 
 /// Every figure of the result in one fixed order, so that equal figures give equal bytes anywhere:
 /// the text "axiscal.canonical/1"; k and n; A, A_forward, A_backward, E, E_forward, E_backward, M,

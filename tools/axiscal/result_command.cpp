@@ -53,7 +53,8 @@ Result<void> check_positioning(const RunSummary& run) {
                                     run.path + "' gives its figures");
 }
 
-Result<void> add_limits(const ResultRequest& request, const Certificate& made, Json& document) {
+/// Limits of a file take the place of those of the run.
+Result<void> take_limits(const ResultRequest& request, Certificate& made) {
     if (request.tolerances.empty()) return {};
     std::ifstream file{request.tolerances};
     if (!file) return fail(Fault::io, "cannot read " + request.tolerances);
@@ -63,10 +64,9 @@ Result<void> add_limits(const ResultRequest& request, const Certificate& made, J
     const bool rotary = made.run.plan.axis_kind == AxisKind::rotary;
     const std::string unit = rotary ? "deg" : "mm";
     AXISCAL_TRY(
-        const ToleranceSet set,
+        ToleranceSet set,
         tolerance_set_of(member, {made.run.statements.axis, made.run.plan.axis_kind, unit, unit}));
-    const auto [low, high] = std::ranges::minmax(made.planned_targets);
-    add_verdicts(set, request.travel.value_or(high - low), document);
+    made.conformity = conformity_of(made, std::move(set), request.travel);
     return {};
 }
 
@@ -83,12 +83,10 @@ Result<void> print_result(const ResultRequest& request, bool json) {
     AXISCAL_TRY(const std::string path, find_run(request.run, request.station_file));
     AXISCAL_TRY(const RunSummary run, summarize_run_file(path));
     AXISCAL_CHECK(check_positioning(run));
-    AXISCAL_TRY(const TestResult result, evaluate_run_file(path));
-    const auto& certificate =
-        std::get<Certificate>(result); // check_positioning() has seen the kind
-    Json document = certificate_to_json(certificate);
-    AXISCAL_CHECK(add_limits(request, certificate, document));
-    const Json summary = result_summary(document);
+    AXISCAL_TRY(TestResult result, evaluate_run_file(path));
+    auto& certificate = std::get<Certificate>(result); // check_positioning() has seen the kind
+    AXISCAL_CHECK(take_limits(request, certificate));
+    const Json summary = result_summary(certificate_to_json(certificate));
     std::cout << (json ? json_text(summary) + "\n" : result_text(summary, about(certificate)))
               << std::flush;
     return {};

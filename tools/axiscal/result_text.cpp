@@ -3,11 +3,14 @@
 #include "analysis/positioning/standards.hpp"
 #include "config/json_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace axiscal {
@@ -119,6 +122,42 @@ std::string not_evaluated_text(const Json& reasons) {
     return text;
 }
 
+/// Null where no limit names the parameter.
+Json verdict_on(const std::string& parameter, const Json& document) {
+    if (!document.contains("verdicts")) return {};
+    for (const Json& row : document.at("verdicts"))
+        if (row.at("parameter") == parameter) return row.at("verdict");
+    return {};
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> verdict_words{
+    {{"pass", "PASS: every limit is kept"},
+     {"fail", "FAIL: a limit is not kept"},
+     {"not_provable", "NOT PROVABLE: the uncertainty is too large for a decision"},
+     {"not_evaluated", "NO VERDICT"}}};
+
+/// What a person looks for first: does the axis keep its limits?
+std::string verdict_text(const Json& summary, const PaperUnit& unit) {
+    if (!summary.contains("verdict")) return {};
+    const auto verdict = summary.at("verdict").get<std::string>();
+    const auto* words = std::ranges::find(verdict_words, verdict,
+                                          &std::pair<std::string_view, std::string_view>::first);
+    const Json& agreed = summary.at("tolerances");
+    std::string text = wrapped(std::string{words->second} + " (" + agreed.at("name").get<std::string>() +
+                                   "; rule " + agreed.at("rule").get<std::string>() + ")",
+                               0);
+    for (const Json& row : summary.at("verdicts")) {
+        std::string line = row.at("parameter").get<std::string>() + ": " +
+                           row.at("verdict").get<std::string>();
+        if (row.at("limit").is_number())
+            line += ", limit " + hundredths(row.at("limit").get<double>() * unit.factor) + " " +
+                    unit.name;
+        if (row.at("reason").is_string()) line += ", " + row.at("reason").get<std::string>();
+        text += wrapped(line, 2);
+    }
+    return text;
+}
+
 } // namespace
 
 Json result_summary(const Json& document) {
@@ -128,13 +167,16 @@ Json result_summary(const Json& document) {
     summary["k"] = nullptr;
     summary["completeness"] = document.at("completeness");
     summary["parameters"] = Json::object();
-    const bool partial = document.at("completeness").at("status") == "partial";
-    const Json verdicts = partial ? Json::object() : document.value("verdicts", Json::object());
+    if (document.contains("verdict")) { // no partial result has one
+        summary["verdict"] = document.at("verdict");
+        summary["verdicts"] = document.at("verdicts");
+        summary["tolerances"] = document.at("tolerances");
+    }
     for (const auto& [key, parameter] : document.at("parameters").items()) {
         Json& figure = summary["parameters"][key];
         figure["value"] = parameter.at("value");
         figure["U"] = nullptr;
-        figure["verdict"] = verdicts.contains(key) ? verdicts.at(key).at("verdict") : Json{};
+        figure["verdict"] = verdict_on(key, document);
         if (!parameter.contains("expanded_uncertainty")) continue;
         figure["U"] = parameter.at("expanded_uncertainty").at("value");
         summary["k"] = parameter.at("expanded_uncertainty").at("k");
@@ -145,7 +187,8 @@ Json result_summary(const Json& document) {
 
 std::string result_text(const Json& summary, const std::string& about) {
     const PaperUnit unit = paper_unit_of(summary.at("unit").get<std::string>());
-    std::string text = wrapped("Run " + summary.at("run").get<std::string>(), 0);
+    std::string text = verdict_text(summary, unit);
+    text += wrapped("Run " + summary.at("run").get<std::string>(), 0);
     text += wrapped(about, 0) + completeness_text(summary.at("completeness"));
     text += std::string{"Figures in "} + unit.name;
     text +=

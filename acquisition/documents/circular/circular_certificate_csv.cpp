@@ -1,6 +1,7 @@
 #include "acquisition/documents/circular/circular_certificate_csv.hpp"
 
 #include "acquisition/documents/circular/circular_json.hpp"
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/csv_text.hpp"
 #include "analysis/circular/circular_trials.hpp"
 
@@ -38,6 +39,7 @@ void append_head(std::string& csv, const CircularCertificate& certificate) {
 }
 
 void append_figures(std::string& csv, const CircularCertificate& certificate) {
+    append_conformity(csv, certificate.conformity);
     const SignalSource source = certificate.measured.test.source;
     for (const auto& [key, value] : circular::figures_by_key(certificate.parameters)) {
         const std::string label = circular_label(key, source);

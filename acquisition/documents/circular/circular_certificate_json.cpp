@@ -1,6 +1,7 @@
 #include "acquisition/documents/circular/circular_certificate_json.hpp"
 
 #include "acquisition/documents/circular/circular_json.hpp"
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
 #include "analysis/circular/circular_trials.hpp"
@@ -229,6 +230,7 @@ Json circular_certificate_to_json(const CircularCertificate& certificate) {
     Json document = circular_to_json({measured.test, measured.axes, certificate.parameters,
                                       certificate.diagnosis, certificate.budget});
     limit_uncertainty(document, certificate);
+    add_conformity(document, certificate.conformity);
     document["compensation"] = compensation_of(certificate);
     document["zones"] = zones_of(certificate);
     if (!certificate.of_repeats.empty()) {

@@ -94,6 +94,7 @@ CircularRun header_of(const RunRecord& run, const CircularSetup& setup) {
     circular.calibrations = run.calibrations;
     circular.machine_alpha_per_K = setup.machine_alpha_per_K;
     circular.uncertainty = setup.uncertainty;
+    circular.tolerances = run.tolerances;
     circular.events = run.events;
     return circular;
 }

@@ -2,6 +2,7 @@
 
 #include "acquisition/documents/alignment_json.hpp"
 #include "acquisition/documents/csv_text.hpp"
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
 #include "analysis/record/run_clock.hpp"
@@ -187,6 +188,12 @@ std::vector<const ChannelDrift*> every_channel_of(const RunDrift& drift) {
     return channels;
 }
 
+/// In the unit of the axis. Where readings were refused the ranges may be too small: no figure.
+std::vector<FigureToJudge> figures_to_judge(const RunDrift& drift) {
+    if (!drift.refused.empty()) return {};
+    return {{"E_VE", drift.eve.range, {}}, {"ETVE", drift.window.range, {}}};
+}
+
 } // namespace
 
 Result<DriftResult> drift_result_of(const std::string& path, RunFileContents contents) {
@@ -199,6 +206,8 @@ Result<DriftResult> drift_result_of(const std::string& path, RunFileContents con
     tell_times_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.retakes,
                             contents.run.closed);
     tell_orders_by_one_clock(contents.run.opened, contents.run.events, contents.revisions.orders);
+    result.conformity =
+        conformity_of(contents.run.tolerances, figures_to_judge(result.drift), result.drift.unit);
     result.run = std::move(contents.run);
     result.attachments = std::move(contents.attachments);
     result.orders = std::move(contents.revisions.orders);
@@ -230,6 +239,7 @@ Json drift_to_json(const DriftResult& document) {
     object["format"] = "axiscal.drift/1";
     object["standard"] = drift_standards(drift);
     object["unit"] = drift.unit;
+    add_conformity(object, document.conformity);
     object["parameters"] = parameters_of(drift);
     object["slope_per_h"] = stated_json(drift.slope_per_h);
     object["budget"] = budget_of(document);
@@ -262,6 +272,7 @@ std::string drift_csv(const DriftResult& document) {
     put_figure(text, "E_VE", axis, drift.unit, drift.eve.range);
     for (const ChannelDrift* channel : every_channel_of(drift))
         put_figures(text, *channel);
+    append_conformity(text, document.conformity);
     return text;
 }
 

@@ -2,6 +2,7 @@
 // A closed drift test as the documents that leave the station. Pure.
 
 #include "acquisition/runfile/run_file.hpp"
+#include "analysis/conformity/conformity.hpp"
 #include "analysis/drift/run_drift.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
@@ -19,6 +20,7 @@ struct DriftResult {
     RunAttachments attachments;
     std::vector<OrderRecord> orders; ///< who began it
     RunDrift drift;
+    std::optional<Conformity> conformity; ///< of a test with limits
     std::string run_file_sha256, result_digest;
 };
 

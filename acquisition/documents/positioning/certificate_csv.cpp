@@ -1,5 +1,6 @@
 #include "acquisition/documents/positioning/certificate_csv.hpp"
 
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/csv_text.hpp"
 #include "acquisition/documents/positioning/certificate_json.hpp"
 #include "acquisition/documents/uncertainty_json.hpp"
@@ -184,6 +185,7 @@ std::string certificate_csv(const Certificate& certificate) {
     std::string csv;
     append_head(csv, certificate);
     append_completeness(csv, certificate);
+    append_conformity(csv, certificate.conformity);
     append_parameters(csv, certificate);
     append_budget(csv, certificate);
     append_synchronisation(csv, certificate);

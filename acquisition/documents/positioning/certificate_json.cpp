@@ -1,6 +1,7 @@
 #include "acquisition/documents/positioning/certificate_json.hpp"
 
 #include "acquisition/documents/alignment_json.hpp"
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/positioning/result_json.hpp"
 #include "acquisition/documents/record_json.hpp"
@@ -363,6 +364,7 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
 
 Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
+    add_conformity(document, certificate.conformity);
     document["completeness"] = completeness_of(certificate);
     document["compensation"] = compensation_of(certificate);
     add_uncertainty(document, certificate);

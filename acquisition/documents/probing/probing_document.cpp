@@ -1,9 +1,11 @@
 #include "acquisition/documents/probing/probing_document.hpp"
 
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
 #include "analysis/probing/probing_case.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace axiscal {
@@ -57,6 +59,19 @@ Json run_of(const ProbingResult& document) {
     return object;
 }
 
+/// Of several series of one direction the largest.
+std::vector<FigureToJudge> figures_to_judge(const std::vector<ProbingDelay>& results) {
+    std::vector<FigureToJudge> figures;
+    for (const ProbingDelay& result : results) {
+        const auto same = std::ranges::find(figures, result.symbol, &FigureToJudge::parameter);
+        if (same == figures.end())
+            figures.push_back({result.symbol, result.variation_mm, {}});
+        else
+            same->value = std::max(*same->value, result.variation_mm);
+    }
+    return figures;
+}
+
 } // namespace
 
 Result<ProbingResult> probing_result_of(const std::string& path, RunFileContents contents) {
@@ -67,6 +82,7 @@ Result<ProbingResult> probing_result_of(const std::string& path, RunFileContents
     ProbingResult result;
     result.record = std::move(*record);
     AXISCAL_TRY(result.results, evaluate_probing_delay(case_of(result.record)));
+    result.conformity = conformity_of(contents.run.tolerances, figures_to_judge(result.results), "mm");
     result.run = std::move(contents.run);
     result.result_digest = digest_of(result.results);
     return result;
@@ -87,6 +103,7 @@ Json probing_to_json(const ProbingResult& document) {
     object["unit"] = "mm";
     object["feed_mm_per_min"] = document.record.feed_mm_per_min;
     object["feed_mm_per_ms"] = feed_mm_per_ms(document.record);
+    add_conformity(object, document.conformity);
     object["parameters"] = series_list(document.results);
     object["preliminary"] = true;
     object["missing"] = Json::array({"an uncertainty budget"});

@@ -2,6 +2,7 @@
 // A recorded probing test as the documents that leave the station. Pure.
 
 #include "acquisition/runfile/run_file.hpp"
+#include "analysis/conformity/conformity.hpp"
 #include "analysis/probing/probing_delay.hpp"
 #include "analysis/record/probing_record.hpp"
 #include "analysis/record/run_record.hpp"
@@ -18,6 +19,7 @@ struct ProbingResult {
     RunRecord run;
     ProbingRecord record;
     std::vector<ProbingDelay> results; ///< one a series
+    std::optional<Conformity> conformity; ///< of a test with limits
     std::string run_file_sha256, result_digest;
 };
 
