@@ -2,6 +2,7 @@
 #include "acquisition/documents/circular/circular_units.hpp"
 #include "acquisition/documents/circular/circular_wording.hpp"
 #include "acquisition/documents/pdf/back_parts.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 
 #include <algorithm>
 #include <array>
@@ -204,6 +205,7 @@ void draw_circular_condition_pages(Sheet& sheet,
                                    const CircularCertificate& certificate,
                                    const std::vector<StatedField>& shortened) {
     const CircularRun& run = certificate.measured.run;
+    draw_conformity(sheet, certificate.conformity, circular_symbols(certificate));
     draw_conditions(sheet, certificate);
     draw_capture_effect(sheet, certificate);
     draw_temperatures(sheet, certificate);

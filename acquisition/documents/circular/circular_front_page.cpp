@@ -1,6 +1,7 @@
 #include "acquisition/documents/circular/circular_pages.hpp"
 #include "acquisition/documents/circular/circular_wording.hpp"
 #include "acquisition/documents/circular/polar_plot.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/pdf/front_parts.hpp"
 #include "analysis/circular/cause_advice.hpp"
 
@@ -29,6 +30,31 @@ std::string subject_of(const CircularCertificate& certificate) {
            (full ? "full circle"
                  : "arc of " + fixed(certificate.parameters.cover.arc_deg, 0) + "°") +
            (measured.test.source == SignalSource::feedback ? "; feedback signals" : "");
+}
+
+/// "G(b) = 9.6 µm ± 1.2 µm"; G where one sense was driven.
+std::string main_figure(const CircularCertificate& certificate) {
+    const auto lines = figure_lines(certificate);
+    for (const std::string_view wanted : {"G_b", "G_ccw", "G_cw"})
+        for (const CircularFigureLine& line : lines) {
+            if (line.key != wanted) continue;
+            const int decimals = deviation_decimals(certificate);
+            const auto* known = certificate.uncertainty_of(line.key);
+            return circular_symbols(certificate)(line.key) + " = " +
+                   micrometres(line.value_mm, decimals) + " µm" +
+                   (known ? " ± " + fixed_up(known->expanded_mm * 1000, decimals) + " µm"
+                          : ", U not evaluated");
+        }
+    return "no figure";
+}
+
+FrontAnswer answer_of(const CircularCertificate& certificate) {
+    const CircularMeasurement& measured = certificate.measured;
+    return {stated(measured.run.statements.machine) + ", plane " + measured.axes[0] +
+                measured.axes[1],
+            stated(iso_date_of(measured)),
+            verdict_on_paper(certificate.conformity, circular_symbols(certificate)),
+            main_figure(certificate)};
 }
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const CircularCertificate& certificate) {
@@ -182,7 +208,8 @@ std::vector<StatedField> draw_circular_front_page(Sheet& sheet,
     const CircularMeasurement& measured = certificate.measured;
     const bool elsewhere = measured.taken_elsewhere;
     draw_front_title(sheet, {elsewhere ? "Report of a circular test" : "Calibration certificate",
-                             measured.run.statements.state, subject_of(certificate)});
+                             measured.run.statements.state, subject_of(certificate),
+                             answer_of(certificate)});
     auto shortened = draw_identity(sheet, certificate);
     draw_front_instruments(sheet, measured.run.instruments, iso_date_of(measured), shortened);
     sheet.advance(6);

@@ -70,6 +70,13 @@ int quadrant_at(double angle_rad) {
 
 } // namespace
 
+std::function<std::string(std::string_view)>
+circular_symbols(const CircularCertificate& certificate) {
+    return [&certificate](std::string_view key) {
+        return symbol_with_index(std::string{key}, certificate);
+    };
+}
+
 std::vector<CircularFigureLine> figure_lines(const CircularCertificate& certificate) {
     const auto figures = circular::figures_by_key(certificate.parameters);
     std::vector<CircularFigureLine> lines;

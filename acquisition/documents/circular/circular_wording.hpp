@@ -4,7 +4,9 @@
 #include "acquisition/documents/pdf/wording.hpp"
 #include "analysis/circular/circular_certificate.hpp"
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -22,6 +24,10 @@ std::vector<CircularFigureLine> figure_lines(const CircularCertificate& certific
 std::string radial_centre_text(const CircularCertificate& certificate);
 /// "Not evaluated: G(b), D: one sense only was measured"
 std::vector<std::string> reasons_not_evaluated(const CircularCertificate& certificate);
+
+/// What paper writes for a figure's key: "G XY", "F max YX"; the certificate must outlive it.
+std::function<std::string(std::string_view)>
+circular_symbols(const CircularCertificate& certificate);
 
 /// Of a micrometre: 2 where the widest zone is below 2 µm, else 1.
 int deviation_decimals(const CircularCertificate& certificate);

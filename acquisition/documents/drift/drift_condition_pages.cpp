@@ -1,6 +1,7 @@
 // What a drift test was made with, and what happened meanwhile.
 #include "acquisition/documents/drift/drift_pages.hpp"
 #include "acquisition/documents/pdf/back_parts.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/positioning/certificate_pages.hpp"
 #include "analysis/drift/resting_axis.hpp"
 #include "analysis/record/certificate_expiry.hpp"
@@ -130,6 +131,7 @@ void draw_setup(Sheet& sheet, const DriftResult& document) {
 void draw_drift_conditions(Sheet& sheet,
                            const DriftResult& document,
                            const std::vector<StatedField>& shortened) {
+    draw_conformity(sheet, document.conformity, symbol_as_it_is);
     const RunRecord& run = document.run;
     draw_calibrations(sheet, run.calibrations, run.channels, run_date_of(run));
     draw_setup(sheet, document);

@@ -1,6 +1,7 @@
 #include "acquisition/documents/drift/drift_pages.hpp"
 
 #include "acquisition/documents/drift/drift_plot.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/positioning/certificate_pages.hpp"
 #include "analysis/quantity/counted.hpp"
 #include "analysis/record/certificate_expiry.hpp"
@@ -9,6 +10,15 @@
 
 namespace axiscal {
 namespace {
+
+FrontAnswer answer_of(const DriftResult& document) {
+    const RunRecord& run = document.run;
+    const RunDrift& drift = document.drift;
+    const std::string value = fixed(drift.eve.range, length_decimals(drift.eve.range));
+    return {stated(run.statements.machine) + ", " + drift_subject_text(document),
+            dates_of_test(run).issued_on, verdict_on_paper(document.conformity, symbol_as_it_is),
+            "E_VE = " + value + " " + drift_unit_on_paper(drift) + ", U not evaluated"};
+}
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const DriftResult& document) {
     const RunRecord& run = document.run;
@@ -165,7 +175,8 @@ std::vector<StatedField> draw_drift_front_page(Sheet& sheet, const DriftResult& 
     draw_front_title(sheet, {"Drift test", run.statements.state,
                              "Environmental variation E_VE " + rested + " at rest, " +
                                  duration_text(drift.setup.duration) + ", a reading each " +
-                                 duration_text(drift.setup.interval)});
+                                 duration_text(drift.setup.interval),
+                             answer_of(document)});
     auto shortened = draw_identity(sheet, document);
     draw_front_instruments(sheet, run.instruments, run_date_of(run), shortened);
     draw_figures(sheet, drift);

@@ -7,6 +7,27 @@
 
 namespace axiscal {
 
+namespace {
+
+/// Two lines in a frame; a long name of a machine is cut, its full text stands among the fields.
+void draw_answer(Sheet& sheet, const FrontAnswer& answer) {
+    Canvas& canvas = sheet.canvas();
+    constexpr TextStyle item{11, true}, date{11, true}, verdict{13, true}, figure{11, true};
+    constexpr double height = 40, inset = 7, gap = 12;
+    const PageBox box{Sheet::left, sheet.y() + 4, Sheet::width, height};
+    canvas.box(box, {ink, 1.2});
+    const double left = box.x + inset, right = box.right() - inset;
+    const double date_room = canvas.width_of(answer.date, date) + gap;
+    canvas.paragraph({left, box.y + 3}, right - left - date_room, answer.item, item, 1);
+    canvas.text({right, box.y + 14}, answer.date, date, Align::right);
+    const double figure_room = canvas.width_of(answer.figure, figure) + gap;
+    canvas.paragraph({left, box.y + 20}, right - left - figure_room, answer.verdict, verdict, 1);
+    canvas.text({right, box.y + 32}, answer.figure, figure, Align::right);
+    sheet.advance(height + 8);
+}
+
+} // namespace
+
 void draw_front_title(Sheet& sheet, const FrontTitle& title) {
     Canvas& canvas = sheet.canvas();
     const std::string state = "State: " + stated(title.state);
@@ -19,8 +40,7 @@ void draw_front_title(Sheet& sheet, const FrontTitle& title) {
     canvas.text({Sheet::left, sheet.y() + 15}, title.title, {16, true});
     sheet.advance(22);
     sheet.text(title.subject, {8});
-    sheet.advance(2);
-    sheet.rule();
+    draw_answer(sheet, title.answer);
 }
 
 PageFrame page_frame_of(const RunRecord& run, const std::string& run_file_sha256) {

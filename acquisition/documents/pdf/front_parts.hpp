@@ -11,8 +11,14 @@ namespace axiscal {
 
 inline constexpr double signature_height = 112; ///< what draw_signatures() takes at the page's end
 
+/// What is read in five seconds, from two metres or on a grey copy.
+struct FrontAnswer {
+    std::string item, date;      ///< "Portal mill, axis X"; "2026-01-02"
+    std::string verdict, figure; ///< "FAIL: R"; "A = 16.4 µm ± 2.4 µm"
+};
 struct FrontTitle {
     std::string title, state, subject;
+    FrontAnswer answer;
 };
 void draw_front_title(Sheet& sheet, const FrontTitle& title);
 

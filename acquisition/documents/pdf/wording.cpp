@@ -1,5 +1,7 @@
 #include "acquisition/documents/pdf/wording.hpp"
 
+#include "analysis/positioning/standards.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -125,6 +127,11 @@ std::vector<ParameterLine> parameters_of_one_direction(const PositioningParamete
             {"E_backward", "E↓", "Systematic error, backward", p.E_backward},
             {"R_forward", "R↑", "Repeatability, forward", p.R_forward},
             {"R_backward", "R↓", "Repeatability, backward", p.R_backward}};
+}
+
+std::string positioning_symbol(std::string_view key) {
+    const FigureLabel label = figure_label(key, "ISO 230-2:2014", {});
+    return label.symbol.empty() ? std::string{key} : label.symbol;
 }
 
 std::vector<std::string> reasons_not_evaluated(const PositioningResult& result) {

@@ -50,6 +50,9 @@ struct ParameterLine {
 std::vector<ParameterLine> parameters_of_both_directions(const PositioningParameters& parameters);
 std::vector<ParameterLine> parameters_of_one_direction(const PositioningParameters& parameters);
 
+/// "A↑" of "A_forward"; what is no figure of ISO 230-2 as it stands.
+std::string positioning_symbol(std::string_view key);
+
 /// "A, A↑: reason" for each reason of `not_evaluated`, symbols in printing order.
 std::vector<std::string> reasons_not_evaluated(const PositioningResult& result);
 

@@ -1,4 +1,5 @@
 #include "acquisition/documents/pdf/back_parts.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/pdf/plots.hpp"
 #include "acquisition/documents/positioning/certificate_pages.hpp"
 #include "analysis/record/certificate_expiry.hpp"
@@ -219,6 +220,7 @@ void draw_condition_pages(Sheet& sheet,
                           const Certificate& certificate,
                           const std::vector<StatedField>& shortened) {
     sheet.new_page();
+    draw_conformity(sheet, certificate.conformity, positioning_symbol);
     draw_environment(sheet, certificate);
     draw_environment_table(sheet, certificate);
     draw_calibrations(sheet, certificate.run.calibrations, certificate.run.channels,

@@ -1,3 +1,4 @@
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/pdf/plots.hpp"
 #include "acquisition/documents/positioning/certificate_pages.hpp"
 #include "analysis/record/certificate_expiry.hpp"
@@ -7,21 +8,50 @@
 namespace axiscal {
 namespace {
 
+/// "A = 16.4 µm ± 2.4 µm"; E where A needs more approaches than there were.
+std::string main_figure(const Certificate& certificate) {
+    const PaperUnits units = paper_units_of(certificate);
+    const auto& budget = certificate.uncertainty.budget;
+    const auto both = parameters_of_both_directions(certificate.result.parameters);
+    const auto one_way = parameters_of_one_direction(certificate.result.parameters);
+    for (const std::string_view wanted : {"A", "E", "A_forward", "E_forward"})
+        for (const auto* lines : {&both, &one_way})
+            for (const ParameterLine& line : *lines) {
+                if (line.key != wanted || !line.value) continue;
+                const auto* known = budget ? budget->find(line.key) : nullptr;
+                const std::string unit = " " + units.deviation;
+                return std::string{line.symbol} + " = " + units.of_deviation(line.value) + unit +
+                       (known ? " ± " + fixed_up(known->expanded, units.deviation_decimals) + unit
+                              : ", U not evaluated");
+            }
+    return "no figure";
+}
+
+FrontAnswer answer_of(const Certificate& certificate) {
+    const Statements& said = certificate.run.statements;
+    return {stated(said.machine) + ", axis " + stated(said.axis), certificate.issued_on,
+            certificate.completeness.partial()
+                ? "PARTIAL: no verdict"
+                : verdict_on_paper(certificate.conformity, positioning_symbol),
+            main_figure(certificate)};
+}
+
 void draw_title(Sheet& sheet, const Certificate& certificate) {
     const bool bidirectional = !certificate.deviations.backward().empty();
     const RunPlan& plan = certificate.run.plan;
     const bool partial = certificate.completeness.partial();
-    draw_front_title(
-        sheet, {partial ? "PARTIAL RESULT, no certificate" : "Calibration certificate",
-                certificate.run.statements.state,
-                (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
-                    std::string{" positioning, "} + certificate.result.standard +
-                    ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
-                    std::string{name_of(plan.cycle)} + " cycle, " +
-                    std::to_string(certificate.deviations.targets().size()) +
-                    " targets, n = " + std::to_string(certificate.result.approaches) +
-                    (certificate.result.approaches == 1 ? " approach" : " approaches") +
-                    (bidirectional ? " in each direction" : " in the forward direction only")});
+    draw_front_title(sheet,
+                     {partial ? "PARTIAL RESULT, no certificate" : "Calibration certificate",
+                      certificate.run.statements.state,
+                      (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
+                          std::string{" positioning, "} + certificate.result.standard +
+                          ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
+                          std::string{name_of(plan.cycle)} + " cycle, " +
+                          std::to_string(certificate.deviations.targets().size()) +
+                          " targets, n = " + std::to_string(certificate.result.approaches) +
+                          (certificate.result.approaches == 1 ? " approach" : " approaches") +
+                          (bidirectional ? " in each direction" : " in the forward direction only"),
+                      answer_of(certificate)});
 }
 
 std::string axis_text(const Certificate& certificate) {

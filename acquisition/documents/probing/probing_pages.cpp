@@ -1,6 +1,7 @@
 #include "acquisition/documents/probing/probing_pages.hpp"
 
 #include "acquisition/documents/pdf/back_parts.hpp"
+#include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/pdf/front_parts.hpp"
 #include "acquisition/documents/pdf/wording.hpp"
 #include "acquisition/documents/probing/probing_plot.hpp"
@@ -18,6 +19,25 @@ std::string feed_of_probing(const ProbingRecord& record) {
 std::string tick_text(const ProbingRecord& record) {
     const double tick_um = feed_mm_per_ms(record) * um_a_mm;
     return fixed(tick_um, length_decimals(tick_um)) + " µm";
+}
+
+/// The largest figure of all directions.
+std::string main_figure(const std::vector<ProbingDelay>& results) {
+    const ProbingDelay* largest = nullptr;
+    for (const ProbingDelay& result : results)
+        if (!result.reference && (!largest || result.variation_mm > largest->variation_mm))
+            largest = &result;
+    if (!largest) return "no figure";
+    const double value_um = largest->variation_mm * um_a_mm;
+    return largest->symbol + " = " + fixed(value_um, length_decimals(value_um)) +
+           " µm, U not evaluated";
+}
+
+FrontAnswer answer_of(const ProbingResult& document) {
+    const Statements& said = document.run.statements;
+    return {stated(said.machine) + ", " + stated(document.record.probe),
+            dates_of_test(document.run).issued_on,
+            verdict_on_paper(document.conformity, symbol_as_it_is), main_figure(document.results)};
 }
 
 /// The log of a control has no clock: what is known is when it was read.
@@ -173,7 +193,8 @@ std::string distances_of(const ProbingRecord& record) {
 ProbingFront draw_probing_front_page(Sheet& sheet, const ProbingResult& document) {
     const RunRecord& run = document.run;
     draw_front_title(sheet, {"Probing test", run.statements.state,
-                             "Variation of the time delay of a touch probe, by ISO 230-10, 6.9¹"});
+                             "Variation of the time delay of a touch probe, by ISO 230-10, 6.9¹",
+                             answer_of(document)});
     ProbingFront front;
     front.shortened = draw_identity(sheet, document);
     draw_figures(sheet, document.results);
@@ -208,6 +229,7 @@ void draw_probing_conditions(Sheet& sheet,
                              const ProbingResult& document,
                              const ProbingFront& front) {
     const RunRecord& run = document.run;
+    draw_conformity(sheet, document.conformity, symbol_as_it_is);
     const auto references =
         std::ranges::count(document.record.touches, true, &ProbingTouch::reference);
     const auto all = static_cast<std::ptrdiff_t>(document.record.touches.size());
