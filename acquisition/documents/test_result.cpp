@@ -68,6 +68,11 @@ FigureAgreement agreement_of(const TestResult& result) {
                       result);
 }
 
+const std::optional<Conformity>& conformity_of(const TestResult& result) {
+    return std::visit(
+        [](const auto& one) -> const std::optional<Conformity>& { return one.conformity; }, result);
+}
+
 const std::string& file_sha256_of(const TestResult& result) {
     return std::visit([](const auto& one) -> const std::string& { return sha256_in(one); }, result);
 }

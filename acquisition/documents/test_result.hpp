@@ -21,6 +21,9 @@ nlohmann::ordered_json json_of(const TestResult& result);
 std::string json_text_of(const TestResult& result);
 std::string csv_of(const TestResult& result);
 
+/// Against the limits of its run; nothing where none were agreed on.
+const std::optional<Conformity>& conformity_of(const TestResult& result);
+
 /// What the run file keeps of it: the figures, without words.
 nlohmann::ordered_json stored_figures_of(const TestResult& result);
 /// How near the figures of another processor must come.

@@ -40,13 +40,23 @@ struct KillLate {
     }
 };
 
+/// "R: fail" of the row that comes before the paths.
+std::string verdict_in(const std::string& said) {
+    const auto row = nlohmann::json::parse(said.substr(0, said.find('\n')), nullptr, false);
+    if (!row.is_object()) return {};
+    const auto parameter = row.find("parameter"), verdict = row.find("verdict");
+    if (parameter == row.end() || verdict == row.end()) return {};
+    if (!parameter->is_string() || !verdict->is_string()) return {};
+    return parameter->get<std::string>() + ": " + verdict->get<std::string>();
+}
+
 } // namespace
 
-Task<Result<std::string>> write_certificate(Scheduler& scheduler,
-                                            std::string program,
-                                            std::string run_file,
-                                            std::string outbox,
-                                            std::chrono::milliseconds limit) {
+Task<Result<WrittenCertificate>> write_certificate(Scheduler& scheduler,
+                                                   std::string program,
+                                                   std::string run_file,
+                                                   std::string outbox,
+                                                   std::chrono::milliseconds limit) {
     const std::vector<std::string> words{program, run_file, "--outbox", outbox};
     AXISCAL_CO_TRY(const ChildProcess child, start_child(words));
     const auto output = std::make_shared<Stream>(scheduler.executor(), child.output);
@@ -72,7 +82,8 @@ Task<Result<std::string>> write_certificate(Scheduler& scheduler,
     const auto answer = nlohmann::json::parse(line, nullptr, false);
     if (!answer.is_object() || !answer.contains("entry") || !answer["entry"].is_string())
         co_return fail(Fault::io, program + " said nothing of its entry: " + line);
-    co_return answer["entry"].get<std::string>();
+    WrittenCertificate written{answer["entry"].get<std::string>(), verdict_in(said)};
+    co_return written;
 }
 
 std::string sibling_program(const std::string& name) {

@@ -274,25 +274,35 @@ Task<void> Station::certify_left_over(StoredRuns stored) {
     ::malloc_trim(0); // a thousand runs leave half a megabyte that an idle station has no use for
 }
 
+namespace {
+
+std::string text_of(const WrittenCertificate& written) {
+    const std::string verdict =
+        written.verdict.empty() ? std::string{} : "Verdict on " + written.verdict + ". ";
+    return verdict + "Certificate written: " + written.entry;
+}
+
+} // namespace
+
 /// Meanwhile a new run may have been armed: the answer belongs to the run named here.
 Task<void> Station::certify(std::string run_id, std::string path) {
-    const auto entry = co_await write_certificate(scheduler_, report_program_, path,
-                                                  config_.state_directory + "/outbox");
-    note(entry ? "Certificate written: " + *entry
-               : "No certificate for run " + run_id + ": " + describe(entry.error()) +
-                     " 'axiscal export " + path + "' tries again.");
+    const auto written = co_await write_certificate(scheduler_, report_program_, path,
+                                                    config_.state_directory + "/outbox");
+    note(written ? text_of(*written)
+                 : "No certificate for run " + run_id + ": " + describe(written.error()) +
+                       " 'axiscal export " + path + "' tries again.");
     if (drift_ && drift_->run_id == run_id) {
-        if (entry)
-            drift_->certificate = *entry;
+        if (written)
+            drift_->certificate = written->entry;
         else
-            drift_->no_certificate = entry.error();
+            drift_->no_certificate = written.error();
         co_return;
     }
     if (!run_ || run_->header.run_id != run_id) co_return;
-    if (entry)
-        run_->certificate = *entry;
+    if (written)
+        run_->certificate = written->entry;
     else
-        run_->no_certificate = entry.error();
+        run_->no_certificate = written.error();
 }
 
 } // namespace axiscal

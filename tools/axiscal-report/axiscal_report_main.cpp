@@ -1,10 +1,12 @@
 // axiscal-report RUN.axiscal --outbox DIR | --to DIR
 // axiscal-report CASE.json --to DIR
 // Short-lived, started by the daemon when a run is closed (and by `axiscal export`): draws the
-// certificate and stages it; of a circular case, too. stdout: one line of JSON with the paths;
+// certificate and stages it; of a circular case, too. stdout: with limits a line of JSON with the
+// verdict and the figure that it rests on; then one with the paths.
 // stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
 // refused or the run is incomplete.
 
+#include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/pdf/certificate_files.hpp"
 #include "acquisition/publish/outbox.hpp"
@@ -44,29 +46,48 @@ Result<TestResult> evaluate(const Options& options) {
     return evaluate_run_file(options.run_file, &issue);
 }
 
-Result<void> draw(const Options& options, const std::string& folder) {
+std::string one_line(const nlohmann::ordered_json& object) {
+    return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// What was staged, and the row of the figure that its verdict rests on; empty without limits.
+struct Staged {
+    std::string entry, verdict;
+};
+
+std::string verdict_line_of(const TestResult& result) {
+    const auto& conformity = conformity_of(result);
+    const JudgedFigure* decisive = conformity ? conformity->decisive() : nullptr;
+    return decisive ? one_line(verdict_row(*decisive, *conformity)) : std::string{};
+}
+
+/// @returns verdict_line_of() the result.
+Result<std::string> draw(const Options& options, const std::string& folder) {
     AXISCAL_TRY(const TestResult result, evaluate(options));
-    return write_certificate_files(result, options.run_file, folder);
+    AXISCAL_CHECK(write_certificate_files(result, options.run_file, folder));
+    return verdict_line_of(result);
 }
 
 /// The entry appears in the outbox only with all its content. Its folder is there before the result
 /// is stored: a station that finds it after a power cut knows that this was not finished.
-Result<std::string> stage(const Options& options) {
+Result<Staged> stage(const Options& options) {
     AXISCAL_TRY(const RunSummary run, summarize_run_file(options.run_file));
     const std::string& folder = options.to.empty() ? options.outbox : options.to;
     const std::string name = certificate_name(run);
     AXISCAL_TRY(const std::string temporary, begin_entry(folder, name));
     AXISCAL_CHECK(sync_folder(folder));
-    if (auto drawn = draw(options, temporary); !drawn) {
+    auto drawn = draw(options, temporary);
+    if (!drawn) {
         std::error_code ignored; // the first error is the one to tell
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(drawn).error());
     }
-    return finish_entry(folder, name);
+    AXISCAL_TRY(std::string entry, finish_entry(folder, name));
+    return Staged{std::move(entry), *std::move(drawn)};
 }
 
 /// The same for a case: into any folder, never into the outbox, for no run stands behind it.
-Result<std::string> stage_case(const Options& options) {
+Result<Staged> stage_case(const Options& options) {
     if (options.to.empty())
         return fail(Fault::refused, "is no run file: a case goes into a folder by --to");
     AXISCAL_TRY(CircularCertificate certificate, circular_certificate_of_case(options.run_file));
@@ -78,7 +99,8 @@ Result<std::string> stage_case(const Options& options) {
         std::filesystem::remove_all(temporary, ignored);
         return tl::unexpected<Error>(std::move(written).error());
     }
-    return finish_entry(options.to, name);
+    AXISCAL_TRY(std::string entry, finish_entry(options.to, name));
+    return Staged{std::move(entry), verdict_line_of(result)};
 }
 
 bool is_run_file(const std::string& path) {
@@ -102,7 +124,7 @@ std::string paths_line(const std::string& entry, const std::string& run_file, bo
     line["pdf"] = entry + "/" + certificate_pdf_name;
     line[of_case ? "case" : "run_file"] =
         entry + "/" + std::filesystem::path(run_file).filename().string();
-    return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return one_line(line);
 }
 
 bool is_refusal(Fault fault) {
@@ -116,14 +138,15 @@ bool is_refusal(Fault fault) {
 
 int report(const Options& options) {
     const bool of_case = is_case(options.run_file);
-    const auto entry = of_case ? stage_case(options) : stage(options);
-    if (!entry) {
-        const std::string& field = entry.error().field;
-        std::cerr << options.run_file << ": " << (field.empty() ? "" : field + ": ")
-                  << describe(entry.error()) << "\n";
-        return is_refusal(entry.error().fault) ? exit_refused : exit_failed;
+    const auto staged = of_case ? stage_case(options) : stage(options);
+    if (!staged) {
+        const Error& why = staged.error();
+        std::cerr << options.run_file << ": " << (why.field.empty() ? "" : why.field + ": ")
+                  << describe(why) << "\n";
+        return is_refusal(why.fault) ? exit_refused : exit_failed;
     }
-    std::cout << paths_line(*entry, options.run_file, of_case) << std::endl;
+    if (!staged->verdict.empty()) std::cout << staged->verdict << "\n";
+    std::cout << paths_line(staged->entry, options.run_file, of_case) << std::endl;
     return exit_ok;
 }
 

@@ -1,5 +1,6 @@
 // `axiscal export`: the report program draws, this one says where the papers lie.
 #include "acquisition/station/certificate_writer.hpp"
+#include "config/json_text.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <iostream>
 #include <spawn.h>
+#include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
@@ -63,16 +65,30 @@ int run_program(std::vector<std::string> words, std::string& said) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(exit_failed);
 }
 
-/// The report program's line names a folder and the files in it.
-bool print_papers(const std::string& line) {
-    const Json papers = Json::parse(line, nullptr, false);
-    if (!papers.is_object() || !papers.contains("entry")) return false;
+/// What the report program says: a row of the verdict where there are limits, then the folder and
+/// the files in it. One object of both; null where it is something else.
+Json papers_of(const std::string& said) {
+    std::istringstream lines{said};
+    Json papers, verdict;
+    for (std::string line; std::getline(lines, line);) {
+        Json object = Json::parse(line, nullptr, false);
+        if (!object.is_object()) return {};
+        (object.contains("entry") ? papers : verdict) = std::move(object);
+    }
+    if (!papers.is_object()) return {};
+    if (verdict.is_object()) papers["verdict"] = std::move(verdict);
+    return papers;
+}
+
+void print_papers(const Json& papers) {
+    if (papers.contains("verdict"))
+        std::cout << "Verdict on " << papers["verdict"].value("parameter", "") << ": "
+                  << papers["verdict"].value("verdict", "") << "\n";
     std::cout << "The certificate lies in " << papers["entry"].get<std::string>() << ":\n";
     for (const auto& [key, path] : papers.items())
-        if (key != "entry")
+        if (key != "entry" && path.is_string())
             std::cout << "  " << std::filesystem::path(path.get<std::string>()).filename().string()
                       << "\n";
-    return true;
 }
 
 } // namespace
@@ -82,10 +98,16 @@ int command_export(const std::string& file, const std::string& out_directory, bo
     std::string said;
     const int code = run_program({program, file, "--to", out_directory}, said);
     if (code != exit_ok) return code;
-    if (json) return std::cout << said << std::flush, exit_ok;
-    if (print_papers(said)) return exit_ok;
-    std::cerr << program << " said nothing of its papers: " << said << "\n";
-    return exit_failed;
+    const Json papers = papers_of(said);
+    if (!papers.is_object()) {
+        std::cerr << program << " said nothing of its papers: " << said << "\n";
+        return exit_failed;
+    }
+    if (json)
+        std::cout << json_text(papers) << "\n" << std::flush;
+    else
+        print_papers(papers);
+    return exit_ok;
 }
 
 } // namespace axiscal

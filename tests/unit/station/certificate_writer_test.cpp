@@ -16,16 +16,21 @@ namespace {
 
 class ReportProgram : public ::testing::Test {
 protected:
-    Result<std::string> answer_of(const std::string& program,
-                                  std::chrono::milliseconds limit = longest_drawing) {
+    Result<WrittenCertificate> written(const std::string& program,
+                                       std::chrono::milliseconds limit = longest_drawing) {
         boost::asio::io_context loop;
         AsioScheduler scheduler{loop};
-        std::optional<Result<std::string>> answer;
+        std::optional<Result<WrittenCertificate>> answer;
         boost::asio::co_spawn(
             loop, write_certificate(scheduler, program, "run.axiscal", "outbox", limit),
-            [&](std::exception_ptr, Result<std::string> got) { answer = std::move(got); });
+            [&](std::exception_ptr, Result<WrittenCertificate> got) { answer = std::move(got); });
         loop.run();
         return *answer;
+    }
+    Result<std::string> answer_of(const std::string& program,
+                                  std::chrono::milliseconds limit = longest_drawing) {
+        AXISCAL_TRY(const WrittenCertificate certificate, written(program, limit));
+        return certificate.entry;
     }
     Result<std::string> said(const std::string& body) {
         return answer_of(report_script(scratch, body));
@@ -35,6 +40,17 @@ protected:
 
 TEST_F(ReportProgram, ItsLastLineNamesTheEntry) {
     EXPECT_EQ(said(R"(echo noise; echo "{\"entry\":\"$3/$1\"}")"), "outbox/run.axiscal");
+}
+
+TEST_F(ReportProgram, ItsFirstLineIsTheVerdictWhereItIsOne) {
+    const auto verdict = [&](const std::string& first) {
+        const auto certificate = written(report_script(
+            scratch, "echo '" + first + "'; echo '{\"entry\":\"outbox/run\"}'"));
+        return certificate ? certificate->verdict : describe(certificate.error());
+    };
+    EXPECT_EQ(verdict(R"({"parameter":"R","value":4.6,"verdict":"fail"})"), "R: fail");
+    for (const char* none : {"noise", "[]", R"({"parameter":"R"})", R"({"parameter":1,"verdict":"fail"})"})
+        EXPECT_EQ(verdict(none), "") << none;
 }
 
 TEST_F(ReportProgram, FailsWithItsOwnLastWords) {
