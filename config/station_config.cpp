@@ -192,6 +192,8 @@ StationConfig read_station(SettingsDocument& document) {
     config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);
     refuse_drift_test_of_polygon(root.table("uncertainty"), config);
     read_tolerances(root, config);
+    config.standards =
+        root.table("certificate").texts("standards", std::optional{std::vector<std::string>{}});
     config.statements = read_statements(root.table("certificate"), units, config);
     if (config.axis.angle)
         config.axis.angle->setup.run_out = root.table("certificate").text("run_out", "");

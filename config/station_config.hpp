@@ -192,6 +192,9 @@ struct StationConfig {
     /// Of every kind of test; limits in um, those of a rotary axis in arcsec; travels in mm or
     /// degrees. `unit` is left to the run.
     std::optional<ToleranceRecord> tolerances;
+    /// By which positioning runs are evaluated; the loader knows their names. Empty: ISO
+    /// 230-2:2014.
+    std::vector<std::string> standards;
     Statements statements;
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.

@@ -195,6 +195,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.scale = scale_of(parts);
     run.uncertainty = config.uncertainty;
     run.tolerances = tolerances_of(config, parts.kind);
+    if (parts.kind == TestKind::positioning) run.standards = config.standards;
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
     for (const auto& [key, value] : request.statements) {

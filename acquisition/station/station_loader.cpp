@@ -2,6 +2,7 @@
 
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/rotary_plan.hpp"
+#include "analysis/positioning/chosen_standards.hpp"
 #include "drivers/registry.hpp"
 #include "drivers/shared_wires.hpp"
 
@@ -107,7 +108,21 @@ bool has_material_by_kind(const AxisConfig& axis) {
 }
 
 /// What is wrong with the whole although every key is right by itself.
+void check_standards(const LoadedStation& station, Settings certificate) {
+    constexpr std::size_t most = 3; // side by side on one page
+    const auto& names = station.config.standards;
+    for (auto name = names.begin(); name != names.end(); ++name)
+        if (std::find(names.begin(), name, *name) != name)
+            return certificate.refuse("standards",
+                                      "\"" + *name + "\" stands there twice: keep one");
+    if (names.size() > most)
+        return certificate.refuse("standards", "has more than three: they stand side by side");
+    if (const auto chosen = chosen_standards(names); !chosen)
+        certificate.refuse("standards", chosen.error().detail);
+}
+
 void check_together(LoadedStation& station, Settings root) {
+    check_standards(station, root.table("certificate"));
     std::vector<StationChannel> channels;
     for (std::size_t i = 0; i < station.instruments.size(); ++i) {
         if (!station.instruments[i]) return;

@@ -6,7 +6,6 @@
 #include "analysis/record/run_clock.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -264,15 +263,11 @@ namespace {
 
 /// With the U that the certificate prints, in the unit of the result.
 std::vector<FigureToJudge> figures_to_judge(const Certificate& certificate) {
-    const PositioningParameters& p = certificate.result.parameters;
     const double budget_units = budget_units_per(certificate.result.unit);
-    const std::array<std::optional<double>, positioning_parameters.size()> values{
-        p.A, p.A_forward, p.A_backward, p.E, p.E_forward, p.E_backward,
-        p.M, p.R,         p.R_forward,  p.R_backward, p.B, p.B_mean};
-    std::vector<FigureToJudge> figures;
     const auto& budget = certificate.uncertainty.budget;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        FigureToJudge figure{std::string{positioning_parameters[i]}, values[i], {}};
+    std::vector<FigureToJudge> figures;
+    for (const NamedFigure& named : named_figures(certificate.result.parameters)) {
+        FigureToJudge figure{named.name, named.value, {}};
         const auto* known = budget ? budget->find(figure.parameter) : nullptr;
         if (known) {
             figure.expanded_uncertainty = known->expanded / budget_units;
@@ -280,6 +275,10 @@ std::vector<FigureToJudge> figures_to_judge(const Certificate& certificate) {
         }
         figures.push_back(std::move(figure));
     }
+    for (const OtherResult& other : certificate.others) // whose own figures have no budget here
+        for (const NamedFigure& named : other.parameters)
+            if (std::ranges::find(figures, named.name, &FigureToJudge::parameter) == figures.end())
+                figures.push_back({named.name, named.value, {}});
     return figures;
 }
 
@@ -300,12 +299,14 @@ Result<Certificate> make_certificate(RunRecord run, std::string run_file_sha256)
 
 Result<Certificate>
 make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha256) {
+    AXISCAL_TRY(const ChosenStandards chosen, chosen_standards(run.standards));
     AXISCAL_TRY(Compensated compensated, compensate_to_20C(run, revisions));
     if (!run.complete && run.closed.utc_ns == 0) run.closed = tie_of_last_point(run);
     const Duration clock_off =
         tell_times_by_one_clock(run.opened, run.events, revisions.retakes, run.closed);
     tell_orders_by_one_clock(run.opened, run.events, revisions.orders);
-    PositioningResult result = evaluate_positioning(compensated.deviations);
+    PositioningResult result = evaluate_positioning(
+        compensated.deviations, std::string{chosen.own->name}, chosen.own->cover_factor);
     withhold_from_partial(result, compensated.deviations, run.plan, compensated.completeness);
     Certificate certificate{std::move(run),
                             std::move(result),
@@ -348,6 +349,9 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);
+    if (!certificate.completeness.partial())
+        for (const PositioningStandard* other : chosen.others)
+            certificate.others.push_back(evaluate_other(*other, certificate.deviations));
     certificate.conformity = conformity_of(certificate, certificate.run.tolerances);
     return certificate;
 }

@@ -3,6 +3,7 @@
 // Pure.
 
 #include "analysis/conformity/conformity.hpp"
+#include "analysis/positioning/chosen_standards.hpp"
 #include "analysis/positioning/completeness.hpp"
 #include "analysis/positioning/positioning_accuracy.hpp"
 #include "analysis/record/run_attachments.hpp"
@@ -62,6 +63,8 @@ struct Certificate {
     RunAttachments attachments;      ///< of the same file; left empty by make_certificate()
     /// The certificate that this one replaces; left empty by make_certificate(), and for the first.
     std::string replaces = {};
+    /// By the other standards that were chosen; none of a partial result.
+    std::vector<OtherResult> others = {};
     /// Of a complete result with limits.
     std::optional<Conformity> conformity = {};
 };

@@ -187,6 +187,10 @@ std::string certificate_csv(const Certificate& certificate) {
     append_completeness(csv, certificate);
     append_conformity(csv, certificate.conformity);
     append_parameters(csv, certificate);
+    for (const OtherResult& other : certificate.others)
+        for (const NamedFigure& figure : other.parameters)
+            append_csv_line(csv, {"# other_standard", csv_field(other.standard), figure.name,
+                                  csv_number(figure.value), csv_field(certificate.result.unit)});
     append_budget(csv, certificate);
     append_synchronisation(csv, certificate);
     append_set_aside(csv, certificate);

@@ -360,11 +360,29 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
     document["expanded_uncertainty"] = not_evaluated_for(document);
 }
 
+Json others_of(const std::vector<OtherResult>& others) {
+    Json list = Json::array();
+    for (const OtherResult& other : others) {
+        Json object;
+        object["standard"] = other.standard;
+        object["confidence"] = other.confidence;
+        object["note"] = stated_json(other.note);
+        object["parameters"] = Json::object();
+        for (const NamedFigure& figure : other.parameters)
+            object["parameters"][figure.name]["value"] = figure.value;
+        object["not_evaluated"] = other.not_evaluated;
+        object["notes"] = other.notes;
+        list.push_back(std::move(object));
+    }
+    return list;
+}
+
 } // namespace
 
 Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
     add_conformity(document, certificate.conformity);
+    if (!certificate.others.empty()) document["other_standards"] = others_of(certificate.others);
     document["completeness"] = completeness_of(certificate);
     document["compensation"] = compensation_of(certificate);
     add_uncertainty(document, certificate);

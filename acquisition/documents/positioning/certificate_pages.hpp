@@ -21,6 +21,9 @@ void draw_condition_pages(Sheet& sheet,
                           const Certificate& certificate,
                           const std::vector<StatedField>& shortened);
 
+/// Figures by the other standards that were chosen, beside the certificate's own; nothing without.
+void draw_other_standards(Sheet& sheet, const Certificate& certificate);
+
 /// The budget: what is stated, each term, each parameter, U against its target.
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate);
 

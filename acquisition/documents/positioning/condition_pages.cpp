@@ -221,6 +221,7 @@ void draw_condition_pages(Sheet& sheet,
                           const std::vector<StatedField>& shortened) {
     sheet.new_page();
     draw_conformity(sheet, certificate.conformity, positioning_symbol);
+    draw_other_standards(sheet, certificate);
     draw_environment(sheet, certificate);
     draw_environment_table(sheet, certificate);
     draw_calibrations(sheet, certificate.run.calibrations, certificate.run.channels,
