@@ -4,6 +4,7 @@
 
 #include "analysis/circular/capture_effect.hpp"
 #include "analysis/circular/circular_run.hpp"
+#include "analysis/circular/circular_uncertainty.hpp"
 #include "analysis/conformity/conformity.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 

@@ -78,15 +78,11 @@ std::string line_of(const std::string& key, const Json& parameter, const PaperUn
     const FigureLabel label = figure_label(key, "ISO 230-2:2014", "");
     const std::string name = label.name.substr(0, label.name.find(','));
     const Json& u = parameter.at("U");
-    std::string line =
-        "  " + padded(label.symbol, 3) +
-        right(hundredths(parameter.at("value").get<double>() * unit.factor), 10) + "  " +
-        padded(u.is_null() ? "U not known" : "± " + hundredths_up(u.get<double>() * unit.factor),
-               12) +
-        name;
-    const Json& verdict = parameter.at("verdict");
-    if (verdict.is_string()) line += ": " + verdict.get<std::string>();
-    return line + "\n";
+    return "  " + padded(label.symbol, 3) +
+           right(hundredths(parameter.at("value").get<double>() * unit.factor), 10) + "  " +
+           padded(u.is_null() ? "U not known" : "± " + hundredths_up(u.get<double>() * unit.factor),
+                  12) +
+           name + "\n";
 }
 
 std::string completeness_text(const Json& completeness) {
@@ -143,12 +139,13 @@ std::string verdict_text(const Json& summary, const PaperUnit& unit) {
     const auto* words = std::ranges::find(verdict_words, verdict,
                                           &std::pair<std::string_view, std::string_view>::first);
     const Json& agreed = summary.at("tolerances");
-    std::string text = wrapped(std::string{words->second} + " (" + agreed.at("name").get<std::string>() +
-                                   "; rule " + agreed.at("rule").get<std::string>() + ")",
-                               0);
+    std::string text =
+        wrapped(std::string{words->second} + " (" + agreed.at("name").get<std::string>() +
+                    "; rule " + agreed.at("rule").get<std::string>() + ")",
+                0);
     for (const Json& row : summary.at("verdicts")) {
-        std::string line = row.at("parameter").get<std::string>() + ": " +
-                           row.at("verdict").get<std::string>();
+        std::string line =
+            row.at("parameter").get<std::string>() + ": " + row.at("verdict").get<std::string>();
         if (row.at("limit").is_number())
             line += ", limit " + hundredths(row.at("limit").get<double>() * unit.factor) + " " +
                     unit.name;

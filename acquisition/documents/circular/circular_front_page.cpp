@@ -50,8 +50,8 @@ std::string main_figure(const CircularCertificate& certificate) {
 
 FrontAnswer answer_of(const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
-    return {stated(measured.run.statements.machine) + ", plane " + measured.axes[0] +
-                measured.axes[1],
+    return {"Plane " + measured.axes[0] + measured.axes[1] + ", " +
+                stated(measured.run.statements.machine),
             stated(iso_date_of(measured)),
             verdict_on_paper(certificate.conformity, circular_symbols(certificate)),
             main_figure(certificate)};
@@ -111,7 +111,8 @@ std::string temperature_note(const CircularCertificate& certificate) {
            micrometres(*correction, deviation_decimals(certificate), true) + " µm for it.";
 }
 
-void draw_column(Canvas& canvas, PageBox column, const CircularCertificate& certificate) {
+/// @returns the height that it took
+double draw_column(Canvas& canvas, PageBox column, const CircularCertificate& certificate) {
     double y = column.y + draw_figures(canvas, column, certificate) + 2;
     const auto tell = [&](const std::string& words) {
         y += canvas.paragraph({column.x, y}, column.width, words, note_style).height + 2;
@@ -127,6 +128,7 @@ void draw_column(Canvas& canvas, PageBox column, const CircularCertificate& cert
         canvas.text({column.x, y + 12}, "Control points of G(b)", {7, true});
         draw_control_points(canvas, {column.x, y + 15, column.width, 0}, certificate, *both);
     }
+    return y - column.y;
 }
 
 /// Those that weigh most.
@@ -142,8 +144,13 @@ std::vector<CauseContribution> largest_causes(const CircularCertificate& certifi
 
 constexpr double bar_row = 10.5, bars_head = 14;
 
-void draw_largest_causes(Sheet& sheet, const CircularCertificate& certificate) {
-    const auto causes = largest_causes(certificate);
+/// As many as have room above `reserved` points; all of them stand on the page of the diagnosis.
+void draw_largest_causes(Sheet& sheet, const CircularCertificate& certificate, double reserved) {
+    auto causes = largest_causes(certificate);
+    const double rows = (sheet.remaining() - reserved - bars_head) / bar_row;
+    if (rows < 1) return;
+    while (static_cast<double>(causes.size()) > rows)
+        causes.pop_back();
     if (causes.empty()) return;
     Canvas& canvas = sheet.canvas();
     constexpr double name_room = 128, bar_room = 230;
@@ -187,18 +194,19 @@ std::vector<StatedField> evidence_of(const CircularCertificate& certificate) {
             {"Software", "axiscal, version " + stated(measured.run.software_version)}};
 }
 
+double notes_height(Canvas& canvas, const CircularCertificate& certificate) {
+    double height = 0;
+    for (const std::string& words : notes_of(certificate))
+        if (!words.empty())
+            height += canvas.measure_paragraph(Sheet::width, words, {7.5, true}).height + 2;
+    return height;
+}
+
 /// What stands between plot and signatures.
 double height_below(Canvas& canvas, const CircularCertificate& certificate) {
-    const auto height_of = [&](const std::string& words) {
-        return words.empty()
-                   ? 0
-                   : canvas.measure_paragraph(Sheet::width, words, {7.5, true}).height + 2;
-    };
     const auto causes = static_cast<double>(largest_causes(certificate).size());
-    double height = legend_of_both_senses + (causes > 0 ? bars_head + bar_row * causes : 0);
-    for (const std::string& words : notes_of(certificate))
-        height += height_of(words);
-    return height + 10;
+    return legend_of_both_senses + (causes > 0 ? bars_head + bar_row * causes : 0) +
+           notes_height(canvas, certificate) + 10;
 }
 
 } // namespace
@@ -221,9 +229,10 @@ std::vector<StatedField> draw_circular_front_page(Sheet& sheet,
     draw_polar_plot(canvas, plot, view);
     const double legend = draw_polar_legend(canvas, plot, view);
     const double column = plot.right() + column_gap;
-    draw_column(canvas, {column, plot.y, Sheet::right - column, plot.height + legend}, certificate);
-    sheet.advance(plot.height + legend + 4);
-    draw_largest_causes(sheet, certificate);
+    const double column_height = draw_column(
+        canvas, {column, plot.y, Sheet::right - column, plot.height + legend}, certificate);
+    sheet.advance(std::max(plot.height + legend, column_height) + 4);
+    draw_largest_causes(sheet, certificate, signature_height + notes_height(canvas, certificate));
     for (const std::string& words : notes_of(certificate))
         sheet.text(words, {7.5, true, backward_vermilion});
     draw_signatures(sheet, measured.run.statements, evidence_of(certificate));

@@ -13,7 +13,7 @@ inline constexpr double signature_height = 112; ///< what draw_signatures() take
 
 /// What is read in five seconds, from two metres or on a grey copy.
 struct FrontAnswer {
-    std::string item, date;      ///< "Portal mill, axis X"; "2026-01-02"
+    std::string item, date;      ///< "Axis X, portal mill"; "2026-01-02"
     std::string verdict, figure; ///< "FAIL: R"; "A = 16.4 µm ± 2.4 µm"
 };
 struct FrontTitle {

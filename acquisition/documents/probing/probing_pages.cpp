@@ -35,7 +35,7 @@ std::string main_figure(const std::vector<ProbingDelay>& results) {
 
 FrontAnswer answer_of(const ProbingResult& document) {
     const Statements& said = document.run.statements;
-    return {stated(said.machine) + ", " + stated(document.record.probe),
+    return {"Probe " + stated(document.record.probe) + ", " + stated(said.machine),
             dates_of_test(document.run).issued_on,
             verdict_on_paper(document.conformity, symbol_as_it_is), main_figure(document.results)};
 }

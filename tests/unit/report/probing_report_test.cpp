@@ -105,7 +105,8 @@ TEST_F(ProbingReport, PrintsEachFigureOfTheDelaysThatArePutIn) {
                 ElementsAre("E_TD,Z", "\u2212Z", "11", "5.00", "0.625", "U", "not", "evaluated",
                             "2.611", "3.00", "4.00", "–"));
     for (const char* symbol : {"E_TD,X", "E_TD,Y", "E_TD,Z"}) // table, saw-tooth, plot
-        EXPECT_EQ(occurrences(text, symbol), 3) << symbol;
+        EXPECT_EQ(occurrences(text, symbol), symbol == std::string{"E_TD,Y"} ? 4 : 3)
+            << symbol << "; the largest also below the title";
 }
 
 TEST_F(ProbingReport, TellsTheServoTickAndTheSawToothThatItMakes) {

@@ -165,7 +165,7 @@ TEST_F(Report, HoldsEverySymbolAndItsValue) {
             values.insert(fixed(*line.value * 1000, 1));
         }
     EXPECT_GE(values.size(), 8U) << "rows with one value could change places unseen";
-    EXPECT_EQ(count(text, "U not evaluated"), 12);
+    EXPECT_EQ(count(text, "U not evaluated"), 13) << "each row, and A below the title";
     for (const char* words :
          {"B\u0304 = mean forward minus mean backward", "actual − target", "ISO 230-2:2014",
           "20 °C", "Ciddor", "QP-17", "L-0042", "C-2025-118", "2026-09-30", "0815-4711",
@@ -319,7 +319,8 @@ TEST_F(Report, SaysOnEachPageWhatIsMissing) {
     const std::string pdf = render(run), text = test::text_of(pdf);
     EXPECT_EQ(count(text, "PRELIMINARY, not stated: device, temperature"), test::pages_of(pdf));
     EXPECT_THAT(text, HasSubstr("lacks the expanded uncertainty of the laser system;"));
-    EXPECT_EQ(count(text, "U not evaluated"), 7) << "A, E, M and the one-way A and E";
+    EXPECT_EQ(count(text, "U not evaluated"), 8)
+        << "A, E, M and the one-way A and E; A below the title";
     run.uncertainty = UncertaintySetup{};
     run.material.standard_uncertainty.reset();
     EXPECT_THAT(test::text_of(render(run)),
@@ -485,14 +486,14 @@ TEST_F(Report, NamesWhatAnInstrumentSaidOnceAndWithoutItsPath) {
 
 TEST_F(Report, ReducesTheListOfASingleApproach) {
     const std::string text = test::text_of(render(run_of(1, true)));
-    EXPECT_EQ(count(text, "U not evaluated"), 6) << "E, M, B, B̄, E↑, E↓";
+    EXPECT_EQ(count(text, "U not evaluated"), 7) << "E, M, B, B̄, E↑, E↓; E below the title";
     EXPECT_THAT(text, HasSubstr("Not evaluated: A, R, A↑, A↓, R↑, R↓: one approach"));
     EXPECT_THAT(text, Not(HasSubstr("±2s"))) << "no band without a spread";
 }
 
 TEST_F(Report, ReducesTheListOfOneDirection) {
     const std::string text = test::text_of(render(run_of(5, false)));
-    EXPECT_EQ(count(text, "U not evaluated"), 3) << "A↑, E↑, R↑";
+    EXPECT_EQ(count(text, "U not evaluated"), 4) << "A↑, E↑, R↑; A↑ below the title";
     EXPECT_THAT(text, HasSubstr("Not evaluated: A, E, M, R, B, B\u0304"));
     EXPECT_THAT(text, HasSubstr("5 approaches in the forward direction"));
     EXPECT_THAT(text, Not(HasSubstr("backward ↓: mean")));

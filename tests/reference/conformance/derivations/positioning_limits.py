@@ -57,6 +57,7 @@ def main():
         found[f"/verdicts/{name}/verdict"] = "not_evaluated"
         if name in known:
             found[f"/verdicts/{name}/expanded_uncertainty"] = known[name]
+            found[f"/verdicts/{name}/guard_band"] = known[name]  # of the rule guard-U
             found[f"/verdicts/{name}/verdict"] = verdict(float(value), float(limit), known[name])
     print(json.dumps(found))
 
