@@ -1,6 +1,7 @@
 // [tolerances]: the limits that were agreed on, and the rule by which a figure is held against
 // them.
 #include "config/station_readers.hpp"
+#include "config/tolerance_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,22 +90,59 @@ void warn_without_rule(const Settings& table, StationConfig& config) {
          "\"14253-1:2017\", \"guard-U\" or \"simple\" and write it here"});
 }
 
+/// `usual_name`: of a set without one.
+ToleranceRecord
+read_set(Settings& table, bool stated, AxisKind kind, const std::string& usual_name) {
+    ToleranceRecord set;
+    set.name = table.text("name", usual_name);
+    set.source = table.text("source", "");
+    set.to_be_checked = table.flag("to_be_checked", false);
+    set.rule = read_rule(table);
+    read_limits(table, stated, kind, set);
+    if (stated && set.source.empty() && !table.refused("source"))
+        table.refuse("source", "is missing: where are these limits from? An order, a data sheet, a "
+                               "standard with its table; it is printed");
+    return set;
+}
+
+/// The file's set, with the rule of the station file where the file has none.
+void take_file(Settings& table, AxisKind kind, ToleranceRecord& set) {
+    const std::string path = read_absolute_path(table, "file");
+    for (const char* key : {"name", "source", "to_be_checked", "limits"})
+        refuse_beside(table, "file", key);
+    if (table.refused("file")) return;
+    auto loaded = load_tolerances(path, kind);
+    if (!loaded) return table.refuse("file", loaded.error().detail);
+    if (table.has("rule") && loaded->rule != DecisionRule::none && loaded->rule != set.rule)
+        table.refuse("rule", "is another one in " + path + ": keep one of them");
+    if (loaded->rule == DecisionRule::none) loaded->rule = set.rule;
+    set = *std::move(loaded);
+}
+
 } // namespace
+
+Result<ToleranceRecord> load_tolerances(const std::string& path, AxisKind kind) {
+    AXISCAL_TRY(SettingsDocument document, SettingsDocument::load(path));
+    Settings root = document.root();
+    ToleranceRecord set = read_set(root, true, kind, "limits of " + path);
+    set.unit = kind == AxisKind::rotary ? "arcsec" : "um";
+    if (const auto refusals = document.finish(); !refusals.empty())
+        return fail(Fault::bad_configuration, refusals.front().describe());
+    return set;
+}
 
 void read_tolerances(Settings root, StationConfig& config) {
     const bool stated = root.has("tolerances");
     Settings table = root.table("tolerances");
-    ToleranceRecord set;
-    set.name = table.text("name", "limits of the station file");
-    set.source = table.text("source", "");
-    set.to_be_checked = table.flag("to_be_checked", false);
-    set.rule = read_rule(table);
-    read_limits(table, stated, config.cycle.axis_kind, set);
-    if (!stated) return;
-    if (set.source.empty() && !table.refused("source"))
-        table.refuse("source", "is missing: where are these limits from? An order, a data sheet, a "
-                               "standard with its table; it is printed");
-    if (!table.has("rule")) warn_without_rule(table, config);
+    const bool in_file = table.has("file");
+    const AxisKind kind = config.cycle.axis_kind;
+    ToleranceRecord set = read_set(table, stated && !in_file, kind, "limits of the station file");
+    if (!stated) {
+        table.text("file", "");
+        return;
+    }
+    if (in_file) take_file(table, kind, set);
+    if (set.rule == DecisionRule::none && !table.has("rule")) warn_without_rule(table, config);
     config.tolerances = std::move(set);
 }
 

@@ -4,6 +4,7 @@
 #include "acquisition/runfile/run_order.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/json_text.hpp"
+#include "config/tolerance_file.hpp"
 #include "tools/axiscal/cases/tolerances_member.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
@@ -56,6 +57,13 @@ Result<void> check_positioning(const RunSummary& run) {
 /// Limits of a file take the place of those of the run.
 Result<void> take_limits(const ResultRequest& request, Certificate& made) {
     if (request.tolerances.empty()) return {};
+    if (request.tolerances.ends_with(".toml")) {
+        AXISCAL_TRY(ToleranceRecord set,
+                    load_tolerances(request.tolerances, made.run.plan.axis_kind));
+        if (auto own = limits_of_kind(set, TestKind::positioning))
+            made.conformity = conformity_of(made, own, request.travel);
+        return {};
+    }
     std::ifstream file{request.tolerances};
     if (!file) return fail(Fault::io, "cannot read " + request.tolerances);
     const auto member = nlohmann::json::parse(file, nullptr, false);

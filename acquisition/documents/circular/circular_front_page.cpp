@@ -51,7 +51,7 @@ std::string main_figure(const CircularCertificate& certificate) {
 FrontAnswer answer_of(const CircularCertificate& certificate) {
     const CircularMeasurement& measured = certificate.measured;
     return {"Plane " + measured.axes[0] + measured.axes[1] + ", " +
-                stated(measured.run.statements.machine),
+                machine_in_answer(measured.run.statements),
             stated(iso_date_of(measured)),
             verdict_on_paper(certificate.conformity, circular_symbols(certificate)),
             main_figure(certificate)};

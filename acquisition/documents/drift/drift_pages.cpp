@@ -15,7 +15,7 @@ FrontAnswer answer_of(const DriftResult& document) {
     const RunRecord& run = document.run;
     const RunDrift& drift = document.drift;
     const std::string value = fixed(drift.eve.range, length_decimals(drift.eve.range));
-    return {drift_subject_text(document) + ", " + stated(run.statements.machine),
+    return {drift_subject_text(document) + ", " + machine_in_answer(run.statements),
             dates_of_test(run).issued_on, verdict_on_paper(document.conformity, symbol_as_it_is),
             "E_VE = " + value + " " + drift_unit_on_paper(drift) + ", U not evaluated"};
 }

@@ -72,7 +72,7 @@ row_of(const JudgedFigure& figure, const Conformity& conformity, const SymbolOf&
             U ? "± " + fixed_up(*U * factor, decimals) : "U not evaluated",
             on_paper(figure.limit),
             figure.limit ? band_text(figure, conformity.unit) : std::string{"–"},
-            on_paper(figure.guard_band),
+            figure.guard_band ? fixed_up(*figure.guard_band * factor, decimals) : std::string{"–"},
             word_of(figure.verdict) + reason_text(figure)};
 }
 

@@ -28,6 +28,10 @@ void draw_answer(Sheet& sheet, const FrontAnswer& answer) {
 
 } // namespace
 
+std::string machine_in_answer(const Statements& said) {
+    return said.machine.empty() ? "machine not stated" : said.machine;
+}
+
 void draw_front_title(Sheet& sheet, const FrontTitle& title) {
     Canvas& canvas = sheet.canvas();
     const std::string state = "State: " + stated(title.state);

@@ -20,6 +20,8 @@ struct FrontTitle {
     std::string title, state, subject;
     FrontAnswer answer;
 };
+/// "Portal mill" | "machine not stated"
+std::string machine_in_answer(const Statements& said);
 void draw_front_title(Sheet& sheet, const FrontTitle& title);
 
 /// What stands on every page of a run's document; `subject` names the machine, to be added to.

@@ -29,7 +29,7 @@ std::string main_figure(const Certificate& certificate) {
 
 FrontAnswer answer_of(const Certificate& certificate) {
     const Statements& said = certificate.run.statements;
-    return {"Axis " + stated(said.axis) + ", " + stated(said.machine), certificate.issued_on,
+    return {"Axis " + stated(said.axis) + ", " + machine_in_answer(said), certificate.issued_on,
             certificate.completeness.partial()
                 ? "PARTIAL: no verdict"
                 : verdict_on_paper(certificate.conformity, positioning_symbol),

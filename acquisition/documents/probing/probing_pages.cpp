@@ -35,7 +35,7 @@ std::string main_figure(const std::vector<ProbingDelay>& results) {
 
 FrontAnswer answer_of(const ProbingResult& document) {
     const Statements& said = document.run.statements;
-    return {"Probe " + stated(document.record.probe) + ", " + stated(said.machine),
+    return {"Probe " + stated(document.record.probe) + ", " + machine_in_answer(said),
             dates_of_test(document.run).issued_on,
             verdict_on_paper(document.conformity, symbol_as_it_is), main_figure(document.results)};
 }

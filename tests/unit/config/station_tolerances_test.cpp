@@ -1,7 +1,9 @@
 // [tolerances] of the station file.
 
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/config/station_text.hpp"
 
+#include <fstream>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -90,6 +92,32 @@ TEST(StationTolerances, WithoutARuleAreAllowedWithAWarning) {
 
 TEST(StationTolerances, AreAbsentWithoutTheirTable) {
     EXPECT_FALSE(read_text(example_text()).config.tolerances);
+}
+
+TEST(StationTolerances, MayStandInAFileOfTheirOwn) {
+    const testing::ScratchFolder folder;
+    const std::string path = folder.file("limits.toml");
+    std::ofstream{path} << "source = \"data sheet\"\nlimits = [{ parameter = \"A\", limit = \"9 "
+                           "um\" }]\n";
+    const std::string file = "[tolerances]\nfile = \"" + path + "\"\n";
+    const Reading reading = read_text(with_table(file + "rule = \"simple\""));
+    EXPECT_EQ(reading.told, "");
+    ASSERT_TRUE(reading.config.tolerances);
+    EXPECT_EQ(reading.config.tolerances->source, "data sheet");
+    EXPECT_EQ(reading.config.tolerances->name, "limits of " + path);
+    EXPECT_EQ(reading.config.tolerances->rule, DecisionRule::simple);
+    EXPECT_EQ(reading.config.tolerances->limits.at(0).limit, 9);
+
+    std::ofstream{path, std::ios::app} << "rule = \"guard-U\"\n";
+    EXPECT_EQ(read_text(with_table(file)).config.tolerances->rule, DecisionRule::guard_U);
+    const auto refuses = [](const std::string& told, const std::string& words) {
+        EXPECT_NE(told.find(words), std::string::npos) << told;
+    };
+    refuses(read_text(with_table(file + "rule = \"simple\"")).told, "is another one in " + path);
+    refuses(read_text(with_table(file + "source = \"x\"")).told, "given together with file");
+    refuses(read_text(with_table("[tolerances]\nfile = \"limits.toml\"")).told, "tolerances.file");
+    std::ofstream{path, std::ios::app} << "limit = 3\n";
+    refuses(read_text(with_table(file)).told, path + ":4: limit");
 }
 
 std::string refused(const std::string& table) {

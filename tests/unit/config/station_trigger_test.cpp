@@ -26,7 +26,7 @@ struct TriggerCase {
     const char* refusal; ///< empty: accepted
 };
 
-class TriggerTable : public testing::TestWithParam<TriggerCase> {};
+class TriggerTable : public ::testing::TestWithParam<TriggerCase> {};
 
 TEST_P(TriggerTable, IsAcceptedOrRefusedWithTheWayOut) {
     const Reading reading = read_trigger_table(GetParam().table);
@@ -40,7 +40,7 @@ TEST_P(TriggerTable, IsAcceptedOrRefusedWithTheWayOut) {
 INSTANTIATE_TEST_SUITE_P(
     Combinations,
     TriggerTable,
-    testing::Values(
+    ::testing::Values(
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp\"\nport = 502\n", ""},
         TriggerCase{"shape = \"sequence-block\"\ntransport = \"tcp-mirrored\"\nport = 502\n"
                     "host = \"cnc.plant.example\"\nbase_address = 32768\n",
@@ -112,7 +112,7 @@ struct HiddenCase {
     std::vector<const char*> refusals;
 };
 
-class WrongTriggerTable : public testing::TestWithParam<HiddenCase> {};
+class WrongTriggerTable : public ::testing::TestWithParam<HiddenCase> {};
 
 TEST_P(WrongTriggerTable, TellsEveryMistakeBesideAWrongShapeOrTransportAndNoOther) {
     const Reading reading = read_trigger_table(GetParam().table);
@@ -125,7 +125,7 @@ TEST_P(WrongTriggerTable, TellsEveryMistakeBesideAWrongShapeOrTransportAndNoOthe
 INSTANTIATE_TEST_SUITE_P(
     Mistakes,
     WrongTriggerTable,
-    testing::Values(
+    ::testing::Values(
         HiddenCase{"shape = \"sequense-block\"\ntransport = \"tcp\"\nport = 150200\n",
                    {"did you mean \"sequence-block\"?", "trigger.port: 150200 is out of range"}},
         HiddenCase{"shape = \"sequence-block\"\ntransport = \"tpc\"\nport = 150200\n",

@@ -1,0 +1,16 @@
+#pragma once
+// A set of limits in a TOML file of its own: the class table of a standard, a maker's data sheet.
+
+#include "analysis/quantity/result.hpp"
+#include "analysis/record/run_record.hpp"
+
+#include <string>
+
+namespace axiscal {
+
+/// The keys of the station file's [tolerances], without that head. Limits in um, those of a rotary
+/// axis in arcsec, as `unit` says.
+/// @errors Fault::bad_configuration with file:line and the first thing that is wrong.
+Result<ToleranceRecord> load_tolerances(const std::string& path, AxisKind kind);
+
+} // namespace axiscal
