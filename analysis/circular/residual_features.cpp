@@ -67,9 +67,38 @@ struct Spike {
     double height = 0, width_deg = 0;
 };
 
-/// Largest residual after the crossing, and how far its half height reaches.
-Spike spike_after(const ResidualTrace& seen, double at_deg) {
-    std::vector<std::pair<double, double>> after;
+/// What a step that is taken out at the crossing leaves of lost motion. The slide stands still
+/// until the drive has come back from where it turned by the whole of it: R (1 - cos u) at u past
+/// the crossing. Half of it is left at acos(1 - lost / (2 R)).
+double left_by_play(double past_deg, double lost_mm, double radius_mm) {
+    const double come_back_mm = radius_mm * (1 - std::cos(past_deg * std::numbers::pi / 180));
+    return std::min(come_back_mm - lost_mm, 0.0);
+}
+
+using Past = std::vector<std::pair<double, double>>; ///< degrees past the crossing, residual
+
+/// Takes lost motion out of the residual where it explains more of it than a step does: a control
+/// that makes up for the play moves the drive at once.
+void take_out_play(Past& after, double lost_mm, double radius_mm) {
+    double as_step = 0, as_play = 0;
+    for (const auto& [past, residual] : after) {
+        const double left = left_by_play(past, lost_mm, radius_mm);
+        if (left == 0) continue;
+        as_step += residual * residual;
+        as_play += (residual - left) * (residual - left);
+    }
+    if (as_play >= as_step) return;
+    for (auto& [past, residual] : after)
+        residual -= left_by_play(past, lost_mm, radius_mm);
+}
+
+/// Largest residual after the crossing beside the play of the axis, and how far its half height
+/// reaches.
+Spike spike_after(const ResidualTrace& seen,
+                  double at_deg,
+                  double lost_mm,
+                  double nominal_radius_mm) {
+    Past after;
     for (std::size_t i = 0; i < seen.residual_mm.size(); ++i) {
         const double past = degrees_past(seen.trace->points[i], at_deg);
         if (past > on_the_border && past <= localized_deg + on_the_border)
@@ -77,6 +106,7 @@ Spike spike_after(const ResidualTrace& seen, double at_deg) {
     }
     if (after.empty()) return {};
     std::ranges::sort(after);
+    take_out_play(after, lost_mm, nominal_radius_mm);
     const auto peak = std::ranges::max_element(
         after, {}, [](const auto& point) { return std::fabs(point.second); });
     const double height = peak->second;
@@ -144,11 +174,12 @@ std::vector<Reversal> find_reversals(const std::vector<ResidualTrace>& traces,
             const double at = 90.0 * quarter;
             const auto step = step_at(*seen.trace, seen.residual_mm, at);
             if (!step) continue;
-            const Spike spike = spike_after(seen, at);
+            const double lost = backlash + step->height;
+            const Spike spike = spike_after(seen, at, lost, nominal_radius_mm);
             const double width_mm = spike.width_deg * std::numbers::pi / 180 * nominal_radius_mm;
             found.push_back(
-                {seen.trace->sense, axis, at, backlash + step->height, step->standard_uncertainty,
-                 spike.height, spike.width_deg, 1000 * width_mm / feed_mm_per_s,
+                {seen.trace->sense, axis, at, lost, step->standard_uncertainty, spike.height,
+                 spike.width_deg, 1000 * width_mm / feed_mm_per_s,
                  std::fabs(spike.height) > std::max(5 * scale.rms_mm, scale.negligible_mm)});
         }
     }

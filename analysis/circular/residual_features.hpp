@@ -26,7 +26,9 @@ struct Reversal {
     /// deg of the residual add to it at this place.
     double step_mm = 0, step_standard_uncertainty_mm = 0;
     /// Largest residual within 10 deg after the crossing, signed, inward negative; width at half
-    /// height. Significant: above five times the scatter away from the reversals.
+    /// height. Lost motion that is taken up while the drive comes back from its turn is no spike:
+    /// it is taken out where it explains the readings better than a step at the crossing does.
+    /// Significant: above five times the scatter away from the reversals.
     double spike_mm = 0, spike_width_deg = 0, spike_width_ms = 0;
     bool spike_significant = false;
 };
