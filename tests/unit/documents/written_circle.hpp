@@ -55,9 +55,10 @@ inline std::string write_circles(const testing::ScratchFolder& scratch,
                                  const DrivenBar& bar,
                                  const StreamSamples& of,
                                  bool close = true,
-                                 const RunAttachments& beside = {}) {
+                                 const RunAttachments& beside = {},
+                                 const RunRecord& header = circular_header()) {
     const std::string path = scratch.file("circle.axiscal");
-    auto writer = RunFileWriter::create(path, circular_header(), beside).value();
+    auto writer = RunFileWriter::create(path, header, beside).value();
     RunBatch first;
     first.circular = bar.setup;
     first.streams.push_back({0, 4, "ballbar", "m", 1000});
