@@ -22,7 +22,7 @@ constexpr std::size_t fewest_buckets = 20;
 /// The line is used at the end of its window, where it is off by up to twice its misfit.
 constexpr double at_the_end = 2;
 
-/// How far the last half second stayed above the line: more than a grain it cannot be.
+/// How far the last half second stayed above the line.
 double least_above(const ClockLine& line, const std::deque<ClockPoint>& points) {
     constexpr std::size_t half_a_second = 10;
     double least_s = points.back().delay_s - line.at(points.back().device_s);
@@ -126,7 +126,8 @@ void DeviceClock::refit() {
     const double grain = grain_s();
     const SawTeeth teeth = grain > 0 ? teeth_on(line_, lowest_, grain) : SawTeeth{};
     pinned_ = grain == 0 || (teeth.begun >= 3 && teeth.whole >= 2); // two beats
-    if (!pinned_) line_.delay_s += least_above(line_, lowest_);
+    // More than a grain above the line is no clock: the host came late for half a second.
+    if (!pinned_) line_.delay_s += std::min(grain, least_above(line_, lowest_));
     // The grain covers what a line that is not pinned is off.
     const double misfit_s = grain == 0 ? misfit_of(line_, lowest_) : teeth.misfit_s;
     fit_uncertainty_s_ = pinned_ ? at_the_end * misfit_s : 0;

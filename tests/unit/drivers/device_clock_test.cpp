@@ -39,6 +39,30 @@ TEST(DeviceClock, PlacesRecordsOfAStalledHostWhereTheyWereTaken) {
     }
 }
 
+/// A computer so busy that for two seconds it reads nothing in time: 25 ms late and more.
+TEST(DeviceClock, AHostThatIsLateForSecondsMovesNoRecord) {
+    for (const Duration step : {20us, 1000us}) {
+        DeviceClock clock{1ms};
+        std::mt19937_64 random{7};
+        std::uniform_int_distribution<std::int64_t> jitter_us{0, 400}, more_us{0, 5000};
+        const std::int64_t in_frame = 1ms / step;
+        Duration worst{};
+        for (std::int64_t frame = 0; frame < 8000; ++frame) {
+            const bool late = frame >= 3000 && frame < 5000;
+            const MonotonicTime ready = begin + 1ms * (frame + 1);
+            const MonotonicTime read_at =
+                ready + 1us * jitter_us(random) + (late ? 25ms + 1us * more_us(random) : 0ms);
+            for (std::int64_t i = 0; i < in_frame; ++i) {
+                const std::int64_t n = frame * in_frame + i;
+                const auto placed =
+                    clock.place(static_cast<std::uint64_t>(n), read_at, step, in_frame - 1 - i);
+                worst = std::max<Duration>(worst, std::chrono::abs(placed.at - (begin + step * n)));
+            }
+        }
+        EXPECT_LE(worst, 2ms) << step.count() << " ns";
+    }
+}
+
 TEST(DeviceClock, SpreadsTheFirstBurstBackwards) {
     DeviceClock clock{0ms};
     for (std::int64_t n = 0; n < 10; ++n)
