@@ -301,6 +301,17 @@ class Result(Scratch):
         partial = self.expect(0, "result", self.aborted(33), "--tolerances", limits, "--json")
         self.assertTrue(all(figure["verdict"] is None for figure in json.loads(partial.stdout)["parameters"].values()))
 
+    def test_limits_may_stand_in_toml_as_the_station_file_has_them(self):
+        run = self.aborted(50, complete=True)
+        head = 'source = "order 17"\nrule = "simple"\n'
+        wide = self.file("wide.toml", head + 'limits = [{ parameter = "A", limit = "500 mm" }]')
+        told = json.loads(self.expect(0, "result", run, "--tolerances", wide, "--json").stdout)
+        self.assertEqual((told["verdict"], told["tolerances"]["rule"]), ("pass", "simple"))
+        self.assertEqual(told["verdicts"][0]["limit"], 500)
+        circles = self.file("circles.toml", head + 'limits = [{ parameter = "G_b", limit = "9 um" }]')
+        refused = self.expect(3, "result", run, "--tolerances", circles)
+        self.assertIn("has no limit of a positioning run", refused.stderr)
+
     def test_it_fits_a_terminal_and_says_partial(self):
         for taken in (8, 33, 50):
             told = self.expect(0, "result", self.aborted(taken, complete=taken == 50)).stdout

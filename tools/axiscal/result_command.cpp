@@ -60,8 +60,11 @@ Result<void> take_limits(const ResultRequest& request, Certificate& made) {
     if (request.tolerances.ends_with(".toml")) {
         AXISCAL_TRY(ToleranceRecord set,
                     load_tolerances(request.tolerances, made.run.plan.axis_kind));
-        if (auto own = limits_of_kind(set, TestKind::positioning))
-            made.conformity = conformity_of(made, own, request.travel);
+        const auto own = limits_of_kind(set, TestKind::positioning);
+        if (!own)
+            return fail(Fault::bad_configuration,
+                        request.tolerances + " has no limit of a positioning run: A, E, M, R or B");
+        made.conformity = conformity_of(made, own, request.travel);
         return {};
     }
     std::ifstream file{request.tolerances};
