@@ -106,6 +106,13 @@ Task<Result<JournalReceipt>> Journal::receipt_for_skip(std::uint16_t sequence, i
     co_return co_await receipt_by(lookup, sequence, step);
 }
 
+Task<Result<JournalReceipt>> Journal::receipt_for_circle(std::uint16_t sequence) {
+    const Lookup lookup = [](const RunFileWriter& writer, int key) {
+        return writer.sequence_of_circle(static_cast<std::uint16_t>(key));
+    };
+    co_return co_await receipt_by(lookup, sequence, sequence - 1);
+}
+
 Task<Result<JournalReceipt>> Journal::receipt_by(Lookup lookup, int key, int step) {
     Worker* worker = worker_.get();
     std::function<Result<std::uint16_t>()> work = [worker, lookup, key,

@@ -78,6 +78,8 @@ public:
     Task<Result<JournalReceipt>> receipt_for(int step);
     /// The same for a skipped step, which is an event: found by the request that skipped it.
     Task<Result<JournalReceipt>> receipt_for_skip(std::uint16_t sequence, int step);
+    /// The same for a request of a circular test; its receipt's step is `sequence` - 1.
+    Task<Result<JournalReceipt>> receipt_for_circle(std::uint16_t sequence);
 
     /// For what the newest request of a closed run made durable.
     /// @errors Fault::not_found when no request did; Fault::refused while it is open.

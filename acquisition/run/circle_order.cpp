@@ -46,6 +46,12 @@ CircleVerdict CircleOrder::out_of_order(int wanted) const {
             Fault::sequence_lost};
 }
 
+CircleVerdict CircleOrder::driven_while_away(int wanted) const {
+    return {CircleAnswer::broken, static_cast<std::uint16_t>(wanted),
+            "Circle " + std::to_string(current().number) +
+                " was driven while the station was away: start the test anew."};
+}
+
 namespace {
 
 /// A circle that was skipped, or one less, would make another test than the one that was armed.
@@ -72,6 +78,7 @@ CircleVerdict CircleOrder::judge(const TriggerEvent& event) {
         return verdict;
     if (event.command != TriggerCommand::capture) return no_such_command(event, verdict.sequence);
     any_accepted_ = true;
+    unseen_ = verdict.once_more;
     pending_ = verdict.sequence;
     return verdict;
 }
@@ -83,14 +90,16 @@ CircleVerdict CircleOrder::judge_number(const TriggerEvent& event) const {
     const int wanted = event.origin == TriggerOrigin::manual ? next : event.sequence;
     if (wanted == 0 || wanted == pending_) return {};
     const auto sequence = static_cast<std::uint16_t>(wanted);
-    if (pending_) return out_of_order(wanted);
-    if (interrupted_ && wanted == again)
-        return {CircleAnswer::begin, sequence, words_of(wanted, "begins again")};
+    if (pending_) // a CNC that waited for its answer would not be that far
+        return unseen_ && wanted == *pending_ + 1 ? driven_while_away(wanted)
+                                                  : out_of_order(wanted);
+    if (interrupted_ && wanted == again && !(whole_ && wanted == last_))
+        return {CircleAnswer::begin, sequence, words_of(wanted, "begins again"), Fault::none,
+                requests_a_circle_ == 1};
     if (wanted == last_) return {CircleAnswer::again, sequence, {}};
     if (cut && wanted > again && wanted <= again + requests_a_circle_)
-        return {CircleAnswer::broken, sequence,
-                "Circle " + std::to_string((last_ - 1) / requests_a_circle_ + 1) +
-                    " was driven while the station was away: start the test anew."};
+        return driven_while_away(wanted);
+    if (unseen_ && wanted == last_ + 1) return driven_while_away(wanted);
     if (wanted != last_ + 1 || wanted > requests() + 1) return out_of_order(wanted);
     if (wanted == requests() + 1) return {CircleAnswer::end, sequence, "Every circle was driven."};
     return {CircleAnswer::begin, sequence, words_of(wanted, "begins")};

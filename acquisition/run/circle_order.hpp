@@ -23,8 +23,11 @@ enum class CircleAnswer : std::uint8_t {
 struct CircleVerdict {
     CircleAnswer answer = CircleAnswer::ignore;
     std::uint16_t sequence = 0;
-    std::string sentence; ///< what begins, or why it is refused
+    std::string sentence;      ///< what begins, or why it is refused
     Fault fault = Fault::none; ///< with `refuse`
+    /// With `begin`, of a circle with a feed-in that was under way when the station ended: the CNC
+    /// may stand at its request and wait, or drive it. Look on, and call circle_seen().
+    bool once_more = false;
 };
 
 /// What a restarted station knows of the circles of an open test.
@@ -36,8 +39,8 @@ struct CirclesBefore {
 class CircleOrder {
 public:
     explicit CircleOrder(const CircularPlan& plan);
-    /// Goes on after a restart. The request before the circle that was under way begins it again;
-    /// the next one is taken only where that circle is whole.
+    /// Goes on after a restart. The request before a circle that is not whole begins it again; the
+    /// next one is taken where that circle is whole, or was seen whole since.
     CircleOrder(const CircularPlan& plan, const CirclesBefore& before);
 
     /// A manual request has no number: it is the next one, or after an interruption the one before
@@ -46,6 +49,9 @@ public:
     CircleVerdict judge(const TriggerEvent& event);
     void durable();
     void failed() { pending_.reset(); }
+    /// The circle that began once more was driven from its feed-in to its feed-out. Without this
+    /// the next request is `broken`.
+    void circle_seen() { unseen_ = false; }
 
     [[nodiscard]] int circles() const { return static_cast<int>(circles_.size()); }
     [[nodiscard]] int begun() const;
@@ -59,13 +65,15 @@ private:
     [[nodiscard]] int first_of(int sequence) const;
     [[nodiscard]] std::string words_of(int sequence, const char* begins) const;
     [[nodiscard]] CircleVerdict out_of_order(int wanted) const;
+    [[nodiscard]] CircleVerdict driven_while_away(int wanted) const;
     [[nodiscard]] CircleVerdict judge_number(const TriggerEvent& event) const;
 
     std::vector<PlannedCircle> circles_;
     int requests_a_circle_ = 1;
-    int last_ = 0;             ///< sequence that is durable
-    bool interrupted_ = false; ///< since then, and nothing was asked yet
-    bool whole_ = false;       ///< and its circle was recorded all the same
+    int last_ = 0;              ///< sequence that is durable
+    bool interrupted_ = false;  ///< since then, and nothing was asked yet
+    bool whole_ = false;        ///< and its circle was recorded all the same
+    bool unseen_ = false;       ///< it began once more, and nobody saw it driven
     bool any_accepted_ = false; ///< by the station that opened the test, if it is another one
     std::optional<int> pending_;
 };

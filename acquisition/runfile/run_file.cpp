@@ -273,6 +273,13 @@ Result<std::optional<std::uint16_t>> RunFileWriter::sequence_of_skip(std::uint16
                                        std::to_string(sequence) + " LIMIT 1");
 }
 
+Result<std::optional<std::uint16_t>>
+RunFileWriter::sequence_of_circle(std::uint16_t sequence) const {
+    if (broken_) return tl::unexpected<Error>(*broken_);
+    return sequence_in(*database_, "SELECT sequence FROM event WHERE kind='note' AND sequence=" +
+                                       std::to_string(sequence) + " LIMIT 1");
+}
+
 Result<void>
 RunFileWriter::close(bool complete, std::string reason, const ClockTie& tie, const SecretKey* key) {
     if (!closed_) {

@@ -79,6 +79,9 @@ public:
     [[nodiscard]] Result<std::optional<std::uint16_t>> sequence_of_last_datum() const;
     [[nodiscard]] Result<std::optional<std::uint16_t>>
     sequence_of_skip(std::uint16_t sequence) const;
+    /// The same of a request before a circle, or at an end of its arc.
+    [[nodiscard]] Result<std::optional<std::uint16_t>>
+    sequence_of_circle(std::uint16_t sequence) const;
 
     /// Writes the closing row and leaves one single file without WAL, synced with its folder.
     /// @param key  signs it, in the same transaction; null: nobody

@@ -25,6 +25,7 @@
 #include "acquisition/station/sleep_lock.hpp"
 #include "acquisition/station/station_interface.hpp"
 #include "acquisition/station/supervisor.hpp"
+#include "analysis/circular/circle_watch.hpp"
 #include "config/station_config.hpp"
 #include "drivers/loop/doorbell.hpp"
 #include "drivers/trigger/trigger_port.hpp"
@@ -185,11 +186,15 @@ private:
     /// While one is armed and after it, until the next run.
     struct Circles {
         explicit Circles(const CircularSetup& setup)
-            : order{setup.plan} {}
+            : setup{setup}
+            , order{setup.plan} {}
         Circles(const CircularSetup& setup, const CirclesBefore& before, StreamChunker behind)
-            : order{setup.plan, before}
+            : setup{setup}
+            , order{setup.plan, before}
             , chunker{std::move(behind)} {}
+        CircularSetup setup;
         CircleOrder order;
+        std::optional<CircleWatch> watch; ///< of a circle that began once more after a restart
         StreamChunker chunker{0};
         MinMaxPyramid view;
         std::uint64_t dropped = 0; ///< chunks, because the disk did not keep up

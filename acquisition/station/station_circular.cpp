@@ -131,7 +131,10 @@ void Station::take_bar(const Sample& sample) {
     if (drift_open() && drift_->bar) drift_->bar->push(sample);
     readings_.log(sample);
     if (!circular_ || !recording()) return;
-    if (const auto value = sample.value()) circular_->view.push(*value);
+    if (const auto value = sample.value()) {
+        circular_->view.push(*value);
+        if (circular_->watch) circular_->watch->see(*value);
+    }
     if (auto chunk = circular_->chunker.push(sample)) keep_chunk(*std::move(chunk));
 }
 
@@ -144,6 +147,7 @@ void Station::keep_chunk(StreamChunk chunk) {
 }
 
 std::optional<Error> Station::take_circular(const TriggerEvent& event) {
+    if (circular_->watch && circular_->watch->whole()) circular_->order.circle_seen();
     const CircleVerdict verdict = circular_->order.judge(event);
     const auto refused = [&](Fault fault) {
         if (event.origin != TriggerOrigin::manual)
@@ -162,6 +166,8 @@ std::optional<Error> Station::take_circular(const TriggerEvent& event) {
     case CircleAnswer::refuse: return refused(verdict.fault);
     case CircleAnswer::begin:
     case CircleAnswer::end:
+        circular_->watch.reset();
+        if (verdict.once_more) circular_->watch.emplace(circular_->setup);
         spawn(scheduler_, commit_circle(event, verdict.sequence, verdict.sentence,
                                         verdict.answer == CircleAnswer::end));
     }

@@ -114,8 +114,8 @@ std::string Station::interruption_text(const RunFileContents& contents,
 }
 
 /// The port is not open yet. What the CNC stands at decides: the last durable request begins its
-/// circle again, and is answered once that is durable; the next one is taken where the circle
-/// before it is whole.
+/// circle again, and is answered once that is durable, unless that circle is whole; the next one is
+/// taken where the circle before it is whole.
 Task<Result<void>>
 Station::resume_circles(std::string path, RunFileContents contents, CircleResume verdict) {
     if (auto reopened = co_await journal_.reopen(path); !reopened)
@@ -128,6 +128,10 @@ Station::resume_circles(std::string path, RunFileContents contents, CircleResume
     begin_circular(std::move(contents.run), std::move(path), setup);
     circular_.emplace(setup, verdict.before, std::move(behind));
     run_->resumed = true;
+    if (verdict.before.whole) { // a CNC that stands at it may ask once more
+        const auto last = static_cast<std::uint16_t>(verdict.before.last);
+        AXISCAL_CO_TRY(last_receipt_, co_await journal_.receipt_for_circle(last));
+    }
     record(EventKind::interrupted, message);
     if (verdict.before.last == 0) port_->publish_armed();
     perform(SetState{PortState::armed});

@@ -150,10 +150,8 @@ private:
         return capture;
     }
 
-    /// Above the middle of the step: positive away from the circle.
     [[nodiscard]] double height_mm(std::size_t i) const {
-        const double deviation = radial_deviation_mm(setup_, stream_.value[i]);
-        return (plan_.feed_in_outside ? deviation : -deviation) - plan_.feed_in_mm / 2;
+        return height_above_step_mm(setup_, stream_.value[i]);
     }
     [[nodiscard]] double seconds(std::size_t i) const {
         return seconds_of(stream_.at[i] - stream_.at.front());
@@ -279,6 +277,11 @@ double radial_deviation_mm(const CircularSetup& setup, double reading_m) {
     const double from_nominal =
         setup.bar_length_mm > 0 ? setup.bar_length_mm - setup.plan.nominal_radius_mm : 0;
     return setup.bar_sign * reading_m * 1e3 + from_nominal;
+}
+
+double height_above_step_mm(const CircularSetup& setup, double reading_m) {
+    const double deviation = radial_deviation_mm(setup, reading_m);
+    return (setup.plan.feed_in_outside ? deviation : -deviation) - setup.plan.feed_in_mm / 2;
 }
 
 double programmed_path_mm(const CircularPlan& plan) {

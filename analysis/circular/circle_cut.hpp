@@ -25,6 +25,10 @@ std::vector<CircleMark> circle_marks(const CircularPlan& plan, std::span<const E
 ///   sign * reading + (calibrated length - R), or sign * reading while no length is known.
 double radial_deviation_mm(const CircularSetup& setup, double reading_m);
 
+/// How far the reading lies beyond half of the feed-in, mm: positive beside the circle, negative on
+/// its side. Its zeros are begin and end of a circle.
+double height_above_step_mm(const CircularSetup& setup, double reading_m);
+
 /// Path from half the feed-in to half the feed-out, mm; by words that of the arc.
 double programmed_path_mm(const CircularPlan& plan);
 

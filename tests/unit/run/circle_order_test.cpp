@@ -106,8 +106,10 @@ TEST(CircleOrder, AfterARestartACircleThatWasCutIsBegunAgainOrEndsTheTest) {
     EXPECT_EQ(again.answer, CircleAnswer::begin);
     EXPECT_NE(again.sentence.find("Circle 1 of 2 begins again"), std::string::npos);
     EXPECT_EQ(cut.judge(request(1)).answer, CircleAnswer::ignore); // under way
+    EXPECT_TRUE(again.once_more);
     cut.durable();
     EXPECT_EQ(cut.judge(request(1)).answer, CircleAnswer::again);
+    cut.circle_seen();
     EXPECT_EQ(cut.judge(request(2)).answer, CircleAnswer::begin);
     CircleOrder driven{CircularPlan{}, {1, false}};
     const auto broken = driven.judge(request(2));
@@ -126,6 +128,35 @@ TEST(CircleOrder, AfterARestartTheNextCircleFollowsAWholeOne) {
     EXPECT_EQ(order.judge(request(3)).answer, CircleAnswer::end);
     CircleOrder fresh{CircularPlan{}, {0, false}};
     EXPECT_EQ(fresh.judge(request(1)).answer, CircleAnswer::begin);
+}
+
+/// A CNC that drives the circle still stands at its request, as one does that waits.
+TEST(CircleOrder, AfterARestartACircleThatNobodySawDrivenAgainEndsTheTest) {
+    for (const std::uint16_t last : {std::uint16_t{1}, std::uint16_t{2}}) {
+        CircleOrder order{CircularPlan{}, {last, false}};
+        EXPECT_EQ(order.judge(request(last)).answer, CircleAnswer::begin);
+        order.durable();
+        const auto verdict = order.judge(request(static_cast<std::uint16_t>(last + 1)));
+        EXPECT_EQ(verdict.answer, CircleAnswer::broken);
+        EXPECT_NE(verdict.sentence.find("Circle " + std::to_string(last) + " was driven while"),
+                  std::string::npos);
+    }
+}
+
+/// A client that connects anew writes what it stood at, and a moment later what it stands at.
+TEST(CircleOrder, AfterARestartANextRequestThatDoesNotWaitForTheFirstEndsTheTest) {
+    CircleOrder order{CircularPlan{}, {1, false}};
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::begin); // not durable yet
+    EXPECT_EQ(order.judge(request(2)).answer, CircleAnswer::broken);
+    CircleOrder undisturbed = order_of_two();
+    EXPECT_EQ(undisturbed.judge(request(1)).answer, CircleAnswer::begin);
+    EXPECT_EQ(undisturbed.judge(request(2)).answer, CircleAnswer::refuse);
+}
+
+TEST(CircleOrder, AfterARestartAWholeCircleIsNotBegunAgainWhereTheCncStandsAtIt) {
+    CircleOrder order{CircularPlan{}, {1, true}};
+    EXPECT_EQ(order.judge(request(1)).answer, CircleAnswer::again) << "it hears that it was taken";
+    EXPECT_EQ(order.judge(request(2)).answer, CircleAnswer::begin);
 }
 
 TEST(CircleOrder, ByTriggerBothEndsOfEachArcAreWords) {
@@ -148,7 +179,9 @@ TEST(CircleOrder, ByTriggerBothEndsOfEachArcAreWords) {
     CircleOrder cut{plan, {5, false}};                            // died within the arc of circle 2
     EXPECT_EQ(cut.judge(request(5)).answer, CircleAnswer::again); // it stands there still
     EXPECT_EQ(cut.judge(request(7)).answer, CircleAnswer::broken);
-    EXPECT_EQ(cut.judge(request(4)).answer, CircleAnswer::begin); // a person began it again
+    const auto again = cut.judge(request(4)); // a person began it again
+    EXPECT_EQ(again.answer, CircleAnswer::begin);
+    EXPECT_FALSE(again.once_more) << "its words tell whether it was driven";
     cut.durable();
     EXPECT_EQ(cut.judge(request(5)).answer, CircleAnswer::begin);
 }

@@ -450,6 +450,36 @@ TEST(StationCircular, ACircleDrivenWhileTheStationWasAwayEndsTheTestWithItsReaso
               std::string::npos);
 }
 
+/// It was answered before the daemon died, and its number stands until the next circle.
+TEST(StationCircular, ACncThatDrivesTheCircleAtWhoseRequestItStandsEndsTheTestWithItsReason) {
+    Bay bay;
+    first_life(bay, true);
+    Life again{bay.shop};
+    again.run(1s);
+    ask(again, 2);
+    again.run(8s); // the machine ends circle 2 by itself
+    ask(again, 3);
+    again.run(1s);
+    EXPECT_NE(again.port->done, 3);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.closed);
+    EXPECT_FALSE(read.run.complete);
+    EXPECT_NE(read.run.closing_reason.find("Circle 2 was driven while the station was away"),
+              std::string::npos)
+        << read.run.closing_reason;
+}
+
+TEST(StationCircular, AWholeCircleCountsWhereTheCncStillStandsAtItsRequest) {
+    Bay bay;
+    first_life(bay, false);
+    Life again{bay.shop};
+    again.run(2s);
+    ask(again, 1);
+    EXPECT_EQ(again.port->done, 1);
+    second_circle_and_end(again, bay);
+    expect_both_circles(bay, "Circle 1 of 2 was recorded to its end before");
+}
+
 TEST(StationCircular, ARestartWithAnotherStationFileClosesTheTest) {
     Bay bay;
     first_life(bay, false);
