@@ -210,6 +210,7 @@ private:
     header_without_axis(TestKind kind, const std::string& name, const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
+    Task<void> bar_is_read_until(MonotonicTime at);
     void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
     void take_bar(const Sample& sample);
     void keep_chunk(StreamChunk chunk);

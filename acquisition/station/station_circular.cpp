@@ -6,6 +6,7 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/station/held.hpp"
 #include "acquisition/station/run_header.hpp"
+#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>
@@ -174,12 +175,26 @@ std::optional<Error> Station::take_circular(const TriggerEvent& event) {
     return std::nullopt;
 }
 
+/// A busy computer may read the CNC before the bar, whose last feed-out then still waits in a
+/// buffer.
+Task<void> Station::bar_is_read_until(MonotonicTime at) {
+    const MonotonicTime limit = scheduler_.now() + bar_limit;
+    const auto is_behind = [this, at] {
+        const auto& reading = readings_.latest(*roles_.ballbar);
+        return !reading || reading->at < at;
+    };
+    while (circular_ && recording() && is_behind() && scheduler_.now() < limit)
+        co_await scheduler_.sleep_for(look_every);
+}
+
 /// The stretch up to here goes into the same commit. The event's time is that of the request: what
 /// was sampled before belongs to what came before.
 Task<void> Station::commit_circle(TriggerEvent event,
                                   std::uint16_t sequence,
                                   std::string sentence,
                                   bool last) {
+    if (last) co_await bar_is_read_until(event.at);
+    if (!circular_ || !recording()) co_return;
     if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
     EventRecord mark{EventKind::note,     event.at,    scheduler_.clock_tie().utc_ns,
                      std::move(sentence), Fault::none, sequence};

@@ -95,7 +95,11 @@ public:
             co_await context.scheduler->sleep_for(send_every);
             if (unplugged) co_return tl::unexpected<Error>(when_unplugged);
             const MonotonicTime now = context.scheduler->now();
-            if (!silent) send(now, *context.sink);
+            if (!silent) unread_.push_back(now);
+            while (!unread_.empty() && !read_late) {
+                send(unread_.front(), *context.sink);
+                unread_.pop_front();
+            }
             for (int i = 0; i < notes_each_period; ++i)
                 context.sink->note(Fault::bad_frame, "garbage " + std::to_string(++noted));
         }
@@ -108,6 +112,7 @@ public:
     std::optional<LinkSettings> asks_the_next_too;
     std::deque<Error> refuses_with; ///< each opening ends with the next of them
     bool unplugged = false, silent = false;
+    bool read_late = false; ///< what it measures waits in a buffer meanwhile
     Error when_unplugged{Fault::link_closed, "unplugged", {}, {}};
     Quality quality = Quality::good;
     std::uint32_t epoch = 0;
@@ -120,6 +125,8 @@ public:
     std::vector<MonotonicTime> opened_at;
 
 private:
+    std::deque<MonotonicTime> unread_;
+
     /// As the driver does: unwrapped while it runs, from what the device says at first.
     std::uint64_t first_count(std::uint64_t number) {
         if (first_number_ == 0) first_number_ = number;

@@ -271,6 +271,49 @@ TEST(StationCircular, LostSamplesStandInTheFileAsAGap) {
     EXPECT_EQ(stream->gaps[0].missing, 40U);
 }
 
+/// The computer stood still: it reads the CNC's last request, and only then what the bar measured
+/// before it.
+TEST(StationCircular, AFeedOutThatIsReadBehindTheLastRequestBelongsToItsCircle) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    ask(life, 1);
+    drive(life, bay, Sense::ccw);
+    ask(life, 2);
+    life.run(500ms);
+    life.run(bay.machine.drive(Sense::cw, life.scheduler.now()) - 100ms);
+    life.bar->read_late = true;
+    life.run(600ms);
+    ask(life, 3);
+    EXPECT_EQ(life.port->done, 2);
+    life.bar->read_late = false;
+    life.run(100ms);
+    EXPECT_EQ(life.port->done, 3);
+    const RunFileContents read = contents_of(bay.shop);
+    EXPECT_TRUE(read.run.complete);
+    const auto stream = samples_of(read.blocks, 0);
+    ASSERT_TRUE(stream);
+    const auto& setup = std::get<CircularSetup>(read.attachments.setup);
+    const auto cut = cut_circles(setup, *stream, circle_marks(setup.plan, read.run.events));
+    EXPECT_TRUE(cut) << cut.error().detail;
+}
+
+/// A bar that is silent does not hold the end of a test for longer than 2 s.
+TEST(StationCircular, ATestEndsWithoutTheBar) {
+    Bay bay;
+    Life life{bay.shop};
+    ASSERT_TRUE(arm(life));
+    ask(life, 1);
+    drive(life, bay, Sense::ccw);
+    ask(life, 2);
+    drive(life, bay, Sense::cw);
+    life.bar->silent = true;
+    life.run(100ms);
+    ask(life, 3);
+    life.run(2s);
+    EXPECT_EQ(life.port->done, 3);
+}
+
 /// docs/circular.md: 64 blocks wait, of one second or 16384 readings.
 TEST(StationCircular, WhatWaitsForTheDiskIsBounded) {
     constexpr std::size_t reading_bytes = sizeof(MonotonicTime) + sizeof(double);
