@@ -109,6 +109,20 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
     return remarks;
 }
 
+/// What the readings say of the set-up is no part of the result: where they cannot be searched
+/// nothing is found.
+void search_setup(Certificate& certificate) {
+    if (certificate.completeness.partial()) return;
+    const auto course =
+        course_of(certificate.run, certificate.revisions, certificate.compensation.after);
+    if (!course) return;
+    certificate.setup_finding = find_setup_error(*course, limits_of(certificate.run));
+    if (!certificate.setup_finding) return;
+    const SetupFinding& found = *certificate.setup_finding;
+    certificate.remarks.push_back("Set-up: " + found.seen + " " + found.probably + " " +
+                                  found.look_at);
+}
+
 std::string approach_text(const PlannedPoint& point) {
     return place_of(point.target_index, point.direction) + " " + std::to_string(point.approach + 1);
 }
@@ -349,6 +363,7 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);
+    search_setup(certificate);
     if (!certificate.completeness.partial())
         for (const PositioningStandard* other : chosen.others)
             certificate.others.push_back(evaluate_other(*other, certificate.deviations));

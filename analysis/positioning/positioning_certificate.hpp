@@ -10,6 +10,7 @@
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
 #include "analysis/compensation/thermal_compensation.hpp"
+#include "analysis/setup/setup_findings.hpp"
 #include "analysis/uncertainty/run_uncertainty.hpp"
 
 #include <cstddef>
@@ -67,6 +68,8 @@ struct Certificate {
     std::vector<OtherResult> others = {};
     /// Of a complete result with limits.
     std::optional<Conformity> conformity = {};
+    /// Of a complete result of a linear axis; also the last of `remarks`.
+    std::optional<SetupFinding> setup_finding = {};
 };
 
 /// The whole road from a run to its certificate. Of a run that was not closed as complete

@@ -1,0 +1,10 @@
+#pragma once
+// A finding as three sentences: what was seen, what it probably is, what to look at. Pure.
+
+#include "analysis/setup/setup_findings.hpp"
+
+namespace axiscal {
+
+void put_into_words(SetupFinding& finding);
+
+} // namespace axiscal
