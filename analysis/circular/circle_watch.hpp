@@ -6,7 +6,7 @@
 
 namespace axiscal {
 
-/// One circle with feed-in and feed-out (StartMethod::feed_in).
+/// One circle with feed-in and feed-out (StartMethod::feed_step).
 class CircleWatch {
 public:
     explicit CircleWatch(CircularSetup setup);
