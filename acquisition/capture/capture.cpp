@@ -121,6 +121,27 @@ std::string side_of(Direction direction) {
     return direction == Direction::positive ? "below" : "above";
 }
 
+Direction opposite_of(Direction direction) {
+    return direction == Direction::positive ? Direction::negative : Direction::positive;
+}
+
+/// Why the way from the claimed side is too short, and what to change in the program.
+std::string cause_of_short_way(const SampleHistory& history,
+                               const StillWindow& window,
+                               const ApproachClaim& claim,
+                               Duration gap,
+                               Length needed) {
+    ApproachClaim other = claim;
+    other.direction = opposite_of(claim.direction);
+    const Length travel = follow_back(history, window, other, gap).travel;
+    if (travel >= needed)
+        return ": it came " + in_mm(travel) + " from " + side_of(other.direction) +
+               ". The program exchanges forward and backward: let it reach this target from " +
+               side_of(claim.direction) + ".";
+    return ": the program has no overrun before this target, or too little. Let it go further past "
+           "the target before it comes back.";
+}
+
 } // namespace
 
 Length lost_motion_allowance(Length overrun) {
@@ -141,7 +162,7 @@ Result<Length> approach_travel(const SampleHistory& history,
                     "The axis " + seen + "; before that its readings are missing.");
     return fail(Fault::wrong_direction,
                 "The axis " + seen +
-                    ": let the program go further past the target before it comes back.");
+                    cause_of_short_way(history, window, claim, largest_gap(config), needed));
 }
 
 Result<Capture> make_capture(const SampleHistory& history,

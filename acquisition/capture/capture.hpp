@@ -51,7 +51,8 @@ Result<Capture> make_capture(const SampleHistory& history,
 /// until it turns by more than max(overrun/20, spread at rest, 2 um): noise and servo ripple do not
 /// turn it, a reversal does.
 /// @return the travel; at least overrun - lost_motion_allowance(overrun).
-/// @errors Fault::wrong_direction with the travel seen; Fault::samples_lost when the readings end
+/// @errors Fault::wrong_direction with the travel seen, and whether the axis came from the other
+/// side or without an overrun; Fault::samples_lost when the readings end
 /// (gap, bad value, history too short) before the travel was seen. Samples with consecutive device
 /// numbers have no gap between them, however late they were read.
 Result<Length> approach_travel(const SampleHistory& history,

@@ -57,6 +57,14 @@ bool shift_is_new(Claims claims) {
     });
 }
 
+/// The axis has not left the target before, where it was right.
+bool is_one_step_late(Claims claims) {
+    const auto& before = claims.front();
+    const auto& last = claims.back();
+    return abs(last.measured - before.measured) <= 50.0_um &&
+           abs(before.measured - before.target) < abs(last.target - before.target) / 2;
+}
+
 std::string joined(const std::vector<std::string>& causes) {
     std::string text;
     for (const auto& cause : causes)
@@ -72,7 +80,8 @@ std::vector<std::string> named_causes(Length datum, Claims claims, Fault& fault)
         causes.push_back(std::move(cause));
     };
     if (ratio_fits(datum, claims, 0))
-        add(Fault::wrong_target, "another axis is measured, or the axis does not move");
+        add(Fault::wrong_target, "another axis is measured, the axis does not move, or the program "
+                                 "asks one step early");
     if (ratio_fits(datum, claims, -1))
         add(Fault::wrong_direction, "the sign is turned (set axis.sign to its opposite)");
     for (const auto& known : known_ratios)
@@ -120,7 +129,11 @@ void add_causes_of_two(std::vector<std::string>& causes, Length datum, Claims cl
         causes.push_back(off_the_datum(shift));
     else if (causes.empty() && ratio_fits(datum, claims, ratio))
         causes.push_back(scale_cause(ratio));
-    if (shift_is_new(claims)) causes.push_back(shift_cause(shift) + " since the target before");
+    if (is_one_step_late(claims))
+        causes.emplace_back("the axis still stands at the target before: it did not move (slip "
+                            "between scale and spindle), or the program asks one step early");
+    else if (shift_is_new(claims))
+        causes.push_back(shift_cause(shift) + " since the target before");
 }
 
 } // namespace

@@ -166,6 +166,7 @@ private:
     void accept_datum(const Capture& capture, RunActions& out);
     void accept_point(const Capture& capture, RunActions& out);
     [[nodiscard]] std::optional<Error> objection_to_place(Length position, Length target) const;
+    [[nodiscard]] bool is_target_before(Length target) const;
     [[nodiscard]] std::string place_text(Length position, Length target) const;
     [[nodiscard]] bool may_have_been_unseen(const Error& error) const;
     void refuse_pending(const Error& error, MonotonicTime at, RunActions& out);

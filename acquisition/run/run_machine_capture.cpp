@@ -127,7 +127,9 @@ std::optional<Error> RunMachine::objection_to_claim(const TriggerEvent& event, i
     if (event.direction && *event.direction != point.direction)
         return Error{Fault::wrong_direction,
                      "The CNC claims the " + std::string{name_of(*event.direction)} + " direction" +
-                         next,
+                         next +
+                         " The program exchanges forward and backward, or it drives another cycle "
+                         "than the plan's.",
                      {},
                      {}};
     if (event.run_index && *event.run_index != point.approach)
@@ -204,6 +206,13 @@ void RunMachine::accept_datum(const Capture& capture, RunActions& out) {
     out.push_back(CommitDatum{datum, capture.synchronisation});
 }
 
+/// `target` is that of the step before the pending one.
+bool RunMachine::is_target_before(Length target) const {
+    if (!pending_ || pending_->step < 1) return false;
+    const auto before = static_cast<std::size_t>(planned_at(pending_->step - 1).target_index);
+    return setup_.plan.targets[before] == target;
+}
+
 std::string RunMachine::place_text(Length position, Length target) const {
     const auto shown = [this](Length at) { return in_axis_unit(setup_.plan.axis_kind, at); };
     std::string text = "The axis stands at " + shown(position) + ", " +
@@ -211,7 +220,8 @@ std::string RunMachine::place_text(Length position, Length target) const {
                        "; " + shown(setup_.plan.near_tolerance) + " are allowed";
     for (const auto other : setup_.plan.targets)
         if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
-            text += "; it stands at the target at " + shown(other);
+            text += "; it stands at the target at " + shown(other) +
+                    (is_target_before(other) ? ", the one before: one step late" : "");
     if (setup_.rotary) text += hint_at_indexing(*setup_.rotary, position - target);
     return text + ".";
 }

@@ -116,6 +116,11 @@ TEST(Approach, RefusesTheWrongSide) {
     ASSERT_TRUE(capture);
     ASSERT_FALSE(capture->approach_travel);
     EXPECT_EQ(capture->approach_travel.error().fault, Fault::wrong_direction);
+    EXPECT_NE(capture->approach_travel.error().detail.find(
+                  "from below. The program exchanges forward and backward: let it "
+                  "reach this target from above."),
+              std::string::npos)
+        << capture->approach_travel.error().detail;
     EXPECT_NEAR(capture->mean.in(mm), 25, 1e-4) << "the reading is kept for the diagnosis";
 }
 
@@ -149,6 +154,9 @@ TEST(Approach, RefusesAnAxisThatDidNotMoveAtAll) {
     const auto capture = capture_here(signal, Direction::negative, since);
     ASSERT_FALSE(capture->approach_travel);
     EXPECT_EQ(capture->approach_travel.error().fault, Fault::wrong_direction);
+    EXPECT_NE(capture->approach_travel.error().detail.find("the program has no overrun"),
+              std::string::npos)
+        << capture->approach_travel.error().detail;
 }
 
 TEST(Approach, AllowsTheLostMotionOfAReversal) {

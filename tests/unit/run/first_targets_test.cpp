@@ -37,7 +37,8 @@ TEST(FirstTargets, ATurnedSignIsOneSentenceWithNumbers) {
 TEST(FirstTargets, AnAxisThatDoesNotMoveIsAnotherAxis) {
     const auto error = diagnose(0, 3.0_um, {30.0_mm});
     EXPECT_EQ(error.fault, Fault::wrong_target);
-    EXPECT_TRUE(names(error, "another axis is measured, or the axis does not move"))
+    EXPECT_TRUE(names(error, "another axis is measured, the axis does not move, or the program "
+                             "asks one step early"))
         << error.detail;
     EXPECT_FALSE(names(error, "shifted"));
 }
@@ -72,6 +73,13 @@ TEST(FirstTargets, AShiftAfterARightTargetIsTold) {
     const auto error = diagnose_first_targets(datum, claims);
     EXPECT_TRUE(names(error, "the datum is shifted by 1.002 mm since the target before"))
         << error.detail;
+}
+
+TEST(FirstTargets, ATargetThatIsReadOneStepLateIsTold) {
+    const std::vector<ClaimedTarget> claims{{14.0_mm, 14.003_mm}, {105.0_mm, 14.002_mm}};
+    const auto error = diagnose_first_targets(datum, claims);
+    EXPECT_TRUE(names(error, "the axis still stands at the target before")) << error.detail;
+    EXPECT_FALSE(names(error, "shifted")) << error.detail;
 }
 
 TEST(FirstTargets, OneTargetCannotTellAScaleFromAShift) {

@@ -28,6 +28,13 @@ TEST(Place, LaterTargetsAreToldWhereTheAxisStands) {
                    "allowed; it stands at the target at 320 mm.");
 }
 
+TEST(Place, ALaterTargetThatIsReadOneStepLateIsTold) {
+    Bench bench;
+    bench.arm().point(1).point(2).trigger(3).window(bench.capture_at(120.0_mm));
+    expect_refused(bench, Fault::outside_window,
+                   "it stands at the target at 120 mm, the one before: one step late.");
+}
+
 TEST(Place, AtTheFirstTargetsTheCauseIsNamed) {
     Bench bench;
     bench.arm().trigger(1).window(bench.capture_at(-20.0_mm));
