@@ -3,6 +3,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
+#include "analysis/setup/air_share.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +11,8 @@
 namespace axiscal::preflight_checks {
 namespace {
 
-/// Below this the air is too steady to tell whether a sensor follows it.
-constexpr double telling_change_K = 0.03;
 /// Of the two residuals: below it they move by chance.
 constexpr double telling_correlation = 0.8;
-/// Fewer readings tell nothing about who follows whom.
-constexpr std::size_t fewest_readings = 10;
 
 std::string in_kelvin(double kelvins) {
     return plain_number(kelvins, 3) + " K";
@@ -34,57 +31,6 @@ Soak soak_of(const SensorFacts& sensor, const PreflightFacts& facts) {
     if (series.times.size() >= 2 && seconds_of(soak.covered) >= seconds_of(window) * nearly_whole)
         soak.change_K = slope_of(series) * seconds_of(window);
     return soak;
-}
-
-/// Residuals of a series about its own straight line, at its own times.
-std::vector<double> residuals_of(const std::vector<double>& times,
-                                 const std::vector<double>& readings) {
-    const auto n = static_cast<double>(times.size());
-    double mean_t = 0, mean_x = 0, tt = 0, tx = 0;
-    for (std::size_t i = 0; i < times.size(); ++i)
-        mean_t += times[i] / n, mean_x += readings[i] / n;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        tt += (times[i] - mean_t) * (times[i] - mean_t);
-        tx += (times[i] - mean_t) * (readings[i] - mean_x);
-    }
-    const double slope = tt > 0 ? tx / tt : 0;
-    std::vector<double> residuals;
-    residuals.reserve(times.size());
-    for (std::size_t i = 0; i < times.size(); ++i)
-        residuals.push_back(readings[i] - mean_x - slope * (times[i] - mean_t));
-    return residuals;
-}
-
-double value_at(const DriftSeries& series, double time) {
-    const auto after = std::ranges::lower_bound(series.times, time);
-    if (after == series.times.begin()) return series.readings.front();
-    if (after == series.times.end()) return series.readings.back();
-    const auto i = static_cast<std::size_t>(after - series.times.begin());
-    const double share = (time - series.times[i - 1]) / (series.times[i] - series.times[i - 1]);
-    return series.readings[i - 1] + share * (series.readings[i] - series.readings[i - 1]);
-}
-
-bool too_few(const DriftSeries& series) {
-    return series.times.size() < fewest_readings;
-}
-
-/// Share of the air's swings that the sensor shows; empty when nothing can be told.
-std::optional<double> air_share_of(const DriftSeries& material, const DriftSeries& air) {
-    std::vector<double> beside;
-    beside.reserve(material.times.size());
-    for (const double time : material.times)
-        beside.push_back(value_at(air, time));
-    const auto sensor = residuals_of(material.times, material.readings);
-    const auto driver = residuals_of(material.times, beside);
-    double aa = 0, as = 0, ss = 0;
-    for (std::size_t i = 0; i < sensor.size(); ++i) {
-        aa += driver[i] * driver[i];
-        as += driver[i] * sensor[i];
-        ss += sensor[i] * sensor[i];
-    }
-    const bool moves = std::sqrt(aa / static_cast<double>(sensor.size())) >= telling_change_K;
-    if (!moves || ss <= 0 || as / std::sqrt(aa * ss) < telling_correlation) return std::nullopt;
-    return as / aa;
 }
 
 } // namespace
@@ -156,11 +102,13 @@ PreflightRecord check_contact(const PreflightFacts& facts) {
     for (const SensorFacts& sensor : facts.sensors) {
         if (sensor.medium != Medium::material) continue;
         const DriftSeries series = sensor.log->last(window, facts.now);
-        if (too_few(series) || too_few(air_series)) {
+        if (tells_no_share(series) || tells_no_share(air_series)) {
             join(unread, sensor.name);
             continue;
         }
-        const auto share = air_share_of(series, air_series);
+        AirShare over;
+        over.add_window(series, air_series);
+        const auto share = over.share(telling_correlation);
         if (share && *share >= limits.air_share)
             join(wrong, sensor.name + " shows " + plain_number(*share * 100, 0) +
                             " % of each change of " + air->name);
@@ -170,9 +118,8 @@ PreflightRecord check_contact(const PreflightFacts& facts) {
                       wrong + ". It reads the air: press it on with paste and cover it.");
     if (!unread.empty())
         return passed("contact", "Not judged for " + unread + ": within " + in_minutes(window) +
-                                     " (preflight.soak_window) there are fewer than " +
-                                     std::to_string(fewest_readings) +
-                                     " readings of it or of the air.");
+                                     " (preflight.soak_window) there are fewer than 10 readings "
+                                     "of it or of the air.");
     return passed("contact", "No material sensor follows the air.");
 }
 

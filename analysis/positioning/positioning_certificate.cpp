@@ -4,6 +4,7 @@
 #include "analysis/record/channel_correction.hpp"
 #include "analysis/record/preflight_remarks.hpp"
 #include "analysis/record/run_clock.hpp"
+#include "analysis/setup/sensor_findings.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -109,18 +110,32 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
     return remarks;
 }
 
+bool names_sensor_in_air(const std::vector<SetupFinding>& findings) {
+    return std::ranges::find(findings, SetupError::sensor_in_air, &SetupFinding::error) !=
+           findings.end();
+}
+
+/// Where a material sensor hangs in the air the axis seems to grow with it, and with nothing else.
+bool follows_from(const SetupFinding& found, const std::vector<SetupFinding>& of_sensors) {
+    const bool is_growth =
+        found.error == SetupError::expansion || found.error == SetupError::growth;
+    return is_growth && names_sensor_in_air(of_sensors);
+}
+
 /// What the readings say of the set-up is no part of the result: where they cannot be searched
 /// nothing is found.
 void search_setup(Certificate& certificate) {
-    if (certificate.completeness.partial()) return;
-    const auto course =
-        course_of(certificate.run, certificate.revisions, certificate.compensation.after);
-    if (!course) return;
-    certificate.setup_finding = find_setup_error(*course, limits_of(certificate.run));
-    if (!certificate.setup_finding) return;
-    const SetupFinding& found = *certificate.setup_finding;
-    certificate.remarks.push_back("Set-up: " + found.seen + " " + found.probably + " " +
-                                  found.look_at);
+    const RunRecord& run = certificate.run;
+    if (certificate.completeness.partial() || run.rotary) return;
+    std::vector<SetupFinding>& findings = certificate.setup_findings;
+    findings = find_sensor_errors(run);
+    if (const auto course = course_of(run, certificate.revisions, certificate.compensation.after)) {
+        auto found = find_setup_error(*course, limits_of(run));
+        if (found && !follows_from(*found, findings)) findings.push_back(*std::move(found));
+    }
+    for (const SetupFinding& found : findings)
+        certificate.remarks.push_back("Set-up: " + found.seen + " " + found.probably + " " +
+                                      found.look_at);
 }
 
 std::string approach_text(const PlannedPoint& point) {

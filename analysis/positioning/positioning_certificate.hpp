@@ -69,7 +69,7 @@ struct Certificate {
     /// Of a complete result with limits.
     std::optional<Conformity> conformity = {};
     /// Of a complete result of a linear axis; also the last of `remarks`.
-    std::optional<SetupFinding> setup_finding = {};
+    std::vector<SetupFinding> setup_findings = {};
 };
 
 /// The whole road from a run to its certificate. Of a run that was not closed as complete

@@ -175,6 +175,8 @@ double range_of(const SetupFinding& finding, const Search& search) {
     case SetupError::growth: return size * search.columns().growth_range();
     case SetupError::dead_path:
     case SetupError::expansion: return size * range_of(search.columns().of_error(finding.error));
+    case SetupError::frozen_air:
+    case SetupError::sensor_in_air: break; // no sensor is searched here
     }
     return 0;
 }
@@ -218,6 +220,8 @@ bool is_worth_telling(const SetupFinding& finding,
                (!may_be_growth || exceeds_growth(finding, course, limits));
     }
     case SetupError::growth: return exceeds_growth(finding, course, limits);
+    case SetupError::frozen_air:
+    case SetupError::sensor_in_air: break;
     }
     return false;
 }
@@ -230,6 +234,8 @@ std::string_view name_of(SetupError error) {
     case SetupError::dead_path: return "dead_path";
     case SetupError::expansion: return "expansion";
     case SetupError::growth: return "growth";
+    case SetupError::frozen_air: return "frozen_air";
+    case SetupError::sensor_in_air: return "sensor_in_air";
     }
     return "";
 }

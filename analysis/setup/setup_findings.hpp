@@ -13,21 +13,26 @@
 namespace axiscal {
 
 enum class SetupError : std::uint8_t {
-    moved_optic, ///< from one reading on all are off by the same
-    dead_path,   ///< all move with the index of air, wherever the axis stands
-    expansion,   ///< they move with the material's temperature, in proportion to the distance
-    growth       ///< they grow with time in proportion to the distance, and no sensor shows it
+    moved_optic,  ///< from one reading on all are off by the same
+    dead_path,    ///< all move with the index of air, wherever the axis stands
+    expansion,    ///< they move with the material's temperature, in proportion to the distance
+    growth,       ///< they grow with time in proportion to the distance, and no sensor shows it
+    frozen_air,   ///< an air sensor repeats its last reading (sensor_findings.hpp)
+    sensor_in_air ///< a material sensor shows what the air does (sensor_findings.hpp)
 };
-/// "moved_optic", "dead_path", "expansion", "growth".
+/// "moved_optic", "dead_path", "expansion", "growth", "frozen_air", "sensor_in_air".
 std::string_view name_of(SetupError error);
 
 struct SetupFinding {
     SetupError error = SetupError::moved_optic;
-    double value = 0; ///< step um, missing dead path m, missing expansion 1e-6/K, growth um/(m h)
+    /// Step um, missing dead path m, missing expansion 1e-6/K, growth um/(m h), minutes without a
+    /// change, share of the air's swings.
+    double value = 0;
     double standard_uncertainty = 0; ///< of `value`, by the scatter that is left
     double range_um = 0;             ///< largest - smallest of what it does to the readings
     double log_odds = 0; ///< natural logarithm, against the best explanation without a set-up error
     std::optional<PlannedPoint> from;    ///< of a moved optic: the first reading behind the step
+    std::string sensor;                  ///< name of the instrument or channel; else empty
     std::vector<SetupError> or_else;     ///< what explains the readings nearly as well
     std::string seen, probably, look_at; ///< a sentence each
 };

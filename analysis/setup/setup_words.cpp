@@ -16,10 +16,13 @@ std::string number(const char* format, double value) {
 
 std::string words_of(SetupError error) {
     switch (error) {
-    case SetupError::moved_optic: return "an optic moved";
+    case SetupError::moved_optic:
+        return "an optic moved, or the axis slipped between scale and spindle";
     case SetupError::dead_path: return "the dead path of the station file is wrong";
     case SetupError::expansion: return "the expansion coefficient of the station file is wrong";
     case SetupError::growth: return "the machine was warming up or cooling down";
+    case SetupError::frozen_air: return "the sensor hangs and repeats its last reading";
+    case SetupError::sensor_in_air: return "the sensor hangs in the air or sits on a thin cover";
     }
     return {};
 }
@@ -32,8 +35,8 @@ void say_moved_optic(SetupFinding& finding) {
     finding.seen = "From reading " + where(*finding.from) + " on, every reading is " +
                    number("%.1f", std::fabs(finding.value)) + " µm " +
                    (finding.value > 0 ? "higher" : "lower") + " than before, at every target.";
-    finding.look_at = "Tighten the reflector, the interferometer and their posts, then measure "
-                      "again.";
+    finding.look_at = "Tighten the reflector, the interferometer and their posts. Where nothing is "
+                      "loose, look at the coupling and at the scale. Then measure again.";
 }
 
 void say_dead_path(SetupFinding& finding) {
@@ -60,6 +63,19 @@ void say_growth(SetupFinding& finding) {
                       "part that measures the axis.";
 }
 
+void say_frozen_air(SetupFinding& finding) {
+    finding.seen = "No figure of the air sensor \"" + finding.sensor + "\" changed for " +
+                   number("%.0f", finding.value) + " minutes, not by its last digit.";
+    finding.look_at = "Unplug the sensor and plug it in again, breathe on it and see its readings "
+                      "move, then measure again.";
+}
+
+void say_sensor_in_air(SetupFinding& finding) {
+    finding.seen = "The material sensor \"" + finding.sensor + "\" showed " +
+                   number("%.0f", finding.value * 100) + " % of each swing of the air.";
+    finding.look_at = "Press it with paste on the part that measures the axis, and cover it.";
+}
+
 } // namespace
 
 void put_into_words(SetupFinding& finding) {
@@ -68,6 +84,8 @@ void put_into_words(SetupFinding& finding) {
     case SetupError::dead_path: say_dead_path(finding); break;
     case SetupError::expansion: say_expansion(finding); break;
     case SetupError::growth: say_growth(finding); break;
+    case SetupError::frozen_air: say_frozen_air(finding); break;
+    case SetupError::sensor_in_air: say_sensor_in_air(finding); break;
     }
     finding.probably = "Probably " + words_of(finding.error);
     for (const SetupError other : finding.or_else)

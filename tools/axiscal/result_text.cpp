@@ -155,6 +155,17 @@ std::string verdict_text(const Json& summary, const PaperUnit& unit) {
     return text;
 }
 
+/// What is wrong with the set-up, one paragraph a finding.
+std::string setup_text(const Json& summary) {
+    std::string text;
+    for (const Json& found : summary.value("setup_findings", Json::array()))
+        text += wrapped("Set-up: " + found.at("seen").get<std::string>() + " " +
+                            found.at("probably").get<std::string>() + " " +
+                            found.at("look_at").get<std::string>(),
+                        0);
+    return text;
+}
+
 } // namespace
 
 Json result_summary(const Json& document) {
@@ -169,6 +180,8 @@ Json result_summary(const Json& document) {
         summary["verdicts"] = document.at("verdicts");
         summary["tolerances"] = document.at("tolerances");
     }
+    if (document.contains("setup_findings"))
+        summary["setup_findings"] = document.at("setup_findings");
     for (const auto& [key, parameter] : document.at("parameters").items()) {
         Json& figure = summary["parameters"][key];
         figure["value"] = parameter.at("value");
@@ -192,7 +205,7 @@ std::string result_text(const Json& summary, const std::string& about) {
         summary.at("k").is_null() ? ":\n" : ", with U (k = " + json_text(summary.at("k")) + "):\n";
     for (const auto& [key, parameter] : summary.at("parameters").items())
         text += line_of(key, parameter, unit);
-    return text + not_evaluated_text(summary.at("not_evaluated"));
+    return text + not_evaluated_text(summary.at("not_evaluated")) + setup_text(summary);
 }
 
 } // namespace axiscal

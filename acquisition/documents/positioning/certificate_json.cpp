@@ -4,6 +4,7 @@
 #include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/positioning/result_json.hpp"
+#include "acquisition/documents/positioning/setup_findings_json.hpp"
 #include "acquisition/documents/record_json.hpp"
 #include "acquisition/documents/uncertainty_json.hpp"
 #include "analysis/record/certificate_expiry.hpp"
@@ -383,6 +384,8 @@ Json certificate_to_json(const Certificate& certificate) {
     Json document = result_to_json(certificate.result);
     add_conformity(document, certificate.conformity);
     if (!certificate.others.empty()) document["other_standards"] = others_of(certificate.others);
+    if (!certificate.setup_findings.empty())
+        document["setup_findings"] = setup_findings_json(certificate.setup_findings);
     document["completeness"] = completeness_of(certificate);
     document["compensation"] = compensation_of(certificate);
     add_uncertainty(document, certificate);

@@ -14,6 +14,7 @@ namespace axiscal {
 ///   before and after in plan order, in `unit`),
 /// - "completeness": "status" ("complete" | "partial"), readings "expected" and "used", and
 ///   "left_out", an object for each target and direction of which planned readings enter no figure,
+/// - "setup_findings", where the readings show a wrong set-up (setup_findings_json.hpp),
 /// - "environment": every channel with place, correction and first, last, least, greatest,
 /// - "run": who, what, when; plan, laser, material, air, instruments, datums, deviations, events,
 ///   remarks, "synchronisation" (what the uncertain time of its samples adds to each capture, step

@@ -33,7 +33,7 @@ TEST(SetupOfARun, OneThatIsRightGetsNoRemark) {
     for (const int sign : {1, -1}) {
         const auto certificate = make_certificate(test::simulated_run(truth_of_a_shop(sign)), "");
         ASSERT_TRUE(certificate);
-        EXPECT_FALSE(certificate->setup_finding);
+        EXPECT_TRUE(certificate->setup_findings.empty());
         EXPECT_TRUE(certificate->remarks.empty());
     }
 }
@@ -43,8 +43,9 @@ TEST(SetupOfARun, ADeadPathThatIsNotStatedIsFoundWhicheverWayTheAxisRuns) {
         RunRecord run = test::simulated_run(truth_of_a_shop(sign));
         run.laser.dead_path = Length{};
         const auto certificate = make_certificate(std::move(run), "");
-        ASSERT_TRUE(certificate && certificate->setup_finding) << sign;
-        const SetupFinding& found = *certificate->setup_finding;
+        ASSERT_TRUE(certificate) << sign;
+        ASSERT_EQ(certificate->setup_findings.size(), 1U) << sign;
+        const SetupFinding& found = certificate->setup_findings.front();
         EXPECT_EQ(found.error, SetupError::dead_path);
         EXPECT_NEAR(found.value, 1.5, 3 * found.standard_uncertainty);
         EXPECT_EQ(certificate->remarks.back(),
@@ -56,10 +57,11 @@ TEST(SetupOfARun, AWrongExpansionIsFound) {
     RunRecord run = test::simulated_run(truth_of_a_shop(1));
     run.material.coefficient = per_kelvin(23.1e-6); // aluminium; the axis is of steel
     const auto certificate = make_certificate(std::move(run), "");
-    ASSERT_TRUE(certificate && certificate->setup_finding);
-    EXPECT_EQ(certificate->setup_finding->error, SetupError::expansion);
-    EXPECT_NEAR(certificate->setup_finding->value, 11.7 - 23.1,
-                3 * certificate->setup_finding->standard_uncertainty);
+    ASSERT_TRUE(certificate);
+    ASSERT_EQ(certificate->setup_findings.size(), 1U);
+    EXPECT_EQ(certificate->setup_findings.front().error, SetupError::expansion);
+    EXPECT_NEAR(certificate->setup_findings.front().value, 11.7 - 23.1,
+                3 * certificate->setup_findings.front().standard_uncertainty);
 }
 
 /// Within what its certificate states a coefficient is not wrong.
@@ -69,7 +71,7 @@ TEST(SetupOfARun, AnExpansionWithinItsStatedUncertaintyIsNoFinding) {
     run.material.standard_uncertainty = per_kelvin(6e-6);
     const auto certificate = make_certificate(std::move(run), "");
     ASSERT_TRUE(certificate);
-    EXPECT_FALSE(certificate->setup_finding);
+    EXPECT_TRUE(certificate->setup_findings.empty());
 }
 
 TEST(SetupOfARun, AnOpticThatMovedIsFoundAndNoFigureChanges) {
@@ -77,10 +79,11 @@ TEST(SetupOfARun, AnOpticThatMovedIsFoundAndNoFigureChanges) {
     for (std::size_t i = 60; i < run.points.size(); ++i)
         run.points[i].reading = run.points[i].reading + um(8);
     const auto certificate = make_certificate(run, "");
-    ASSERT_TRUE(certificate && certificate->setup_finding);
-    EXPECT_EQ(certificate->setup_finding->error, SetupError::moved_optic);
-    EXPECT_NEAR(certificate->setup_finding->value, 8, 0.5);
-    EXPECT_EQ(certificate->setup_finding->from->step, 60);
+    ASSERT_TRUE(certificate);
+    ASSERT_EQ(certificate->setup_findings.size(), 1U);
+    EXPECT_EQ(certificate->setup_findings.front().error, SetupError::moved_optic);
+    EXPECT_NEAR(certificate->setup_findings.front().value, 8, 0.5);
+    EXPECT_EQ(certificate->setup_findings.front().from->step, 60);
     EXPECT_GT(*certificate->result.parameters.A, 0.008) << "the step is in it";
 }
 
@@ -93,7 +96,7 @@ TEST(SetupOfARun, AReadingThatIsExcludedIsLeftOut) {
     revisions.exclusions.back().reason = "leaned on the table";
     const auto certificate = make_certificate(std::move(run), std::move(revisions), "");
     ASSERT_TRUE(certificate);
-    EXPECT_FALSE(certificate->setup_finding);
+    EXPECT_TRUE(certificate->setup_findings.empty());
 }
 
 } // namespace

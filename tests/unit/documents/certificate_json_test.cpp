@@ -56,6 +56,25 @@ TEST(CertificateJson, OfALinearScaleTellsOfTheScaleAndNothingOfAir) {
                      .contains("reference"));
 }
 
+TEST(CertificateJson, NamesAWrongSetUpWhereTheReadingsShowOne) {
+    RunRecord run = test::synthetic_run();
+    EXPECT_FALSE(certificate_to_json(test::certificate_of(run)).contains("setup_findings"));
+    for (std::size_t i = 60; i < run.points.size(); ++i)
+        run.points[i].reading = run.points[i].reading + um(12);
+    const Json document = certificate_to_json(test::certificate_of(run));
+    ASSERT_EQ(document.at("setup_findings").size(), 1U);
+    const Json& found = document.at("setup_findings").at(0);
+    EXPECT_EQ(found.at("error"), "moved_optic");
+    EXPECT_EQ(found.at("unit"), "um");
+    EXPECT_NEAR(found.at("value").get<double>(), 12,
+                3 * found.at("standard_uncertainty").get<double>());
+    EXPECT_TRUE(found.at("sensor").is_null());
+    EXPECT_EQ(document.at("run").at("remarks").back(),
+              "Set-up: " + found.at("seen").get<std::string>() + " " +
+                  found.at("probably").get<std::string>() + " " +
+                  found.at("look_at").get<std::string>());
+}
+
 TEST(CertificateJson, ShowsHowTheBeamWasAligned) {
     Certificate certificate = test::certificate_of(test::synthetic_run());
     EXPECT_TRUE(certificate_to_json(certificate).at("run").at("alignment").is_null());
