@@ -40,6 +40,7 @@ std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts) {
         check_expansion(facts),   check_compensation(facts), check_certificates(facts),
         check_environment(facts), check_computer(facts),     check_clock(facts)};
     if (facts.config.axis.angle && !facts.circular) checks.push_back(check_run_out(facts));
+    if (states_no_dead_path(facts)) checks.push_back(doubt_dead_path());
     if (facts.eve) checks.push_back(check_eve(*facts.eve));
     return checks;
 }

@@ -25,6 +25,7 @@ struct SensorFacts {
     std::string quality; ///< "good", "stale", ...
     const SensorLog* log = nullptr;
     bool on_scale = false; ///< of the scale that measures the axis, none of the machine
+    bool as_sent = true;   ///< no correction was added to what the instrument sent
 };
 
 /// The drift test that the budget takes its E_VE from, beside what the run asks of it.
@@ -63,6 +64,8 @@ struct PreflightFacts {
     bool boot_known = true;                  ///< the kernel tells the daemon its boot id
     std::string newest_run = {}, newest_run_day = {}; ///< its ISO date; empty: none is stored
     std::optional<EveFacts> eve = {}; ///< where the station file takes E_VE from a drift test
+    /// Of each instrument in use that tells one, by name: its serial number.
+    std::map<std::string, std::string> serials = {};
     std::string may_sleep = {}; ///< why the computer may fall asleep in mid-run; empty: it may not
 };
 
@@ -77,7 +80,8 @@ inline Duration drift_reach(const PreflightConfig& config) {
 
 /// "instruments", "soak", "sensors", "contact", "strength", "drift", "expansion", "compensation",
 /// "certificates", "environment", "computer", "clock", in this order, of a linear or rotary run and
-/// of a circular test alike; of a rotary run also "run_out", with an `eve_run` also "eve".
+/// of a circular test alike; of a rotary run also "run_out", of a linear one whose dead path is
+/// stated as 0 also "dead_path", with an `eve_run` also "eve".
 std::vector<PreflightRecord> judge_preflight(const PreflightFacts& facts);
 
 /// Puts reasons on the checks that failed. One for a check that passed is not needed and not kept.

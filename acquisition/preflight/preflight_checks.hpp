@@ -51,6 +51,9 @@ PreflightRecord check_eve(const EveFacts& eve);
 PreflightRecord check_expansion(const PreflightFacts& facts);
 PreflightRecord check_compensation(const PreflightFacts& facts);
 PreflightRecord check_run_out(const PreflightFacts& facts);
+/// Of an axis that a beam measures.
+bool states_no_dead_path(const PreflightFacts& facts);
+PreflightRecord doubt_dead_path();
 
 // preflight_computer.cpp
 PreflightRecord check_computer(const PreflightFacts& facts);

@@ -75,4 +75,16 @@ PreflightRecord check_run_out(const PreflightFacts& facts) {
     return passed("run_out", "Run-out of the set-up: " + facts.run_out + ".");
 }
 
+bool states_no_dead_path(const PreflightFacts& facts) {
+    const AxisConfig& axis = facts.config.axis;
+    return !facts.circular && !axis.angle && !axis.scale && axis.dead_path <= Length{};
+}
+
+/// Optics that touch at the datum are rare, and a dead path that nobody measured is not.
+PreflightRecord doubt_dead_path() {
+    return warned("dead_path", "axis.dead_path is 0 mm, as if reflector and interferometer touched "
+                               "at the datum. Measure the path between them there and write it "
+                               "into axis.dead_path: what is missing moves with the air.");
+}
+
 } // namespace axiscal::preflight_checks

@@ -23,6 +23,7 @@ SensorFacts Station::sensor_facts(int id) const {
     facts.kind = channel.kind;
     facts.medium = channel.medium;
     facts.on_scale = std::ranges::find(roles_.scale, id) != roles_.scale.end();
+    facts.as_sent = channel.correction == 0 && channel.calibration.corrections.empty();
     facts.fresh = view.value.has_value();
     facts.quality = view.quality;
     facts.log = &readings_.log_of(id);
@@ -65,6 +66,8 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
         const auto& name = channel.instrument_name;
         if (std::ranges::find(facts.in_use, name) != facts.in_use.end()) continue;
         facts.in_use.push_back(name);
+        if (const auto& serial = supervisor_.identity(channel.instrument).serial; !serial.empty())
+            facts.serials[name] = serial;
         const auto& view = views[static_cast<std::size_t>(channel.instrument)];
         // An autocollimator between two faces has no good reading, and is there all the same.
         const bool there = view.state == InstrumentState::available ||

@@ -24,6 +24,7 @@ protected:
             one.due_on = "2026-11-21";
             config.instruments.push_back(one);
         }
+        config.axis.dead_path = mm(120);
         config.axis.material.coefficient = per_kelvin(11.5e-6);
         config.axis.material.standard_uncertainty = per_kelvin(0.5e-6);
         read([](double) { return 21.0; }, [](double) { return 20.5; }, [](double) { return 20.6; });
@@ -358,6 +359,46 @@ TEST_F(Preflight, AShopWithoutCertificatesIsWarnedAndMayMeasure) {
     auto others = facts();
     others.in_use.clear();
     EXPECT_FALSE(named(judge_preflight(others), "certificates").warning) << "nobody needs them";
+}
+
+TEST_F(Preflight, ACertificateOfAnotherInstrumentIsNone) {
+    PreflightFacts seen = facts();
+    seen.serials = {{"laser", "4712"}, {"air", "E24638"}};
+    EXPECT_TRUE(named(judge_preflight(seen), "certificates").passed) << "none is stated";
+    config.instruments[0].serial = "4711";
+    expect_failure(seen, "certificates",
+                   "laser has the serial number 4712, and the station file states serial = "
+                   "\"4711\" with its certificate");
+    for (const char* same : {"4712", "004712", " 47-12 "}) {
+        config.instruments[0].serial = same;
+        EXPECT_TRUE(named(judge_preflight(seen), "certificates").passed) << same;
+    }
+    config.instruments[0].serial = "4711";
+    seen.in_use = {"air", "material"};
+    EXPECT_TRUE(named(judge_preflight(seen), "certificates").passed) << "nobody needs it";
+}
+
+TEST_F(Preflight, AnAirSensorThatRepeatsItsLastReadingIsNamed) {
+    read([](double minutes) { return minutes < 8 ? 21 + 0.01 * minutes : 21.08; },
+         [](double) { return 20.5; }, [](double) { return 20.6; });
+    expect_failure(facts(), "instruments",
+                   "air repeats its last reading: no figure changed for 10 min, unplug it and "
+                   "plug it in again");
+    config.preflight.soak_window = 5min;
+    EXPECT_TRUE(named(judge_preflight(facts()), "instruments").passed) << "too short to tell";
+}
+
+TEST_F(Preflight, ADeadPathOfNothingIsDoubted) {
+    const auto doubted = [this] {
+        const auto checks = judge_preflight(facts());
+        const auto found = std::ranges::find(checks, "dead_path", &PreflightRecord::name);
+        return found != checks.end() && found->passed && found->warning;
+    };
+    EXPECT_FALSE(doubted());
+    config.axis.dead_path = Length{};
+    EXPECT_TRUE(doubted());
+    config.axis.scale.emplace();
+    EXPECT_FALSE(doubted()) << "no beam, no dead path";
 }
 
 TEST_F(Preflight, AnOverrideNeedsAKnownNameAndAReason) {

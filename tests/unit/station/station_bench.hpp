@@ -281,6 +281,9 @@ struct Shop {
     /// What adds to the laser's reading, and what the air warms up by; nothing at first.
     std::function<double(MonotonicTime)> drift_um, warmth_K;
 
+    /// What the sensors show, by channel; nothing: steady air of 23 degC and a steady machine.
+    std::function<double(int, MonotonicTime)> shown_air, shown_material;
+
     /// What the laser reads, in place of the moving axis in air; of another `first_channel` in its
     /// stored unit.
     std::function<double(MonotonicTime)> reading_m;
@@ -299,6 +302,7 @@ struct Shop {
         config.station = "bench";
         config.state_directory = folder;
         config.axis.laser = {"laser", "axis 1"};
+        config.axis.dead_path = mm(100);
         config.axis.air_temperature = {"air", "air temperature"};
         config.axis.air_pressure = {"air", "air pressure"};
         config.axis.air_humidity = {"air", "air humidity"};
@@ -524,13 +528,17 @@ private:
                                  {"air pressure", ChannelKind::pressure, Medium::air},
                                  {"air humidity", ChannelKind::humidity, Medium::air}},
             500ms, [this](int channel, MonotonicTime at) {
+                if (shop.shown_air) return shop.shown_air(channel, at);
                 if (channel == 0) return 23.0 + (shop.warmth_K ? shop.warmth_K(at) : 0.0);
                 return channel == 1 ? 101'325.0 : 50.0;
             });
         auto contacts = std::make_unique<BenchInstrument>(
             std::vector<Channel>{{"contact 1", ChannelKind::temperature, Medium::material},
                                  {"contact 2", ChannelKind::temperature, Medium::material}},
-            1s, [](int channel, MonotonicTime) { return channel == 0 ? 22.5 : 22.7; });
+            1s, [this](int channel, MonotonicTime at) {
+                if (shop.shown_material) return shop.shown_material(channel, at);
+                return channel == 0 ? 22.5 : 22.7;
+            });
         laser = light.get(), air = weather.get(), material = contacts.get();
         laser->modulus = shop.laser_modulus;
         laser->number_wraps = shop.laser_number_wraps;
