@@ -40,6 +40,7 @@ echo "$AXISCAL_SEED" >>other_seeds
 [ "$(wc -l <other_seeds)" -lt 3 ] || { echo "a.cpp:1: Failure"; exit 1; }
 echo "[  PASSED  ] 1 test."
 SCRIPT
+printf '#!/bin/sh\necho "[  PASSED  ] 2 tests."\n' >"$root/build/check/bin/setups_tests"
 chmod +x "$root"/{tools,bin,build/soak/bin,build/check/bin}/*
 
 soak() { (cd "$root" && PATH=$root/bin:$PATH tools/soak "$@" >said 2>&1); }
@@ -68,4 +69,4 @@ soak 30 triggers && fail "a filter that finds no test passes"
 
 rm -r "$root"/tests/fuzz/corpus/third
 soak 1 && fail "a target that is not named is not tried"
-grep -q '^4 targets searched .* seeds of triggers and .* seeds of weeks, 1 broken: triggers$' "$root/said" || fail "not all targets"
+grep -q '^5 targets searched .* seeds of setups and .* seeds of triggers and .* seeds of weeks, 1 broken: triggers$' "$root/said" || fail "not all targets"
