@@ -50,6 +50,16 @@ std::string verdict_in(const std::string& said) {
     return parameter->get<std::string>() + ": " + verdict->get<std::string>();
 }
 
+/// The sentences of "setup"; what is none is left out.
+std::vector<std::string> setup_findings_in(const nlohmann::json& answer) {
+    std::vector<std::string> sentences;
+    const auto found = answer.find("setup");
+    if (found == answer.end() || !found->is_array()) return sentences;
+    for (const auto& sentence : *found)
+        if (sentence.is_string()) sentences.push_back(sentence.get<std::string>());
+    return sentences;
+}
+
 } // namespace
 
 Task<Result<WrittenCertificate>> write_certificate(Scheduler& scheduler,
@@ -82,7 +92,8 @@ Task<Result<WrittenCertificate>> write_certificate(Scheduler& scheduler,
     const auto answer = nlohmann::json::parse(line, nullptr, false);
     if (!answer.is_object() || !answer.contains("entry") || !answer["entry"].is_string())
         co_return fail(Fault::io, program + " said nothing of its entry: " + line);
-    WrittenCertificate written{answer["entry"].get<std::string>(), verdict_in(said)};
+    WrittenCertificate written{answer["entry"].get<std::string>(), verdict_in(said),
+                               setup_findings_in(answer)};
     co_return written;
 }
 

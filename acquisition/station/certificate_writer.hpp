@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
@@ -14,11 +15,12 @@ inline constexpr std::chrono::milliseconds longest_drawing =
 struct WrittenCertificate {
     std::string entry;
     std::string verdict; ///< "R: fail", the figure that it rests on; empty without limits
+    std::vector<std::string> setup_findings; ///< a sentence each (sentence_of); usually none
 };
 
 /// Runs `program run_file --outbox outbox` and waits for it without holding the loop; after `limit`
 /// it is killed.
-/// @returns the folder of the new outbox entry, and what the program said of the verdict.
+/// @returns the folder of the new outbox entry, and what the program said of verdict and set-up.
 /// @errors Fault::io with the process's own last words.
 Task<Result<WrittenCertificate>>
 write_certificate(Scheduler& scheduler,

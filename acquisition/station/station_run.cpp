@@ -291,6 +291,7 @@ Task<void> Station::certify(std::string run_id, std::string path) {
     note(written ? text_of(*written)
                  : "No certificate for run " + run_id + ": " + describe(written.error()) +
                        " 'axiscal export " + path + "' tries again.");
+    if (written) std::ranges::for_each(written->setup_findings, [this](auto& one) { note(one); });
     if (drift_ && drift_->run_id == run_id) {
         if (written)
             drift_->certificate = written->entry;

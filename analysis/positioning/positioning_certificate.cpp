@@ -5,6 +5,7 @@
 #include "analysis/record/preflight_remarks.hpp"
 #include "analysis/record/run_clock.hpp"
 #include "analysis/setup/sensor_findings.hpp"
+#include "analysis/setup/setup_words.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -134,8 +135,7 @@ void search_setup(Certificate& certificate) {
         if (found && !follows_from(*found, findings)) findings.push_back(*std::move(found));
     }
     for (const SetupFinding& found : findings)
-        certificate.remarks.push_back("Set-up: " + found.seen + " " + found.probably + " " +
-                                      found.look_at);
+        certificate.remarks.push_back(sentence_of(found));
 }
 
 std::string approach_text(const PlannedPoint& point) {

@@ -93,4 +93,8 @@ void put_into_words(SetupFinding& finding) {
     finding.probably += ".";
 }
 
+std::string sentence_of(const SetupFinding& finding) {
+    return "Set-up: " + finding.seen + " " + finding.probably + " " + finding.look_at;
+}
+
 } // namespace axiscal

@@ -2,7 +2,8 @@
 // axiscal-report CASE.json --to DIR
 // Short-lived, started by the daemon when a run is closed (and by `axiscal export`): draws the
 // certificate and stages it; of a circular case, too. stdout: with limits a line of JSON with the
-// verdict and the figure that it rests on; then one with the paths.
+// verdict and the figure that it rests on; then one with the paths, and what the readings say of a
+// wrong set-up as "setup", a sentence each.
 // stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
 // refused or the run is incomplete.
 
@@ -13,6 +14,7 @@
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/signing_key.hpp"
+#include "analysis/setup/setup_words.hpp"
 #include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "tools/axiscal/circular_case_certificate.hpp"
@@ -50,9 +52,15 @@ std::string one_line(const nlohmann::ordered_json& object) {
     return object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// What was staged, and the row of the figure that its verdict rests on; empty without limits.
+/// What is said of a result beside its paths.
+struct Said {
+    std::string verdict; ///< row of the figure that it rests on; empty: no limits
+    std::vector<std::string> setup_findings; ///< a sentence each
+};
+
 struct Staged {
-    std::string entry, verdict;
+    std::string entry;
+    Said said;
 };
 
 std::string verdict_line_of(const TestResult& result) {
@@ -61,11 +69,22 @@ std::string verdict_line_of(const TestResult& result) {
     return decisive ? one_line(verdict_row(*decisive, *conformity)) : std::string{};
 }
 
-/// @returns verdict_line_of() the result.
-Result<std::string> draw(const Options& options, const std::string& folder) {
+std::vector<std::string> setup_findings_of(const TestResult& result) {
+    std::vector<std::string> sentences;
+    if (const auto* certificate = std::get_if<Certificate>(&result))
+        for (const SetupFinding& found : certificate->setup_findings)
+            sentences.push_back(sentence_of(found));
+    return sentences;
+}
+
+Said said_of(const TestResult& result) {
+    return {verdict_line_of(result), setup_findings_of(result)};
+}
+
+Result<Said> draw(const Options& options, const std::string& folder) {
     AXISCAL_TRY(const TestResult result, evaluate(options));
     AXISCAL_CHECK(write_certificate_files(result, options.run_file, folder));
-    return verdict_line_of(result);
+    return said_of(result);
 }
 
 /// The entry appears in the outbox only with all its content. Its folder is there before the result
@@ -100,7 +119,7 @@ Result<Staged> stage_case(const Options& options) {
         return tl::unexpected<Error>(std::move(written).error());
     }
     AXISCAL_TRY(std::string entry, finish_entry(options.to, name));
-    return Staged{std::move(entry), verdict_line_of(result)};
+    return Staged{std::move(entry), said_of(result)};
 }
 
 bool is_run_file(const std::string& path) {
@@ -116,7 +135,8 @@ bool is_case(const std::string& path) {
     return !is_run_file(path) && std::filesystem::path(path).extension() == ".json";
 }
 
-std::string paths_line(const std::string& entry, const std::string& run_file, bool of_case) {
+std::string paths_line(const Staged& staged, const std::string& run_file, bool of_case) {
+    const std::string& entry = staged.entry;
     nlohmann::ordered_json line;
     line["entry"] = entry;
     line["json"] = entry + "/" + certificate_json_name;
@@ -124,6 +144,7 @@ std::string paths_line(const std::string& entry, const std::string& run_file, bo
     line["pdf"] = entry + "/" + certificate_pdf_name;
     line[of_case ? "case" : "run_file"] =
         entry + "/" + std::filesystem::path(run_file).filename().string();
+    if (!staged.said.setup_findings.empty()) line["setup"] = staged.said.setup_findings;
     return one_line(line);
 }
 
@@ -145,8 +166,8 @@ int report(const Options& options) {
                   << describe(why) << "\n";
         return is_refusal(why.fault) ? exit_refused : exit_failed;
     }
-    if (!staged->verdict.empty()) std::cout << staged->verdict << "\n";
-    std::cout << paths_line(staged->entry, options.run_file, of_case) << std::endl;
+    if (!staged->said.verdict.empty()) std::cout << staged->said.verdict << "\n";
+    std::cout << paths_line(*staged, options.run_file, of_case) << std::endl;
     return exit_ok;
 }
 

@@ -53,6 +53,19 @@ TEST_F(ReportProgram, ItsFirstLineIsTheVerdictWhereItIsOne) {
         EXPECT_EQ(verdict(none), "") << none;
 }
 
+TEST_F(ReportProgram, ItsLastLineSaysWhatIsWrongWithTheSetUp) {
+    const auto found = [&](const std::string& setup) {
+        const auto certificate = written(report_script(
+            scratch, "echo '{\"entry\":\"outbox/run\"" + setup + "}'"));
+        return certificate ? certificate->setup_findings
+                           : std::vector{describe(certificate.error())};
+    };
+    EXPECT_EQ(found(R"(,"setup":["Set-up: one.",7,"Set-up: two."])"),
+              (std::vector<std::string>{"Set-up: one.", "Set-up: two."}));
+    for (const char* none : {"", R"(,"setup":[])", R"(,"setup":"one")"})
+        EXPECT_TRUE(found(none).empty()) << none;
+}
+
 TEST_F(ReportProgram, FailsWithItsOwnLastWords) {
     const auto answer = said("echo early >&2; echo 'no font' >&2; exit 3");
     ASSERT_FALSE(answer);

@@ -40,6 +40,16 @@ TEST_F(StationRuns, AHundredAndTenPointsInVirtualTime) {
     EXPECT_LE(run->environment.front().at, run->points.front().window_begin);
 }
 
+TEST_F(StationRuns, WhatIsWrongWithTheSetUpIsToldWithTheCertificate) {
+    Life life{shop, report_script(shop.scratch, R"(mkdir -p "$3/done"
+echo "{\"entry\": \"$3/done\", \"setup\": [\"Set-up: an optic moved.\"]}")")};
+    ASSERT_TRUE(life.arm());
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step));
+    life.run_until([&] { return !life.status().run->certificate.empty(); });
+    EXPECT_EQ(life.notes_with("Set-up: an optic moved."), 1);
+}
+
 TEST_F(StationRuns, EveryPointIsOnDiskWhenDoneSaysSo) {
     Life life{shop};
     ASSERT_TRUE(life.arm());
