@@ -264,6 +264,9 @@ std::optional<SetupFinding> find_setup_error(const RunCourse& course, const Setu
     for (const Model& other : models)
         if (other.error != best.error && best.score - other.score < near_log_odds)
             finding.or_else.push_back(other.error);
+    // Too much compensated: by the coefficient, or by a sensor that swings more than the machine.
+    if (finding.error == SetupError::expansion && finding.value < 0)
+        finding.or_else.push_back(SetupError::sensor_in_air);
     if (!is_worth_telling(finding, course, limits)) return std::nullopt;
     put_into_words(finding);
     return finding;

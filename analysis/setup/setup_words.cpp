@@ -22,7 +22,8 @@ std::string words_of(SetupError error) {
     case SetupError::expansion: return "the expansion coefficient of the station file is wrong";
     case SetupError::growth: return "the machine was warming up or cooling down";
     case SetupError::frozen_air: return "the sensor hangs and repeats its last reading";
-    case SetupError::sensor_in_air: return "the sensor hangs in the air or sits on a thin cover";
+    case SetupError::sensor_in_air:
+        return "a material sensor hangs in the air or sits on a thin cover";
     }
     return {};
 }

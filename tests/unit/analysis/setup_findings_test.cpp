@@ -154,6 +154,8 @@ TEST(SetupFindings, ThePlantedExpansionIsFoundPerMetreAndKelvin) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->error, SetupError::expansion);
     EXPECT_NEAR(found->value, -11.5, 3 * found->standard_uncertainty);
+    EXPECT_NE(found->probably.find("or a material sensor hangs in the air"), std::string::npos)
+        << "too much was compensated: " << found->probably;
 }
 
 TEST(SetupFindings, TooFewReadingsTellNothing) {

@@ -33,7 +33,7 @@ const std::vector<Expected>& expectations() {
         {Mistake::no_dead_path, {"arm"}, {"dead_path: axis.dead_path is 0 mm"}},
         {Mistake::sensor_in_air,
          {"arm", "end"},
-         {"It reads the air", "the sensor hangs in the air"}},
+         {"It reads the air", "a material sensor hangs in the air"}},
         {Mistake::cold_machine, {"arm"}, {"soak: material"}},
         {Mistake::wrong_expansion, {"end"}, {"the expansion coefficient of the station file"}},
         {Mistake::no_overrun, {"point"}, {"the program has no overrun"}},
