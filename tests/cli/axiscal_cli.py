@@ -32,7 +32,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
-            "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "program": ["--dialect", "--out", "--retake"],
+            "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
@@ -289,6 +289,20 @@ class Result(Scratch):
         for key, parameter in document["parameters"].items():
             self.assertEqual(summary["parameters"][key]["value"], parameter["value"])
             self.assertEqual(summary["parameters"][key]["U"], parameter["expanded_uncertainty"]["value"])
+
+    def test_the_budget_of_a_run_says_where_each_input_comes_from(self):
+        path = self.aborted(50, complete=True)
+        budget = json.loads(self.expect(0, "budget", path, "--json").stdout)
+        figures = json.loads(self.expect(0, "result", path, "--json").stdout)["parameters"]
+        self.assertEqual((budget["unit"], budget["k"], budget["missing"]), ("um", 2, []))
+        for key, figure in budget["parameters"].items():
+            self.assertAlmostEqual(figure["U"], figures[key]["U"] * 1e3, delta=1e-9, msg=key)
+        origins = {(one["term"], one["quantity"]): one["origin"] for one in budget["inputs"]}
+        self.assertEqual(origins["machine_expansion", "largest distance from 20 degC"], "readings")
+        self.assertEqual(origins["environment", "E_VE"], "drift_test")
+        text = self.expect(0, "budget", path).stdout
+        self.assertIn("typed: uncertainty.", text)
+        self.assertIn("from drift test ", text)
 
     def test_limits_give_verdicts_and_a_partial_result_has_none(self):
         limits = self.file("limits.json", json.dumps({"name": "agreed", "source": "order 17", "unit": "um", "rule": "guard-U", "limits": [

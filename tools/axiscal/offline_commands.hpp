@@ -29,6 +29,13 @@ struct ResultRequest {
 /// E, A, R, B, M with U; exit 3 wherever there is no result.
 int command_result(const ResultRequest& request, bool json);
 
+struct BudgetRequest {
+    std::string run;          ///< path or id; empty: the newest run of the station
+    std::string station_file; ///< whose state directory holds the runs
+};
+/// Inputs, terms and U of a run's uncertainty budget; exit 3 wherever there is none.
+int command_budget(const BudgetRequest& request, bool json);
+
 struct ProgramRequest {
     std::string station_file, dialect,
         out_directory; ///< dialect empty: linuxcnc, or marlin is named

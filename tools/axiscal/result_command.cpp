@@ -1,17 +1,15 @@
 // `axiscal result`: the figures of one run, for somebody who has just measured it.
 #include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/positioning/certificate_json.hpp"
-#include "acquisition/runfile/run_order.hpp"
-#include "acquisition/station/station_loader.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "config/json_text.hpp"
 #include "config/tolerance_file.hpp"
 #include "tools/axiscal/cases/tolerances_member.hpp"
 #include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/find_run.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/result_text.hpp"
 
-#include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -19,32 +17,6 @@ namespace axiscal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Result<std::string> runs_folder_of(const std::string& station_file) {
-    const auto station = load_station(station_file);
-    if (!station)
-        return fail(Fault::refused, station.error().front().describe() +
-                                        "; name the run's file, or another --config");
-    return station->config.state_directory + "/runs";
-}
-
-/// A path that is there, else the id of a run of this station; nothing: the newest run.
-Result<std::string> find_run(const std::string& run, const std::string& station_file) {
-    std::error_code error;
-    if (!run.empty() && std::filesystem::exists(run, error)) return run;
-    AXISCAL_TRY(const std::string folder, runs_folder_of(station_file));
-    if (!run.empty()) {
-        std::string path = folder + "/" + run + std::string{run_file_ending};
-        if (std::filesystem::exists(path, error)) return path;
-        return fail(Fault::not_found,
-                    "there is no file " + run + " and no run of this name in " + folder);
-    }
-    const std::vector<RunSummary> runs = list_run_files(folder);
-    const RunSummary* newest = newest_run(runs, {});
-    if (newest == nullptr)
-        return fail(Fault::not_found, "no run was measured yet: there is none in " + folder);
-    return newest->path;
-}
 
 /// Another kind of test has other figures.
 Result<void> check_positioning(const RunSummary& run) {
@@ -74,9 +46,8 @@ Result<void> take_limits(const ResultRequest& request, Certificate& made) {
         return fail(Fault::bad_case, request.tolerances + " is no set of limits in JSON");
     const bool rotary = made.run.plan.axis_kind == AxisKind::rotary;
     const std::string unit = rotary ? "deg" : "mm";
-    AXISCAL_TRY(
-        ToleranceSet set,
-        tolerance_set_of(member, {made.run.statements.axis, made.run.plan.axis_kind, unit, unit}));
+    AXISCAL_TRY(ToleranceSet set, tolerance_set_of(member, {made.run.statements.axis,
+                                                            made.run.plan.axis_kind, unit, unit}));
     made.conformity = conformity_of(made, std::move(set), request.travel);
     return {};
 }

@@ -38,6 +38,7 @@ struct Options {
     ProgramRequest program;
     NewCaseOrder new_case;
     ResultRequest result;
+    BudgetRequest budget;
     ConformanceOrder conformance;
     DevicesRequest devices;
     DoctorRequest doctor;

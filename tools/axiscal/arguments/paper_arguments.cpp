@@ -21,6 +21,12 @@ constexpr const char* result_footer = R"(Examples:
   axiscal result --tolerances limits.json         with a verdict on each limit (ISO 14253-1)
 A run that was aborted or interrupted gives a partial result: it says which planned readings are missing.)";
 
+constexpr const char* budget_footer = R"(Examples:
+  axiscal budget                                  of the newest run of this station
+  axiscal budget RUN.axiscal --json               of a run file, for programs
+Says of each input whether it was typed, comes from certificates, a drift test or the readings of the run,
+and where the readings show more than was typed.)";
+
 constexpr const char* program_footer = R"(Examples:
   axiscal program --config station.toml --out .             X-whole.ngc for LinuxCNC
   axiscal program --config station.toml --dialect marlin    for a 3D printer
@@ -60,6 +66,20 @@ void add_result(CLI::App& app, Options& options, Command& chosen) {
         chosen = [&] {
             options.result.station_file = options.config;
             return command_result(options.result, options.json);
+        };
+    });
+}
+
+void add_budget(CLI::App& app, Options& options, Command& chosen) {
+    auto* budget = app.add_subcommand("budget", "What U of a run is made of, input by input");
+    budget->add_option("RUN", options.budget.run, "run id or run file; default: the newest run");
+    budget->add_option("--config", options.config, "station file: where the runs lie")
+        ->capture_default_str();
+    teach(*budget, budget_footer, {exit_ok, exit_usage, exit_refused});
+    budget->callback([&] {
+        chosen = [&] {
+            options.budget.station_file = options.config;
+            return command_budget(options.budget, options.json);
         };
     });
 }
@@ -116,6 +136,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     new_case->callback([&] { chosen = [&] { return command_case_new(options.new_case); }; });
 
     add_result(app, options, chosen);
+    add_budget(app, options, chosen);
     add_program(app, options, chosen);
 
     auto* write = app.add_subcommand(
