@@ -42,7 +42,7 @@ void join_frozen(std::string& wrong, const PreflightFacts& facts) {
     }
 }
 
-/// Letters and digits alone, leading noughts left out: "sn-0042" is "SN42" to a person.
+/// Letters and digits alone, without leading noughts: "00-42a" is "42A" to a person.
 std::string plain_serial(const std::string& serial) {
     std::string plain;
     for (const char c : serial) {

@@ -75,6 +75,7 @@ protected:
 };
 
 TEST_F(WrongSetup, IsNamedBeforeTheCertificate) {
+    ASSERT_GE(machines(), 1) << "AXISCAL_MACHINES: without a machine nothing is named";
     int kinds_named = 0;
     for (const Expected& expected : expectations()) {
         int named = 0;
@@ -95,6 +96,7 @@ TEST_F(WrongSetup, IsNamedBeforeTheCertificate) {
 
 TEST_F(WrongSetup, IsNotSeenInAGoodOne) {
     const int good = 10 * machines();
+    ASSERT_GE(good, 1);
     int suspected = 0;
     for (int i = 0; i < good; ++i) {
         RandomMachine machine{first_seed + static_cast<std::uint64_t>(i), Mistake::none};
