@@ -37,7 +37,7 @@ completed() { # program, words typed...; prints what is offered for the last
 }
 [ "$(completed axiscal re | sort | xargs)" = "reading record replay result retake" ] || fail "axiscal re: $(completed axiscal re)"
 [ "$(completed axiscal retake --direction '' | sort | xargs)" = "down up" ] || fail "retake --direction: $(completed axiscal retake --direction '')"
-completed axiscal abort --re | grep -qx -- --reason || fail "abort --re: $(completed axiscal abort --re)"
+grep -qx -- --reason <<<"$(completed axiscal abort --re)" || fail "abort --re: $(completed axiscal abort --re)"
 [ "$(completed axiscald --con)" = --config ] || fail "axiscald --con: $(completed axiscald --con)"
 touch "$root/a-run.axiscal"
 [ "$(completed axiscal verify "$root/a-r")" = "$root/a-run.axiscal" ] || fail "verify completes no file"

@@ -7,7 +7,8 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 export DEBIAN_FRONTEND=noninteractive
 install() { apt-get -o Acquire::Retries=5 -q install -y --no-install-recommends "$@" >&2; }
-has() { apt-cache policy "$1" | grep -q 'Candidate: [^(]'; }
+# All is read before it is judged: grep -q leaves at once, and the one who still writes would count as failed.
+has() { grep -q 'Candidate: [^(]' <<<"$(apt-cache policy "$1")"; }
 
 dpkg --add-architecture arm64
 apt-get -q update >&2

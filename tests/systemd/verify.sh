@@ -75,7 +75,7 @@ judge axiscal-publish.service 10
 
 # The judge is awake: a planted mistake is told.
 sed 's/^NoNewPrivileges=/NoNewPriviliges=/' "$root/$units/axiscald.service" >"$root/$units/axiscal-planted.service"
-systemd-analyze verify --man=no --root="$root" "$units/axiscal-planted.service" 2>&1 | grep -q NoNewPriviliges \
+grep -q NoNewPriviliges <<<"$(systemd-analyze verify --man=no --root="$root" "$units/axiscal-planted.service" 2>&1)" \
     || fail "systemd-analyze does not see a misspelt key"
 
 # systemd's own readers, against the scratch root: what they refuse is a syntax error.
