@@ -4,6 +4,7 @@
 
 #include "analysis/uncertainty/session_kernel.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,5 +50,23 @@ private:
     std::vector<std::uint32_t> counts_;                   ///< [figure][bucket]
     std::size_t groups_ = 0;
 };
+
+/// `groups` times eight sessions of `simulation`, whose next() makes the figures of eight.
+template <class Simulation>
+FigureTally tally_of(Simulation& simulation,
+                     std::size_t groups,
+                     const std::array<double, figure_count>& evaluated) {
+    constexpr std::size_t most_pilots = 512; // 4096 sessions show the range
+    const LaneCode code = fastest_lane_code();
+    std::vector<Figures> pilot(std::min(groups, most_pilots));
+    for (Figures& figures : pilot)
+        figures = simulation.next();
+    FigureTally tally{evaluated, pilot};
+    for (const Figures& figures : pilot)
+        tally.add(figures, code);
+    for (std::size_t g = pilot.size(); g < groups; ++g)
+        tally.add(simulation.next(), code);
+    return tally;
+}
 
 } // namespace axiscal

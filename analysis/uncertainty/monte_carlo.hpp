@@ -31,14 +31,17 @@ struct SessionErrors {
 };
 
 /// The budget's contributions as errors of readings. A misalignment is drawn about its middle: the
-/// budget takes its width alone, so does this. `budget_per_unit`: how many um (arcsec) one unit of
-/// the run has.
+/// budget takes its width alone, so does this. `budget_per_unit`: how many um
+/// (arcsec) one unit of the run has.
 SessionErrors session_errors(const UncertaintyBudget& budget, double budget_per_unit);
 
 struct MonteCarloRequest {
     int trials = 100'000; ///< 1000 ... 1e7, and trials x readings at most 2e9
     std::uint64_t seed = 1;
 };
+
+/// @errors Fault::bad_case "trials" outside the bounds.
+Result<void> check_trials(std::size_t readings, const MonteCarloRequest& request);
 
 struct MonteCarloFigure {
     std::string key;
