@@ -133,4 +133,17 @@ void add_simulation_json(ordered_json& document,
                                      "at E_VE");
 }
 
+void add_true_figures_json(ordered_json& document, const TrueFigures& found) {
+    for (const TrueFigure& figure : found.figures)
+        if (auto parameter = document["parameters"].find(figure.key);
+            parameter != document["parameters"].end())
+            (*parameter)["true_value_95"] = {figure.interval.low, figure.interval.high};
+    ordered_json& summary = document["true_values"];
+    summary["trials"] = found.trials;
+    summary["seed"] = found.seed;
+    summary["method"] = "common errors of the budget taken off the readings, those that grow with "
+                        "length by the distance of the targets, and a drift in the time of the "
+                        "run: a random walk as strong as one that ranges over E_VE";
+}
+
 } // namespace axiscal

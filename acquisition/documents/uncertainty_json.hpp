@@ -4,6 +4,7 @@
 
 #include "analysis/uncertainty/budget.hpp"
 #include "analysis/uncertainty/monte_carlo.hpp"
+#include "analysis/uncertainty/true_figures.hpp"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -26,5 +27,9 @@ void add_simulation_json(nlohmann::ordered_json& document,
                          const MonteCarloResult& simulated,
                          const UncertaintyBudget& budget,
                          const std::string& unit);
+
+/// Each parameter of `document` whose true figure was searched gains "true_value_95" [low, high],
+/// in the unit of the result; the document gains "true_values" with trials, seed and method.
+void add_true_figures_json(nlohmann::ordered_json& document, const TrueFigures& found);
 
 } // namespace axiscal

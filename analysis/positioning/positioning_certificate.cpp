@@ -374,7 +374,7 @@ make_certificate(RunRecord run, RunRevisions revisions, std::string run_file_sha
                        {fewest_readings(certificate.deviations), certificate.completeness.targets});
     if (excluded_readings(certificate.set_aside) == 0 && rows_are_equal(certificate.deviations))
         simulate_run(certificate.uncertainty, certificate.run, certificate.deviations,
-                     certificate.result); // draws the same n of each
+                     certificate.result, certificate.completeness.targets); // the same n of each
     certificate.preliminary = !certificate.uncertainty.missing.empty();
     for (const std::string& remark : certificate.uncertainty.remarks)
         certificate.remarks.push_back(remark);

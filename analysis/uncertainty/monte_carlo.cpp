@@ -93,7 +93,8 @@ SessionErrors session_errors(const UncertaintyBudget& budget, double budget_per_
             errors.environment_u = term.u / budget_per_unit;
             errors.environment = term.distribution;
         } else {
-            errors.common.push_back({term.u / budget_per_unit, term.distribution});
+            errors.common.push_back({term.u / budget_per_unit, term.distribution,
+                                     term.term == UncertaintyTerm::misalignment});
         }
     if (budget.length_m) errors.length = *budget.length_m * um_per_m / budget_per_unit;
     return errors;

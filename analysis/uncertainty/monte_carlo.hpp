@@ -20,6 +20,8 @@ struct SessionErrors {
     struct Common {
         double u = 0; ///< standard uncertainty over the whole length
         Distribution distribution = Distribution::rectangular;
+        /// A beam off the axis reads short, never long. simulate_true_figures() alone heeds it.
+        bool one_sided = false;
     };
     /// Drawn once a session and grown in proportion to the distance from the lowest target, so that
     /// two targets a length apart differ by the whole of it: neither averages down nor reaches R,
@@ -30,8 +32,8 @@ struct SessionErrors {
     Distribution environment = Distribution::rectangular;
 };
 
-/// The budget's contributions as errors of readings. A misalignment is drawn about its middle: the
-/// budget takes its width alone, so does this. `budget_per_unit`: how many um
+/// The budget's contributions as errors of readings. simulate_sessions() draws a misalignment about
+/// its middle: the budget takes its width alone, so does this. `budget_per_unit`: how many um
 /// (arcsec) one unit of the run has.
 SessionErrors session_errors(const UncertaintyBudget& budget, double budget_per_unit);
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace axiscal {
@@ -167,6 +168,28 @@ std::vector<MissingTerm> missing_terms_of(const UncertaintyStatement& s, bool by
     return missing;
 }
 
+/// The ends of an interval of 95 % are then known to about a hundredth of its width.
+constexpr int most_trials_of_truth = 20'000;
+
+/// When each reading was taken, s: rows of the targets in use, forward, then backward.
+std::vector<double>
+seconds_of_readings(const RunRecord& run, const std::vector<int>& targets, bool both_directions) {
+    std::vector<const PointRecord*> points;
+    for (const PointRecord& point : run.points)
+        if ((both_directions || point.planned.direction == Direction::positive) &&
+            std::ranges::find(targets, point.planned.target_index) != targets.end())
+            points.push_back(&point);
+    std::ranges::stable_sort(points, {}, [](const PointRecord* point) {
+        return std::tuple{point->planned.direction == Direction::negative,
+                          point->planned.target_index, point->planned.approach};
+    });
+    std::vector<double> seconds;
+    seconds.reserve(points.size());
+    for (const PointRecord* point : points)
+        seconds.push_back(seconds_of(point->window_begin - run.points.front().window_begin));
+    return seconds;
+}
+
 /// A number that a JSON reader with doubles keeps: below 2^53.
 std::uint64_t simulation_seed_of(const RunRecord& run) {
     constexpr std::uint64_t fnv_offset = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
@@ -213,16 +236,28 @@ RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, const Read
 void simulate_run(RunUncertainty& known,
                   const RunRecord& run,
                   const RunAt20C& deviations,
-                  const PositioningResult& result) {
+                  const PositioningResult& result,
+                  const std::vector<int>& targets) {
     if (!known.budget || known.budget->parameters.empty()) return;
-    const SessionErrors errors = session_errors(*known.budget, budget_units_per(result.unit));
-    auto simulated = simulate_sessions(deviations, result, errors,
-                                       {default_trials(deviations), simulation_seed_of(run)});
-    if (!simulated) return; // too many readings to simulate: the formulas stand alone
-    std::erase_if(simulated->figures, [&](const MonteCarloFigure& figure) {
+    SessionErrors errors = session_errors(*known.budget, budget_units_per(result.unit));
+    if (run.scale) // it reads short or long, by how it is mounted
+        for (SessionErrors::Common& one : errors.common)
+            one.one_sided = false;
+    const auto without_budget = [&](const auto& figure) {
         return known.budget->find(figure.key) == nullptr;
-    });
+    };
+    const MonteCarloRequest request{default_trials(deviations), simulation_seed_of(run)};
+    auto simulated = simulate_sessions(deviations, result, errors, request);
+    if (!simulated) return; // too many readings to simulate: the formulas stand alone
+    std::erase_if(simulated->figures, without_budget);
     known.simulation = *std::move(simulated);
+    auto lies_in =
+        simulate_true_figures(deviations, result, errors,
+                              seconds_of_readings(run, targets, !deviations.backward().empty()),
+                              {std::min(request.trials, most_trials_of_truth), request.seed});
+    if (!lies_in) return; // readings that are not those of the run's points
+    std::erase_if(lies_in->figures, without_budget);
+    known.true_figures = *std::move(lies_in);
 }
 
 double in_budget_units(const RunRecord& run, Length amount) {

@@ -5,6 +5,7 @@
 #include "analysis/record/run_record.hpp"
 #include "analysis/uncertainty/budget.hpp"
 #include "analysis/uncertainty/monte_carlo.hpp"
+#include "analysis/uncertainty/true_figures.hpp"
 
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct RunUncertainty {
     /// The whole evaluation simulated with the same statement, beside the formulas: of the
     /// parameters that `budget` holds, in the unit of the result. None without a budget.
     std::optional<MonteCarloResult> simulation;
+    /// Where the true figures lie, of the same parameters; in the unit of the result.
+    std::optional<TrueFigures> true_figures;
     std::vector<MissingTerm> missing; ///< empty: the certificate is final
     std::vector<std::string> remarks; ///< what was derived instead of stated
 };
@@ -47,13 +50,15 @@ struct ReadingsInUse {
 /// says so.
 RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, const ReadingsInUse& used);
 
-/// Fills `known.simulation`. The seed is the plan's or, of a plan without one, made of the run's id
-/// (FNV-1a), its low 53 bits: the same run gives the same bits anywhere and for ever, and a case
-/// can state the same seed. `result` was evaluated from `deviations`.
+/// Fills `known.simulation` and `known.true_figures`. The seed is the plan's or, of a plan without
+/// one, made of the run's id (FNV-1a), its low 53 bits: the same run gives the same bits anywhere
+/// and for ever, and a case can state the same seed. `result` was evaluated from `deviations`,
+/// which hold every point of the targets in use. @param targets  ReadingsInUse::targets
 void simulate_run(RunUncertainty& known,
                   const RunRecord& run,
                   const RunAt20C& deviations,
-                  const PositioningResult& result);
+                  const PositioningResult& result,
+                  const std::vector<int>& targets);
 
 /// Seconds of arc of a coordinate of a rotary axis, where one millimetre stands for one degree.
 constexpr double arcsec_of(Length angle) {

@@ -297,12 +297,17 @@ class Result(Scratch):
         self.assertEqual((budget["unit"], budget["k"], budget["missing"]), ("um", 2, []))
         for key, figure in budget["parameters"].items():
             self.assertAlmostEqual(figure["U"], figures[key]["U"] * 1e3, delta=1e-9, msg=key)
+        certificate = json.loads(self.expect(0, "analyze", path).stdout)["parameters"]
+        for key, figure in budget["parameters"].items():
+            for um, mm in zip(figure["true_value_95"], certificate[key]["true_value_95"], strict=True):
+                self.assertAlmostEqual(um, mm * 1e3, delta=1e-9, msg=key)
         origins = {(one["term"], one["quantity"]): one["origin"] for one in budget["inputs"]}
         self.assertEqual(origins["machine_expansion", "largest distance from 20 degC"], "readings")
         self.assertEqual(origins["environment", "E_VE"], "drift_test")
         text = self.expect(0, "budget", path).stdout
         self.assertIn("typed: uncertainty.", text)
         self.assertIn("from drift test ", text)
+        self.assertIn("true value (95 %) from ", text)
 
     def test_limits_give_verdicts_and_a_partial_result_has_none(self):
         limits = self.file("limits.json", json.dumps({"name": "agreed", "source": "order 17", "unit": "um", "rule": "guard-U", "limits": [

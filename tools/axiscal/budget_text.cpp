@@ -55,6 +55,14 @@ void add_missing(Json& summary, std::span<const MissingTerm> missing) {
         summary["missing"].push_back(term.words);
 }
 
+void add_true_values(Json& summary, const TrueFigures& found_in, double factor) {
+    for (const TrueFigure& figure : found_in.figures)
+        if (auto found = summary["parameters"].find(figure.key);
+            found != summary["parameters"].end())
+            (*found)["true_value_95"] = {figure.interval.low * factor,
+                                         figure.interval.high * factor};
+}
+
 Json summary_of(const Certificate& certificate) {
     Json summary = head_of(certificate.run.run_id, certificate.run.rotary ? "arcsec" : "um");
     summary["inputs"] = inputs_json(budget_inputs_of(certificate));
@@ -69,6 +77,8 @@ Json summary_of(const Certificate& certificate) {
                                     {"status", term.status}});
     for (const ParameterUncertainty& figure : budget->parameters)
         summary["parameters"][figure.key] = {{"u", figure.u}, {"U", figure.expanded}};
+    if (const auto& found = certificate.uncertainty.true_figures)
+        add_true_values(summary, *found, budget_units_per(certificate.result.unit));
     return summary;
 }
 
@@ -128,9 +138,14 @@ std::string term_text(const Json& term) {
 
 std::string parameters_text(const Json& summary) {
     std::string text;
-    for (const auto& [key, figure] : summary.at("parameters").items())
+    for (const auto& [key, figure] : summary.at("parameters").items()) {
         text += "  " + padded(key, 22) + right(shown(figure.at("u").get<double>()), 10) + "  ± " +
-                shown(figure.at("U").get<double>()) + "\n";
+                shown(figure.at("U").get<double>());
+        if (const auto lies_in = figure.find("true_value_95"); lies_in != figure.end())
+            text += "   true value (95 %) from " + shown((*lies_in)[0].get<double>()) + " to " +
+                    shown((*lies_in)[1].get<double>());
+        text += "\n";
+    }
     return text;
 }
 

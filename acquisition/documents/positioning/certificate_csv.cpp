@@ -72,6 +72,10 @@ void append_parameters(std::string& csv, const Certificate& certificate) {
                             {"# simulated", key, csv_number(drawn->at("u").get<double>()), unit,
                              "95 % from " + csv_number(drawn->at("interval_95")[0].get<double>()),
                              "to " + csv_number(drawn->at("interval_95")[1].get<double>())});
+    for (const auto& [key, parameter] : document.at("parameters").items())
+        if (const auto lies_in = parameter.find("true_value_95"); lies_in != parameter.end())
+            append_csv_line(csv, {"# true_value", key, csv_number((*lies_in)[0].get<double>()),
+                                  unit, "to " + csv_number((*lies_in)[1].get<double>()), "95 %"});
     for (const auto& [key, reason] : certificate.result.not_evaluated)
         append_csv_line(csv, {"# not_evaluated", key, csv_field(reason)});
 }

@@ -353,6 +353,7 @@ void add_uncertainty(Json& document, const Certificate& certificate) {
         add_uncertainty_json(document, *known.budget, targets, certificate.result.unit);
     if (known.budget && known.simulation)
         add_simulation_json(document, *known.simulation, *known.budget, certificate.result.unit);
+    if (known.true_figures) add_true_figures_json(document, *known.true_figures);
     document["preliminary"] = certificate.preliminary;
     if (!certificate.preliminary) return;
     document["missing"] = Json::array();

@@ -224,6 +224,38 @@ void draw_simulation(Sheet& sheet, const Certificate& certificate) {
     sheet.text(words, note_style);
 }
 
+/// What the intervals of the true figures take into account, of this run.
+std::string ground_of_true_figures(const Certificate& certificate) {
+    std::string words;
+    if (!certificate.run.rotary)
+        words += "Errors that grow with the length count by the distance of the targets. ";
+    if (!certificate.run.rotary && !certificate.run.scale)
+        words += "A beam off the axis can only read short. ";
+    return words + "The environment drifts through the run as it did in a drift test of range "
+                   "E_VE; what that adds to a figure is taken off.";
+}
+
+/// Where the truth lies, in 95 of 100 runs that are measured and stated like this one.
+void draw_true_figures(Sheet& sheet, const Certificate& certificate) {
+    const auto& found = certificate.uncertainty.true_figures;
+    if (!found) return;
+    std::vector<ParameterLine> lines = parameters_of_both_directions(certificate.result.parameters);
+    const auto one_way = parameters_of_one_direction(certificate.result.parameters);
+    lines.insert(lines.end(), one_way.begin(), one_way.end());
+    const double factor = budget_units_per(certificate.result.unit);
+    std::string words;
+    for (const ParameterLine& line : lines)
+        if (const TrueFigure* figure = found->find(line.key))
+            words += (words.empty() ? "" : "; ") + std::string{line.symbol} + " from " +
+                     uncertainty_on_paper(figure->interval.low * factor) + " to " +
+                     uncertainty_on_paper(figure->interval.high * factor);
+    if (words.empty()) return;
+    sheet.text("The true figures lie, with a probability of 95 %, in " + unit_of(certificate) +
+                   ": " + words + ". " + ground_of_true_figures(certificate) + " " +
+                   std::to_string(found->trials) + " sessions.",
+               note_style);
+}
+
 } // namespace
 
 void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
@@ -250,6 +282,7 @@ void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
     draw_parameter_uncertainties(sheet, certificate);
     draw_legend(sheet, certificate);
     draw_simulation(sheet, certificate);
+    draw_true_figures(sheet, certificate);
 }
 
 } // namespace axiscal

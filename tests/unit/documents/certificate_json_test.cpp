@@ -232,6 +232,23 @@ TEST(CertificateJson, ShowsTheSimulationBesideTheFormulaWithItsSeed) {
     EXPECT_NE(remark.find("% above the simulated one"), std::string::npos) << remark;
 }
 
+TEST(CertificateJson, SaysWhereEachTrueFigureLiesInTheUnitOfTheResult) {
+    const Json document = certificate_to_json(test::certificate_of(stated_run()));
+    for (const auto& [key, parameter] : document.at("parameters").items()) {
+        const double low = parameter.at("true_value_95").at(0),
+                     high = parameter.at("true_value_95").at(1),
+                     U_mm = parameter.at("expanded_uncertainty").at("value");
+        EXPECT_LT(low, high) << key;
+        EXPECT_LT(high - low, 8 * U_mm) << key << ": of the size of 2 U, in mm";
+        EXPECT_GT(high - low, U_mm / 4) << key;
+    }
+    EXPECT_EQ(document.at("true_values").at("seed"), 4711);
+    EXPECT_EQ(document.at("true_values").at("trials"), 20000);
+    const Json bare = certificate_to_json(test::certificate_of(test::synthetic_run()));
+    EXPECT_FALSE(bare.contains("true_values"));
+    EXPECT_FALSE(bare.at("parameters").at("A").contains("true_value_95"));
+}
+
 TEST(CertificateJson, SaysWhatIsMissingAndWhichParametersItLeavesWithoutU) {
     RunRecord run = stated_run();
     run.uncertainty->device_U = {};
@@ -385,6 +402,8 @@ TEST(CertificateCsv, TellsUItsTargetTheBudgetAndWhatIsMissing) {
     EXPECT_NE(final_one.find("# target_uncertainty,R,0.002,mm,not met\r\n"), std::string::npos);
     EXPECT_NE(final_one.find("# budget,environment,"), std::string::npos);
     EXPECT_NE(final_one.find("# simulated,A,0.00"), std::string::npos);
+    EXPECT_NE(final_one.find("# true_value,A,0.0"), std::string::npos);
+    EXPECT_NE(final_one.find(",95 %\r\n"), std::string::npos);
     EXPECT_NE(final_one.find("# simulation,100000 sessions,seed 4711\r\n"), std::string::npos);
     EXPECT_EQ(final_one.find("not evaluated"), std::string::npos);
     EXPECT_EQ(final_one.find("preliminary"), std::string::npos);

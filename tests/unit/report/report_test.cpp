@@ -217,6 +217,21 @@ TEST_F(Report, PrintsTheSimulatedUBesideTheFormula) {
     EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("simulated")));
 }
 
+TEST_F(Report, PrintsWhereTheTrueFiguresLie) {
+    const auto without_blanks = [](const std::string& words) { // lines end where they are full
+        return std::regex_replace(words, std::regex{"\\s+"}, "");
+    };
+    const std::string text = without_blanks(test::text_of(render(stated_run())));
+    const Certificate certificate = test::certificate_of(stated_run());
+    for (const TrueFigure& figure : certificate.uncertainty.true_figures->figures) {
+        const std::string ends = "from" + fixed(figure.interval.low * 1000, 3) + "to" +
+                                 fixed(figure.interval.high * 1000, 3);
+        EXPECT_THAT(text, HasSubstr(ends)) << figure.key;
+    }
+    EXPECT_THAT(text, HasSubstr(without_blanks("A beam off the axis can only read short.")));
+    EXPECT_THAT(test::text_of(render(test::synthetic_run())), Not(HasSubstr("true figures")));
+}
+
 TEST_F(Report, StatesTheLargestSynchronisationErrorInWords) {
     Certificate certificate = test::certificate_of(test::synthetic_run());
     EXPECT_THAT(synchronisation_text(certificate), HasSubstr("not stated"));
@@ -385,8 +400,9 @@ TEST_F(Report, OfARotaryAxisPrintsTheBudgetOfAnnexB) {
     const std::string text = test::text_of(render(run));
     EXPECT_EQ(count(text, "PRELIMINARY"), 0);
     for (const char* words : {"annex B", "U_cal = 1.2″, k = 2", "E_VE = 0.6″",
-                              "U is above its stated target U_T for E"})
+                              "U is above its stated target U_T for E", "The true figures lie"})
         EXPECT_THAT(text, HasSubstr(words));
+    EXPECT_THAT(text, Not(HasSubstr("A beam off the axis")));
 }
 
 TEST_F(Report, PrintsNotStatedForEveryEmptyField) {
