@@ -2,7 +2,9 @@
 
 #include "analysis/compensation/cosine_error.hpp"
 #include "analysis/drift/drift.hpp"
+#include "analysis/setup/course_drift.hpp"
 #include "analysis/setup/frozen_sensor.hpp"
+#include "analysis/setup/run_course.hpp"
 
 #include <algorithm>
 #include <string>
@@ -132,6 +134,17 @@ BudgetInput offset_of(const Certificate& certificate) {
     return offset;
 }
 
+/// The least range of a straight drift in time that this run's readings show: the fitted one less
+/// 2 u, with u from their scatter, taken as independent.
+std::optional<double> least_drift_um(const Certificate& certificate) {
+    const auto course =
+        course_of(certificate.run, certificate.revisions, certificate.compensation.after);
+    if (!course) return std::nullopt; // of a rotary axis, or without air
+    const auto drift = drift_of(*course);
+    if (!drift) return std::nullopt;
+    return std::max(drift->range_um - 2 * drift->standard_uncertainty_um, 0.0);
+}
+
 BudgetInput environment_of(const Certificate& certificate) {
     BudgetInput eve =
         input(UncertaintyTerm::environment, "E_VE", certificate.run.rotary ? "arcsec" : "um");
@@ -140,7 +153,21 @@ BudgetInput environment_of(const Certificate& certificate) {
         take(eve, certificate.uncertainty.statement.eve, InputOrigin::typed, "uncertainty.eve");
     else
         take(eve, certificate.uncertainty.statement.eve, InputOrigin::drift_test, drift_test);
+    eve.seen = least_drift_um(certificate);
+    if (eve.seen) eve.seen_in = "the straight drift in time of this run's readings, less 2 u";
     return eve;
+}
+
+/// Of the laser along the travel. It enters no term, but a weak beam counts wrongly.
+std::optional<BudgetInput> strength_of(const Certificate& certificate) {
+    const auto& alignment = certificate.attachments.alignment;
+    if (!alignment || alignment->places.empty()) return std::nullopt;
+    BudgetInput strength = input(UncertaintyTerm::device, "least strength along the travel", "%");
+    strength.term = "strength";
+    const auto weakest =
+        std::ranges::min_element(alignment->places, {}, &AlignmentPlace::weakest_percent);
+    take(strength, weakest->weakest_percent, InputOrigin::readings, "the alignment that was kept");
+    return strength;
 }
 
 BudgetInput of_scale(UncertaintyTerm term,
@@ -181,6 +208,8 @@ std::vector<BudgetInput> budget_inputs_of(const Certificate& certificate) {
         device_of(certificate),          misalignment_of(certificate),
         coefficient_of(certificate),     temperature_width_of(certificate),
         expansion_width_of(certificate), offset_of(certificate)};
+    if (auto strength = strength_of(certificate))
+        inputs.insert(inputs.begin() + 1, *std::move(strength));
     if (certificate.run.scale) add_scale(inputs, certificate);
     inputs.push_back(environment_of(certificate));
     return inputs;

@@ -13,6 +13,9 @@ namespace axiscal {
 /// - width of the material's temperature: the largest difference of two material sensors at one
 ///   time, corrections included, readings of each taken linearly between. One sensor shows none;
 /// - misalignment: gamma L of the cosine error that aligning the beam left (cosine_error.hpp);
+/// - E_VE: the straight drift in time that the readings of the run show, less twice its standard
+///   uncertainty;
+/// - the least strength of the laser along the travel, where it was told when the beam was aligned;
 /// - the distance from 20 degC is itself the largest |theta - 20| of the readings.
 std::vector<BudgetInput> budget_inputs_of(const Certificate& certificate);
 

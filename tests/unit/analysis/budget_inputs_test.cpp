@@ -73,6 +73,29 @@ TEST(BudgetInputs, TheAlignmentThatWasKeptIsHeldAgainstTheTypedOne) {
     EXPECT_TRUE(beam.exceeded()) << "1 mm is typed";
 }
 
+/// The run grows by 0.2 um from pass to pass of 22 points: by 0.2 * 109 / 22 from its first to its
+/// last.
+TEST(BudgetInputs, ADriftOfTheRunItselfIsHeldAgainstEVE) {
+    RunRecord run = stated_run();
+    const auto eve = [&] { return named(budget_inputs_of(certificate_of(run)), "E_VE"); };
+    EXPECT_NEAR(*eve().seen, 0.2 * 109 / 22, 1e-3);
+    EXPECT_FALSE(eve().exceeded()) << "1.7 um are typed";
+    run.uncertainty->eve = um(0.9);
+    EXPECT_TRUE(eve().exceeded());
+}
+
+TEST(BudgetInputs, TheWeakestStrengthOfTheAlignmentIsNamed) {
+    const std::string quantity = "least strength along the travel";
+    Certificate certificate = certificate_of(stated_run());
+    EXPECT_FALSE(named(budget_inputs_of(certificate), quantity).value) << "nothing was aligned";
+    AlignmentRecord& alignment = certificate.attachments.alignment.emplace();
+    alignment.places = {{mm(0), mm(500), 10, 71, 80, 80}, {mm(500), mm(1000), 10, 48, 60, 60}};
+    const BudgetInput strength = named(budget_inputs_of(certificate), quantity);
+    EXPECT_EQ(strength.value, 48);
+    EXPECT_EQ(strength.unit, "%");
+    EXPECT_EQ(strength.origin, InputOrigin::readings);
+}
+
 TEST(BudgetInputs, WhatIsNotStatedIsMissingAndADriftTestIsNamed) {
     RunRecord run = stated_run();
     run.uncertainty->misalignment.reset();
