@@ -20,7 +20,7 @@ for one in $(sed -n '/^build=(/,/)/p' tools/install-dependencies | tr -d '"()' |
     case $name in *-dev) if has "$name:arm64"; then name=$name:arm64; fi ;; esac
     packages+=("$name")
 done
-install "${packages[@]}" libc6-dev:arm64 qemu-user-static poppler-utils
+install "${packages[@]}" libc6-dev:arm64 qemu-user-static poppler-utils tesseract-ocr
 
 kernel=/proc/sys/fs/binfmt_misc
 [ -e "$kernel/register" ] || mount -t binfmt_misc none "$kernel"
