@@ -214,9 +214,12 @@ class Circling(Deed):
     def step_was_lost(self):
         """A busy computer read no sample while the bar passed the step of a feed-in or feed-out: the circle is refused, and the
         hole stands in the file."""
-        run = self.b.run()  # none after a death behind the closing
-        refused = run["sentence"] if run else ""
-        if "was not seen: half of feed_in" not in refused:
+        status = self.b.status()
+        told = [note for note in status["notes"] if "No certificate for run" in note]
+        if status["run"]:  # none after a death behind the closing; then the notes say it
+            told.append(status["run"]["sentence"])
+        refused = next((words for words in told if "was not seen: half of feed_in" in words), None)
+        if refused is None:
             return False
         lost = [row["missing"] for row in self.rows("stream_block") if row["before"] == "gap"]
         expect(lost, f"no sample is missing, and yet: {refused}")
