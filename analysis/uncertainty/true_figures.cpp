@@ -45,6 +45,8 @@ double range_of(const SessionErrors& errors) {
 
 class TrueSessions {
 public:
+    static constexpr std::size_t mean_reversal = 11; ///< B_mean, the only figure with a sign
+
     TrueSessions(SessionModel model,
                  const SessionErrors& errors,
                  Walk walk,
@@ -145,8 +147,8 @@ private:
         return figure >= first_spread && figure < mean_reversal;
     }
 
-    /// In the order of uncertain_parameters(): R, R_forward, R_backward, B, B_mean.
-    static constexpr std::size_t first_spread = 7, last_spread = 9, mean_reversal = 11;
+    /// In the order of uncertain_parameters(): R, R_forward, R_backward.
+    static constexpr std::size_t first_spread = 7, last_spread = 9;
 
     SessionModel still_, drifting_;
     Walk walk_;
@@ -193,8 +195,12 @@ Result<TrueFigures> simulate_true_figures(const RunAt20C& run,
                           walk_through(seconds), evaluated, request.seed};
     const FigureTally tally = tally_of(sessions, groups, evaluated.values);
     TrueFigures out{static_cast<int>(groups * lanes), request.seed, {}};
-    for (const std::size_t f : evaluated.present)
-        out.figures.push_back({uncertain_parameters()[f], tally.intervals(f).symmetric});
+    for (const std::size_t f : evaluated.present) {
+        Interval lies_in = tally.intervals(f).symmetric;
+        // the tally spreads sessions of 0 over their bucket, which reaches below it
+        if (f != TrueSessions::mean_reversal) lies_in.low = std::max(lies_in.low, 0.0);
+        out.figures.push_back({uncertain_parameters()[f], lies_in});
+    }
     return out;
 }
 

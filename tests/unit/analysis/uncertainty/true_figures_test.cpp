@@ -198,7 +198,16 @@ TEST(TrueFigures, OfRReachDownToNothingWhereADriftAloneHasMadeIt) {
     const RunAt20C run = *declare_at_20C(table_of(forward, backward), "simulated");
     const Interval of_R = true_figures(run, errors).find("R")->interval;
     EXPECT_LT(of_R.low, *evaluate_positioning(run).parameters.R / 100);
-    EXPECT_GE(of_R.low, 0) << "no range is below 0";
+}
+
+TEST(TrueFigures, AreNoRangesBelowZero) {
+    std::mt19937_64 dice{8};
+    for (int k = 0; k < 20; ++k)
+        for (const TrueFigure& figure :
+             true_figures(measured(dice).read, errors_of_session(10e-3)).figures) {
+            const bool has_a_sign = figure.key == "B_mean";
+            EXPECT_TRUE(has_a_sign || figure.interval.low >= 0) << figure.key;
+        }
 }
 
 TEST(TrueFigures, OfATestFromOneSideAreThoseOfThatSide) {
