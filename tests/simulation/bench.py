@@ -51,9 +51,10 @@ class MissedByChance(AssertionError):
 
 class StallWatch(threading.Thread):
     """For how long nothing ran on this computer: a virtual one is stopped now and then, for seconds. The simulated
-    instruments then send all at once what their wires cannot carry."""
+    instruments then send all at once what their wires cannot carry. A pseudo terminal holds 4 KiB, and the counter's lines
+    of 40 bytes, a thousand a second, fill it in 0.1 s."""
 
-    LONG_S = 1.0
+    LONG_S = 0.1
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -256,16 +257,19 @@ class Bench:
 
     def axiscal(self, *words, code=0):
         """Runs the command line; its exit code must be `code`. Gives back what it printed."""
-        done = subprocess.run(
-            [self.program("axiscal"), *map(str, words)],
-            cwd=self.folder,
-            env={**os.environ, "AXISCAL_SOCKET": self.socket},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=100,
-            check=False,
-        )
+        try:
+            done = subprocess.run(
+                [self.program("axiscal"), *map(str, words)],
+                cwd=self.folder,
+                env={**os.environ, "AXISCAL_SOCKET": self.socket},
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                text=True,
+                timeout=100,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as late:
+            raise AssertionError(f"axiscal {' '.join(map(str, words))}: not done after {late.timeout} s") from late
         shown = f"axiscal {' '.join(map(str, words))}: exit {done.returncode}, not {code}\n"
         expect(done.returncode == code, shown + done.stdout + done.stderr)
         self.complaint = done.stderr
