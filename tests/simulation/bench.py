@@ -51,10 +51,9 @@ class MissedByChance(AssertionError):
 
 class StallWatch(threading.Thread):
     """For how long nothing ran on this computer: a virtual one is stopped now and then, for seconds. The simulated
-    instruments then send all at once what their wires cannot carry. A pseudo terminal holds 4 KiB, and the counter's lines
-    of 40 bytes, a thousand a second, fill it in 0.1 s."""
+    instruments then send all at once what their wires cannot carry."""
 
-    LONG_S = 0.1
+    LONG_S = 1.0
 
     def __init__(self):
         super().__init__(daemon=True)
