@@ -20,6 +20,8 @@ nlohmann::ordered_json to_json(const RetakeAnswer& answer);
 /// {"target":3,"direction":"positive","cycle":2,"reason":"..."}; target and cycle count from 0, as
 /// everywhere in this interface. @errors Fault::bad_request naming the field.
 Result<RevisionRequest> revision_request_from_json(const std::string& body);
+/// {"finding":"moved_optic","text":"...","by":"..."}. @errors Fault::bad_request naming the field.
+Result<AnswerRequest> answer_request_from_json(const std::string& body);
 /// {"arcsec": 1.25}. @errors Fault::bad_request.
 Result<double> typed_reading_from_json(const std::string& body);
 /// {"reason": "...", "by": "..."} of an abort; both may be left out.

@@ -98,6 +98,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     Task<Response> change(Request request, Orderer by, int descriptor);
     Task<Response> arm(Request request, Orderer by, int descriptor);
     Task<Response> revise(Request request, Orderer by);
+    Task<Response> answer_finding(Request request, Orderer by);
 
     Scheduler& scheduler;
     StationInterface& station;
@@ -215,7 +216,7 @@ Task<Response> HttpServer::Impl::respond(Request request, Door door, int descrip
         "known are GET /v1/status, GET /v1/instruments, GET "
         "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
         "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
-        "/v1/run/exclude, POST /v1/preflight, POST /v1/alignment, POST "
+        "/v1/run/exclude, POST /v1/run/answer, POST /v1/preflight, POST /v1/alignment, POST "
         "/v1/drift");
 }
 
@@ -232,6 +233,8 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
     }
     if (target == "/v1/run/retake" || target == "/v1/run/exclude")
         co_return co_await revise(std::move(request), std::move(by));
+    if (target == "/v1/run/answer")
+        co_return co_await answer_finding(std::move(request), std::move(by));
     if (target == "/v1/run/trigger") {
         const auto done = station.trigger();
         if (!done) co_return answer(request, done.error());
@@ -274,7 +277,7 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
     co_return answer_in_words(
         request, http::status::not_found,
         "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
-        "/v1/run/retake, /v1/run/exclude, /v1/preflight, "
+        "/v1/run/retake, /v1/run/exclude, /v1/run/answer, /v1/preflight, "
         "/v1/alignment, /v1/drift");
 }
 
@@ -309,6 +312,17 @@ Task<Response> HttpServer::Impl::revise(Request request, Orderer by) {
     const auto excluded = co_await station.exclude(std::move(order));
     if (!excluded) co_return answer(request, excluded.error());
     co_return answer(request, http::status::ok, {{"excluded", *excluded}});
+}
+
+Task<Response> HttpServer::Impl::answer_finding(Request request, Orderer by) {
+    auto wanted = answer_request_from_json(request.body());
+    if (!wanted) co_return answer(request, wanted.error());
+    AnswerRequest order = *std::move(wanted);
+    by.name = order.by.name;
+    order.by = std::move(by);
+    const auto kept = co_await station.answer_finding(std::move(order));
+    if (!kept) co_return answer(request, kept.error());
+    co_return answer(request, http::status::ok, {{"answer", "kept"}});
 }
 
 HttpServer::HttpServer(Scheduler& scheduler,

@@ -158,6 +158,29 @@ Result<RevisionRequest> revision_request_from_json(const std::string& body) {
     return request;
 }
 
+Result<AnswerRequest> answer_request_from_json(const std::string& body) {
+    AXISCAL_TRY(const Json parsed, parse_object(body));
+    AnswerRequest request;
+    for (const auto& [key, value] : parsed.items()) {
+        if (key == "by") {
+            AXISCAL_CHECK(read_orderer(value, request.by));
+            continue;
+        }
+        if (key != "finding" && key != "text")
+            return refuse(Fault::bad_request, key,
+                          "is unknown; known are finding, text, by" +
+                              did_you_mean(key, {"finding", "text", "by"}));
+        if (!value.is_string()) return refuse(Fault::bad_request, key, "must be a text");
+        (key == "text" ? request.text : request.finding) = valid_text(value.get<std::string>());
+    }
+    if (request.finding.empty())
+        return refuse(Fault::bad_request, "finding",
+                      "is missing: which of the findings about the set-up is answered");
+    if (request.text.find_first_not_of(" \t\r\n") == std::string::npos)
+        return refuse(Fault::bad_request, "text", "is missing: it is printed on the certificate");
+    return request;
+}
+
 Result<double> typed_reading_from_json(const std::string& body) {
     AXISCAL_TRY(const Json parsed, parse_object(body));
     for (const auto& [key, value] : parsed.items())

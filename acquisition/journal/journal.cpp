@@ -43,11 +43,23 @@ Task<Result<void>> Journal::reopen_closed(std::string path,
                                           std::optional<RetakeRecord> retake,
                                           std::vector<ExclusionRecord> exclusions,
                                           std::vector<OrderRecord> orders) {
-    Worker* worker = worker_.get();
     auto first = std::make_shared<RunBatch>();
     if (retake) first->retakes.push_back(*std::move(retake));
     first->exclusions = std::move(exclusions);
     first->orders = std::move(orders);
+    co_return co_await reopen_closed(std::move(path), std::move(first));
+}
+
+Task<Result<void>>
+Journal::reopen_closed(std::string path, AnswerRecord answer, OrderRecord order) {
+    auto first = std::make_shared<RunBatch>();
+    first->answers.push_back(std::move(answer));
+    first->orders.push_back(std::move(order));
+    co_return co_await reopen_closed(std::move(path), std::move(first));
+}
+
+Task<Result<void>> Journal::reopen_closed(std::string path, std::shared_ptr<RunBatch> first) {
+    Worker* worker = worker_.get();
     std::function<Result<void>()> work = [worker, path, first]() -> Result<void> {
         AXISCAL_CHECK(worker->may_open());
         return worker->take(RunFileWriter::reopen_closed(path, *first));
@@ -152,6 +164,11 @@ Task<Result<StoredRuns>> Journal::stored_runs(std::string folder, BootId boot_id
 Task<Result<RunSummary>> Journal::summarize(std::string path) {
     std::function<Result<RunSummary>()> work = [path] { return summarize_run_file(path); };
     co_return co_await perform<Worker, RunSummary>(worker_.get(), std::move(work));
+}
+
+Task<Result<StoredResult>> Journal::stored_result(std::string path) {
+    std::function<Result<StoredResult>()> work = [path] { return read_stored_result(path); };
+    co_return co_await perform<Worker, StoredResult>(worker_.get(), std::move(work));
 }
 
 Task<Result<StoredDrift>> Journal::find_drift(std::string folder, WantedDrift wanted) {

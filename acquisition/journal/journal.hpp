@@ -24,6 +24,7 @@ class RunFileWriter;
 struct RunFileContents;
 struct RunSummary;
 struct StoredDrift;
+struct StoredResult;
 struct StoredRuns;
 struct WantedDrift;
 
@@ -63,6 +64,8 @@ public:
                                      std::optional<RetakeRecord> retake,
                                      std::vector<ExclusionRecord> exclusions,
                                      std::vector<OrderRecord> orders = {});
+    /// The same with an answer to a finding.
+    Task<Result<void>> reopen_closed(std::string path, AnswerRecord answer, OrderRecord order);
 
     /// Durable, with everything noted before, when the receipt comes.
     /// @errors Fault::not_durable; Fault::no_run_armed when no run is open.
@@ -89,6 +92,9 @@ public:
     Task<Result<StoredRuns>> stored_runs(std::string folder, BootId boot_id);
     /// summarize_run_file() off the loop.
     Task<Result<RunSummary>> summarize(std::string path);
+
+    /// read_stored_result() off the loop.
+    Task<Result<StoredResult>> stored_result(std::string path);
 
     /// As find_drift(), off the loop.
     Task<Result<StoredDrift>> find_drift(std::string folder, WantedDrift wanted);
@@ -129,6 +135,7 @@ public:
 
 private:
     struct Worker;
+    Task<Result<void>> reopen_closed(std::string path, std::shared_ptr<RunBatch> first);
     Task<Result<JournalReceipt>> commit(RunBatch batch, std::uint16_t sequence, int step);
     using Lookup = Result<std::optional<std::uint16_t>> (*)(const RunFileWriter& writer, int key);
     Task<Result<JournalReceipt>> receipt_by(Lookup lookup, int key, int step);

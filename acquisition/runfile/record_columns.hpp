@@ -101,6 +101,7 @@ inline constexpr std::array tables{
     Table{"retake", "number, at_ns, utc_ns, reason", "iiit"},
     Table{"retake_point", "step, planned_step", "ii"},
     Table{"exclusion", "step, at_ns, utc_ns, reason", "iiit"},
+    Table{"answer", "finding, at_ns, utc_ns, text", "tiit"},
     Table{"ordered", "kind, about, at_ns, utc_ns, door, uid, user, name", "ttiitItt"},
     Table{"closing", "complete, reason, closed_before_ns, closed_utc_ns, closed_after_ns", "itiii"},
 };

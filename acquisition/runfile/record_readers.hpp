@@ -28,7 +28,7 @@ ReadRow read_alignment, read_alignment_place, read_drift, read_probing, read_pro
 // record_rows_read_course.cpp
 ReadMeasuredRow read_environment, read_event;
 ReadRow read_datum, read_point, read_stream, read_stream_block, read_preflight, read_retake,
-    read_retake_point, read_exclusion, read_ordered, read_closing;
+    read_retake_point, read_exclusion, read_answer, read_ordered, read_closing;
 
 /// Left alone where the column is NULL.
 template <class Amount> void read_optional(std::optional<Amount>& amount, RowReader& in) {

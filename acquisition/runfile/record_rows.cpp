@@ -373,6 +373,11 @@ ChainedRow row_of(const ExclusionRecord& exclusion) {
     return chained("exclusion", {whole(step), nanoseconds(at), utc_ns, reason});
 }
 
+ChainedRow row_of(const AnswerRecord& answer) {
+    const auto& [finding, at, utc_ns, text] = answer;
+    return chained("answer", {finding, nanoseconds(at), utc_ns, text});
+}
+
 ChainedRow row_of(const OrderRecord& order) {
     const auto& [kind, about, at, utc_ns, by] = order;
     Value uid;
@@ -392,6 +397,6 @@ std::vector<ChainedRow> rows_of(const RetakeRecord& retake) {
 }
 
 bool reopens(const Table& table) {
-    return table.name == "retake" || table.name == "exclusion";
+    return table.name == "retake" || table.name == "exclusion" || table.name == "answer";
 }
 } // namespace axiscal

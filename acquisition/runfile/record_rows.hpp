@@ -52,6 +52,7 @@ ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);
 ChainedRow row_of(const ExclusionRecord& exclusion);
+ChainedRow row_of(const AnswerRecord& answer);
 ChainedRow row_of(const OrderRecord& order);
 /// The order, then its points.
 std::vector<ChainedRow> rows_of(const RetakeRecord& retake);

@@ -52,6 +52,7 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     read_retake,
     read_retake_point,
     read_exclusion,
+    read_answer,
     read_ordered,
     read_closing,
 };

@@ -163,6 +163,15 @@ void read_exclusion(RecordedRun& run, RowReader& in) {
     run.revisions.exclusions.push_back(std::move(exclusion));
 }
 
+void read_answer(RecordedRun& run, RowReader& in) {
+    AnswerRecord answer;
+    answer.finding = in.text();
+    answer.at = in.time();
+    answer.utc_ns = in.integer();
+    answer.text = in.text();
+    run.revisions.answers.push_back(std::move(answer));
+}
+
 void read_ordered(RecordedRun& run, RowReader& in) {
     OrderRecord order;
     order.kind = in.text();

@@ -88,8 +88,8 @@ Error as_not_durable(Error error) {
 
 bool RunBatch::empty() const {
     return environment.empty() && events.empty() && preflight.empty() && retakes.empty() &&
-           exclusions.empty() && orders.empty() && !datum && !point && !circular &&
-           streams.empty() && chunks.empty();
+           exclusions.empty() && answers.empty() && orders.empty() && !datum && !point &&
+           !circular && streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)
@@ -139,8 +139,11 @@ Result<RunFileWriter> RunFileWriter::reopen(const std::string& path) {
 }
 
 Result<RunFileWriter> RunFileWriter::reopen_closed(const std::string& path, const RunBatch& first) {
-    if ((first.retakes.empty() && first.exclusions.empty()) || !first.preflight.empty())
-        return fail(Fault::internal, path + " may be reopened by a retake or an exclusion only");
+    const bool revises =
+        !first.retakes.empty() || !first.exclusions.empty() || !first.answers.empty();
+    if (!revises || !first.preflight.empty())
+        return fail(Fault::internal,
+                    path + " may be reopened by a retake, an exclusion or an answer only");
     AXISCAL_TRY(const auto contents, read_run_file_contents(path));
     if (!contents.closed) return fail(Fault::refused, path + " is open already");
     AXISCAL_TRY(auto writer, go_on(path, contents));
@@ -228,6 +231,8 @@ Result<void> RunFileWriter::write(const RunBatch& batch) {
         std::ranges::move(rows_of(retake), std::back_inserter(rows));
     for (const auto& exclusion : batch.exclusions)
         rows.push_back(row_of(exclusion));
+    for (const auto& answer : batch.answers)
+        rows.push_back(row_of(answer));
     for (const auto& order : batch.orders)
         rows.push_back(row_of(order));
     std::ranges::move(circular_rows(batch), std::back_inserter(rows));

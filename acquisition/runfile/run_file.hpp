@@ -29,6 +29,7 @@ struct RunBatch {
     std::vector<PreflightRecord> preflight;
     std::vector<RetakeRecord> retakes;
     std::vector<ExclusionRecord> exclusions;
+    std::vector<AnswerRecord> answers;
     std::vector<OrderRecord> orders;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
@@ -54,8 +55,8 @@ public:
     /// Goes on with an open file; all that it holds is verified and synced first.
     /// @errors Fault::refused when the run is closed; Fault::bad_run_file.
     static Result<RunFileWriter> reopen(const std::string& path);
-    /// Goes on with a closed file, for points that are taken again or readings that are left out;
-    /// `first` must hold one of these, and no checks; it is written at once.
+    /// Goes on with a closed file, for points that are taken again, readings that are left out or an
+    /// answer; `first` must hold one of these, and no checks; it is written at once.
     /// @errors Fault::refused for an open file; Fault::internal for another `first`.
     static Result<RunFileWriter> reopen_closed(const std::string& path, const RunBatch& first);
     RunFileWriter(const RunFileWriter&) = delete;
@@ -68,8 +69,8 @@ public:
     /// its sync waits for the data alone.
     void reserve_log() const;
 
-    /// One transaction, in the order preflight, retakes, exclusions, orders, circular, streams,
-    /// chunks, environment, events, datum, point.
+    /// One transaction, in the order preflight, retakes, exclusions, answers, orders, circular,
+    /// streams, chunks, environment, events, datum, point.
     Result<void> write(const RunBatch& batch);
     /// A sentence that a person should find in the file.
     Result<void> append_note(std::string text, MonotonicTime at, std::int64_t utc_ns);

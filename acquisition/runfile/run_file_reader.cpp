@@ -259,7 +259,8 @@ Result<bool> is_run_closed(const Database& database) {
     if (closed == 0) return false;
     AXISCAL_TRY(const auto reopened,
                 database.integer_of("SELECT max(link) FROM (SELECT link FROM retake UNION ALL "
-                                    "SELECT link FROM exclusion)"));
+                                    "SELECT link FROM exclusion UNION ALL "
+                                    "SELECT link FROM answer)"));
     return closed > reopened;
 }
 

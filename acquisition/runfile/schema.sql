@@ -138,7 +138,7 @@ CREATE TABLE stream_block(link INTEGER PRIMARY KEY, stream INTEGER NOT NULL,
     missing INTEGER NOT NULL, before TEXT NOT NULL, begin_ns INTEGER NOT NULL,
     end_ns INTEGER NOT NULL, low ANY NOT NULL, high ANY NOT NULL, u_t_ns INTEGER,
     data BLOB NOT NULL, hash BLOB NOT NULL) STRICT;
--- A row of retake or exclusion may follow a closing row; the run is then closed again.
+-- A row of retake, exclusion or answer may follow a closing row; the run is then closed again.
 CREATE TABLE preflight(link INTEGER PRIMARY KEY, name TEXT NOT NULL, passed INTEGER NOT NULL,
     warning INTEGER NOT NULL, verdict TEXT NOT NULL, override_reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE retake(link INTEGER PRIMARY KEY, number INTEGER NOT NULL UNIQUE, at_ns INTEGER NOT NULL,
@@ -147,6 +147,9 @@ CREATE TABLE retake_point(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE
     planned_step INTEGER NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE exclusion(link INTEGER PRIMARY KEY, step INTEGER NOT NULL UNIQUE, at_ns INTEGER NOT NULL,
     utc_ns INTEGER NOT NULL, reason TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+-- What a person answers to a finding about the set-up.
+CREATE TABLE answer(link INTEGER PRIMARY KEY, finding TEXT NOT NULL, at_ns INTEGER NOT NULL,
+    utc_ns INTEGER NOT NULL, text TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 -- Who ordered what was decided about the run.
 CREATE TABLE ordered(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, about TEXT NOT NULL,
     at_ns INTEGER NOT NULL, utc_ns INTEGER NOT NULL, door TEXT NOT NULL, uid INTEGER,

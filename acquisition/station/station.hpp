@@ -79,6 +79,7 @@ public:
     Task<Result<std::vector<PreflightRecord>>> preflight(ArmRequest request) override;
     Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
     Task<Result<int>> exclude(RevisionRequest request) override;
+    Task<Result<void>> answer_finding(AnswerRequest request) override;
     Task<Result<std::string>> drift(DriftRequest request) override;
     [[nodiscard]] std::optional<StreamView> stream(std::size_t most) const override;
     [[nodiscard]] AlignmentView alignment() const override;
@@ -98,6 +99,7 @@ private:
         bool limits_waived = false;             ///< armed in spite of the environment
         bool resumed = false;    ///< of an earlier daemon: who answers late may be another
         bool taken_over = false; ///< an earlier daemon closed it, perhaps in another boot
+        std::size_t answers = 0; ///< to findings, in its file
         bool broken_off = false; ///< closed as incomplete, and not by the CNC's own request
         std::optional<Close> outcome;
         std::optional<Error> refusal; ///< since the last durable record
@@ -290,6 +292,9 @@ private:
     Task<Result<void>> take_over_closed_run();
     Task<std::string> doubt_about_datum(const RunRecord& run);
 
+    // station_answer.cpp: what a person answers to a finding about the set-up
+    Task<Result<void>> finding_stands(std::string finding);
+
     // station_retake.cpp: points taken again and readings left out, also after the run was closed
     [[nodiscard]] Result<void> run_may_be_revised() const;
     Task<Result<void>> write_revision(Answer order, OrderRecord ordered);
@@ -479,7 +484,7 @@ private:
     bool waiting_for_disk_ = false; ///< the run file could not be written
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
-    bool revising_ = false;         ///< a retake or an exclusion is being kept
+    bool revising_ = false;         ///< a retake, an exclusion or an answer is being kept
     bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same
 };
 

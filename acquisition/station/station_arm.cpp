@@ -59,7 +59,8 @@ Result<void> Station::disk_takes_records() const {
 Result<void> Station::nothing_goes_on() const {
     if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
     if (revising_)
-        return fail(Fault::busy, "a retake or an exclusion is being written just now; ask again");
+        return fail(Fault::busy,
+                    "a retake, an exclusion or an answer is being written just now; ask again");
     if (run_open())
         return fail(Fault::busy, "run " + run_->header.run_id +
                                      " is open; finish it or 'axiscal abort' it first");
@@ -392,10 +393,12 @@ Station::resume(std::string path, RunRecord run, RunRevisions revisions, std::st
     header.points.clear();
     RunSetup setup = setup_of(run);
     const bool waived = waives_limits(revisions.preflight);
+    const std::size_t answers = revisions.answers.size();
     setup.revisions = std::move(revisions);
     RunMachine machine{std::move(setup), run, epoch, scheduler_.now()};
     begin_run(std::move(header), path, std::move(machine));
     run_->limits_waived = waived;
+    run_->answers = answers;
     run_->resumed = true;
     const std::string away = is_same_boot(run.boot_id, boot_id_)
                                  ? "for " + in_seconds(scheduler_.now() - last_sign_of_life(run))

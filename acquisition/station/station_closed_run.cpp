@@ -92,6 +92,7 @@ Task<Result<void>> Station::take_over_closed_run() {
     last.closed = last.closing_row_durable = last.taken_over = true;
     last.outcome = Close{true, contents.run.closing_reason, Fault::none};
     RunSetup setup = setup_of(contents.run);
+    last.answers = contents.revisions.answers.size();
     last.limits_waived = waives_limits(contents.revisions.preflight);
     setup.revisions = std::move(contents.revisions);
     const std::uint32_t epoch = set_up_.first_epoch();

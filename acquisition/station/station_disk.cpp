@@ -131,10 +131,13 @@ DiskBack Station::disk_back(RunFileContents contents) {
         const RunView view = machine_->view();
         const bool asked = points_asked(contents.revisions) > view.retakes_asked;
         const bool out = std::ssize(contents.revisions.exclusions) > view.excluded;
-        note(asked || out ? "The order that could not be written is in the run file all the same, "
-                            "and holds."
-                          : "The run file can be written again, and nothing of the order is in it: "
-                            "give it anew.");
+        const std::size_t answers = contents.revisions.answers.size();
+        const bool answered = answers > std::exchange(run_->answers, answers);
+        note(asked || out || answered
+                 ? "The order that could not be written is in the run file all the same, "
+                   "and holds."
+                 : "The run file can be written again, and nothing of the order is in it: "
+                   "give it anew.");
         back.reopened = asked && run_->closing_row_durable && !contents.closed;
     }
     back.on_disk = std::make_shared<const RunRecord>(std::move(contents.run));

@@ -122,6 +122,13 @@ struct RevisionRequest {
     Orderer by;
 };
 
+/// What a person answers to a finding about the set-up.
+struct AnswerRequest {
+    std::string finding; ///< "moved_optic", as the certificate names it
+    std::string text;
+    Orderer by;
+};
+
 /// How a run ended that was to be aborted: its last point may have been on its way to the disk.
 struct RunEnding {
     bool complete = false;
@@ -199,6 +206,9 @@ public:
     virtual Task<Result<RetakeAnswer>> retake(RevisionRequest request) = 0;
     /// @returns how many readings were left out. Durable on return.
     virtual Task<Result<int>> exclude(RevisionRequest request) = 0;
+    /// Of the last run, closed; it gets another certificate. Durable on return.
+    /// @errors Fault::bad_request where its certificate has no such finding; the reason why not.
+    virtual Task<Result<void>> answer_finding(AnswerRequest request) = 0;
     /// Begins a drift test; returns its run id when its file is made. abort() ends it.
     virtual Task<Result<std::string>> drift(DriftRequest request) = 0;
     /// At most `most` stretches; none before the first circular test since the start.

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -123,17 +124,50 @@ bool follows_from(const SetupFinding& found, const std::vector<SetupFinding>& of
     return is_growth && names_sensor_in_air(of_sensors);
 }
 
+std::string who_answered(const RunRevisions& revisions, const std::string& finding) {
+    std::string name = "a person";
+    for (const OrderRecord& order : revisions.orders)
+        if (order.kind == "answer" && order.about == finding) name = name_of(order.by);
+    return name;
+}
+
+/// Of each finding the last answer, by its name.
+std::map<std::string, std::string> last_answers(const RunRevisions& revisions) {
+    std::map<std::string, std::string> answers;
+    for (const AnswerRecord& answer : revisions.answers)
+        answers[answer.finding] = answer.text;
+    return answers;
+}
+
+/// An answer whose finding has gone, because a point was taken again, is not kept back.
+void add_answers(Certificate& certificate) {
+    for (const auto& [finding, text] : last_answers(certificate.revisions)) {
+        const std::string by = who_answered(certificate.revisions, finding);
+        bool stands = false;
+        for (SetupFinding& found : certificate.setup_findings) {
+            if (name_of(found.error) != finding) continue;
+            found.answer = text;
+            found.answered_by = by;
+            stands = true;
+        }
+        if (!stands)
+            certificate.remarks.push_back("Set-up: these readings no longer show what " + by +
+                                          " answered to (" + finding + "): " + text);
+    }
+}
+
 /// What the readings say of the set-up is no part of the result: where they cannot be searched
 /// nothing is found.
 void search_setup(Certificate& certificate) {
     const RunRecord& run = certificate.run;
-    if (certificate.completeness.partial() || run.rotary) return;
+    if (certificate.completeness.partial() || run.rotary) return add_answers(certificate);
     std::vector<SetupFinding>& findings = certificate.setup_findings;
     findings = find_sensor_errors(run);
     if (const auto course = course_of(run, certificate.revisions, certificate.compensation.after)) {
         auto found = find_setup_error(*course, limits_of(run));
         if (found && !follows_from(*found, findings)) findings.push_back(*std::move(found));
     }
+    add_answers(certificate);
     for (const SetupFinding& found : findings)
         certificate.remarks.push_back(sentence_of(found));
 }

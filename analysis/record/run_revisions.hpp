@@ -42,6 +42,14 @@ struct ExclusionRecord {
     std::string reason;
 };
 
+/// What a person answers to a finding about the set-up, which no figure follows.
+struct AnswerRecord {
+    std::string finding; ///< name_of(SetupError)
+    MonotonicTime at;
+    std::int64_t utc_ns = 0;
+    std::string text;
+};
+
 /// Who asked for something: what the door of the daemon knows of him, and the name that he gave.
 struct Orderer {
     std::string door;                ///< "socket", "token"; empty: not known
@@ -52,8 +60,8 @@ struct Orderer {
 
 /// An order of a person that decides about a run.
 struct OrderRecord {
-    std::string kind;  ///< "arm", "override", "retake", "exclude", "abort", "drift"
-    std::string about; ///< the check that was overridden, the number of the retake; often empty
+    std::string kind;  ///< "arm", "override", "retake", "exclude", "answer", "abort", "drift"
+    std::string about; ///< check that was overridden, number of the retake, finding; often empty
     MonotonicTime at;
     std::int64_t utc_ns = 0;
     Orderer by;
@@ -68,6 +76,7 @@ struct RunRevisions {
     std::vector<ExclusionRecord> exclusions;
     std::vector<PointRecord> superseded; ///< replaced by RunRecord::points; by planned step, oldest
                                          ///< first
+    std::vector<AnswerRecord> answers;   ///< as they were given; of one finding the last counts
     std::vector<OrderRecord> orders;     ///< as they were given
     int closings = 0;                    ///< a run that was added to is closed again
 };

@@ -35,6 +35,7 @@ struct SetupFinding {
     std::string sensor;                  ///< name of the instrument or channel; else empty
     std::vector<SetupError> or_else;     ///< what explains the readings nearly as well
     std::string seen, probably, look_at; ///< a sentence each
+    std::string answer, answered_by;     ///< of a person; empty: none yet
 };
 
 /// From what on a finding is told. Defaults where the station file states nothing.

@@ -95,7 +95,9 @@ void put_into_words(SetupFinding& finding) {
 }
 
 std::string sentence_of(const SetupFinding& finding) {
-    return "Set-up: " + finding.seen + " " + finding.probably + " " + finding.look_at;
+    std::string text = "Set-up: " + finding.seen + " " + finding.probably + " " + finding.look_at;
+    if (finding.answer.empty()) return text;
+    return text + " Answer of " + finding.answered_by + ": " + finding.answer;
 }
 
 } // namespace axiscal

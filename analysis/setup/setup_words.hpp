@@ -7,7 +7,7 @@ namespace axiscal {
 
 void put_into_words(SetupFinding& finding);
 
-/// "Set-up: " and what was seen, what it probably is, what to look at: of a finding in words.
+/// "Set-up: " and what was seen, what it probably is, what to look at, and what a person answered.
 std::string sentence_of(const SetupFinding& finding);
 
 } // namespace axiscal

@@ -31,6 +31,7 @@ RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
+            "answer": ["FINDING", "TEXT", "--by"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
@@ -116,7 +117,7 @@ class Help(Scratch):
                 self.assertIn(meaning, whole, f"{command} has another word than axiscal --help")
 
     def test_codes_of_a_daemon_are_told_by_those_that_ask_it(self):
-        for command in ("arm", "status", "watch", "trigger", "abort", "retake", "exclude"):
+        for command in ("arm", "status", "watch", "trigger", "abort", "retake", "exclude", "answer"):
             self.assertIn("5 axiscald does not answer", self.expect(0, command, "--help").stdout, command)
         for command in ("analyze", "program", "export", "check-config", "verify"):
             told = self.expect(0, command, "--help").stdout

@@ -253,6 +253,10 @@ class Answered(OneAnswer):
         self.assertIn("2 readings are left out of every figure; they stay", self.shown({"excluded": 2}, *words)[1])
 
 
+    def test_a_kept_answer_is_told_with_what_comes_of_it(self):
+        self.assertIn("a new certificate bears it", self.shown({"answer": "kept"}, "answer", "growth", "a door")[1])
+
+
 class Asked(Daemon):
     """What a daemon says of a slip. Its instruments are not there."""
 

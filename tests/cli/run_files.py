@@ -173,6 +173,7 @@ def revised(reference):
     order, points = taken([16], 53, 2)
     rows += [("retake", [2, at_ns, utc_ns, "once more"]), *order, *points, closed(2)]
     rows += [("exclusion", [24, at_ns, utc_ns, "a door was open"]), closed(3)]
+    rows += [("answer", ["growth", at_ns, utc_ns, "the door stood open in cycle 2"]), closed(4)]
     return rows
 
 

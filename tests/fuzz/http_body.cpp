@@ -35,6 +35,14 @@ void judge_revision(const std::string& body) {
     if (request) fuzz::require(!request->reason.empty(), "an order of a person has its reason");
 }
 
+void judge_answer(const std::string& body) {
+    const auto request = answer_request_from_json(body);
+    told(request);
+    if (request)
+        fuzz::require(!request->finding.empty() && !request->text.empty(),
+                      "an answer says to what, and what");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -48,6 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     told(abort_request_from_json(body));
     told(typed_reading_from_json(body));
     judge_alignment(body);
+    judge_answer(body);
     judge_drift(body);
     judge_revision(body);
     return 0;

@@ -264,6 +264,14 @@ int command_exclude(const StationClient& client, const RevisionOrder& order, boo
         });
 }
 
+int command_answer(const StationClient& client, const FindingAnswer& answer, bool json) {
+    Json body{{"finding", answer.finding}, {"text", answer.text}};
+    if (!answer.by.empty()) body["by"] = answer.by;
+    return ask(client.post("/v1/run/answer", json_text(body)), json, [](const Json&) {
+        return std::string{"The answer stands in the run file; a new certificate bears it.\n"};
+    });
+}
+
 int command_trigger(const StationClient& client, bool json) {
     return ask(client.post("/v1/run/trigger", ""), json, [](const Json&) {
         return std::string{"The next point is being captured, marked manual.\n"};

@@ -35,6 +35,12 @@ struct RevisionOrder {
 };
 int command_retake(const StationClient& client, const RevisionOrder& order, bool json);
 int command_exclude(const StationClient& client, const RevisionOrder& order, bool json);
+
+/// What a person answers to a finding about the set-up of the last run.
+struct FindingAnswer {
+    std::string finding, text, by;
+};
+int command_answer(const StationClient& client, const FindingAnswer& answer, bool json);
 int command_trigger(const StationClient& client, bool json);
 /// What the autocollimator shows at the next face of the polygon.
 int command_reading(const StationClient& client, double seconds_of_arc, bool json);

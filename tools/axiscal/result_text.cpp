@@ -119,14 +119,28 @@ std::string verdict_text(const Json& summary, const PaperUnit& unit) {
     return text;
 }
 
+/// What a person answered to a finding; what to do where nobody did.
+std::string answer_text(const Json& found) {
+    const Json answer = found.value("answer", Json{});
+    if (!answer.is_object())
+        return wrapped("No answer yet: axiscal answer " + found.at("error").get<std::string>() +
+                           " \"what was looked at, and what it was\"",
+                       2);
+    return wrapped("Answer of " + answer.at("by").get<std::string>() + ": " +
+                       answer.at("text").get<std::string>(),
+                   2);
+}
+
 /// What is wrong with the set-up, one paragraph a finding.
 std::string setup_text(const Json& summary) {
     std::string text;
-    for (const Json& found : summary.value("setup_findings", Json::array()))
+    for (const Json& found : summary.value("setup_findings", Json::array())) {
         text += wrapped("Set-up: " + found.at("seen").get<std::string>() + " " +
                             found.at("probably").get<std::string>() + " " +
                             found.at("look_at").get<std::string>(),
                         0);
+        text += answer_text(found);
+    }
     return text;
 }
 

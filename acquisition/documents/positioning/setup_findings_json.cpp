@@ -29,6 +29,9 @@ Json json_of(const SetupFinding& found) {
     object["seen"] = found.seen;
     object["probably"] = found.probably;
     object["look_at"] = found.look_at;
+    object["answer"] = Json{};
+    if (!found.answer.empty())
+        object["answer"] = {{"text", found.answer}, {"by", found.answered_by}};
     return object;
 }
 

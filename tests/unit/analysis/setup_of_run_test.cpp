@@ -87,6 +87,42 @@ TEST(SetupOfARun, AnOpticThatMovedIsFoundAndNoFigureChanges) {
     EXPECT_GT(*certificate->result.parameters.A, 0.008) << "the step is in it";
 }
 
+RunRevisions answered(const std::string& finding, const std::string& text) {
+    RunRevisions revisions;
+    revisions.answers = {{finding, monotonic_from_ns(1), 1, "a first word"},
+                         {finding, monotonic_from_ns(2), 2, text}};
+    Orderer jo;
+    jo.name = "Jo Miller";
+    jo.door = "token";
+    revisions.orders = {{"answer", finding, monotonic_from_ns(2), 2, jo}};
+    return revisions;
+}
+
+TEST(SetupOfARun, TheLastAnswerStandsBesideTheFinding) {
+    RunRecord run = test::simulated_run(truth_of_a_shop(1));
+    for (std::size_t i = 60; i < run.points.size(); ++i)
+        run.points[i].reading = run.points[i].reading + um(8);
+    const auto certificate =
+        make_certificate(std::move(run), answered("moved_optic", "the table was bumped"), "");
+    ASSERT_TRUE(certificate);
+    ASSERT_EQ(certificate->setup_findings.size(), 1U);
+    EXPECT_EQ(certificate->setup_findings[0].answer, "the table was bumped");
+    EXPECT_EQ(certificate->setup_findings[0].answered_by, "Jo Miller (token)");
+    EXPECT_TRUE(
+        certificate->remarks.back().ends_with(" Answer of Jo Miller (token): the table was bumped"))
+        << certificate->remarks.back();
+}
+
+TEST(SetupOfARun, AnAnswerToWhatIsNoLongerFoundIsARemark) {
+    const auto certificate = make_certificate(test::simulated_run(truth_of_a_shop(1)),
+                                              answered("moved_optic", "the table was bumped"), "");
+    ASSERT_TRUE(certificate);
+    EXPECT_TRUE(certificate->setup_findings.empty());
+    EXPECT_EQ(certificate->remarks.back(),
+              "Set-up: these readings no longer show what Jo Miller (token) answered to "
+              "(moved_optic): the table was bumped");
+}
+
 TEST(SetupOfARun, AReadingThatIsExcludedIsLeftOut) {
     RunRecord run = test::simulated_run(truth_of_a_shop(1));
     run.points[40].reading = run.points[40].reading + mm(1);

@@ -91,6 +91,11 @@ public:
         co_return 1;
     }
 
+    Task<Result<void>> answer_finding(AnswerRequest request) override {
+        answered = request;
+        co_return Result<void>{};
+    }
+
     Task<Result<std::string>> drift(DriftRequest request) override {
         drifted = std::move(request);
         co_return "bench-1-drift";
@@ -110,6 +115,7 @@ public:
     std::atomic<bool> noticed = false;
     ArmRequest armed;
     RevisionRequest revision;
+    AnswerRequest answered;
     AlignmentView aligned;
     std::optional<StreamView> streamed;
     mutable std::size_t asked_points = 0;
@@ -372,6 +378,22 @@ TEST_F(HttpDoor, ARetakeOrAnExclusionWithoutAReasonIsRefusedByName) {
                 << call << body;
     const auto left_out = over_socket("POST", "/v1/run/exclude", R"({"cycle":0,"reason":"x"})");
     EXPECT_EQ(nlohmann::json::parse(body_of(left_out)).at("excluded"), 1);
+}
+
+TEST_F(HttpDoor, AnAnswerToAFindingNamesFindingAndText) {
+    for (const char* body :
+         {R"({})", R"({"finding":"growth"})", R"({"finding":"growth","text":" "})",
+          R"({"text":"x"})", R"({"finding":3,"text":"x"})",
+          R"({"finding":"growth","text":"x","reason":"x"})"})
+        EXPECT_TRUE(over_socket("POST", "/v1/run/answer", body).starts_with("HTTP/1.1 400"))
+            << body;
+    const auto kept =
+        over_socket("POST", "/v1/run/answer", R"({"finding":"growth","text":"x","by":"D"})");
+    EXPECT_EQ(nlohmann::json::parse(body_of(kept)).at("answer"), "kept");
+    EXPECT_EQ(station.answered.finding, "growth");
+    EXPECT_EQ(station.answered.text, "x");
+    EXPECT_EQ(station.answered.by.name, "D");
+    EXPECT_EQ(station.answered.by.uid, ::getuid());
 }
 
 TEST_F(HttpDoor, AnUnknownFieldIsRefusedByName) {

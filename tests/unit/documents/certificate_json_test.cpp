@@ -69,10 +69,20 @@ TEST(CertificateJson, NamesAWrongSetUpWhereTheReadingsShowOne) {
     EXPECT_NEAR(found.at("value").get<double>(), 12,
                 3 * found.at("standard_uncertainty").get<double>());
     EXPECT_TRUE(found.at("sensor").is_null());
+    EXPECT_TRUE(found.at("answer").is_null());
     EXPECT_EQ(document.at("run").at("remarks").back(),
               "Set-up: " + found.at("seen").get<std::string>() + " " +
                   found.at("probably").get<std::string>() + " " +
                   found.at("look_at").get<std::string>());
+}
+
+TEST(CertificateJson, SaysWhatAPersonAnsweredToAFinding) {
+    Certificate certificate = test::certificate_of(test::synthetic_run());
+    SetupFinding& found = certificate.setup_findings.emplace_back();
+    found.answer = "the bracket was tight";
+    found.answered_by = "Jo Miller (token)";
+    EXPECT_EQ(certificate_to_json(certificate).at("setup_findings").at(0).at("answer"),
+              (Json{{"text", "the bracket was tight"}, {"by", "Jo Miller (token)"}}));
 }
 
 TEST(CertificateJson, ShowsHowTheBeamWasAligned) {

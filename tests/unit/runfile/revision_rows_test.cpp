@@ -1,4 +1,4 @@
-// Format 3: checks, retakes and exclusions in the run file, also after its closing row.
+// Checks, retakes, exclusions and answers in the run file, also after its closing row.
 #include "random_run.hpp"
 
 #include "acquisition/runfile/run_file.hpp"
@@ -95,6 +95,32 @@ TEST(RevisionRows, ChecksAndExclusionsComeBackAsTheyWere) {
     ASSERT_EQ(read->revisions.exclusions.size(), 1U);
     EXPECT_EQ(read->revisions.exclusions[0].step, 3);
     EXPECT_EQ(read->revisions.exclusions[0].utc_ns, 11);
+}
+
+TEST(RevisionRows, AnAnswerReopensAClosedRunAndComesBackAsItWas) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    RandomRun random{36};
+    closed_run(path, random);
+    RunBatch batch;
+    batch.answers = {{"moved_optic", monotonic_from_ns(9), 11, "the bracket was tight"}};
+    {
+        auto writer = RunFileWriter::reopen_closed(path, batch);
+        ASSERT_TRUE(writer) << describe(writer.error());
+        EXPECT_FALSE(read_run_file_contents(path)->closed);
+        EXPECT_FALSE(summarize_run_file(path)->closed);
+        ASSERT_TRUE(writer->close(true, "again", random.tie()));
+    }
+    const auto read = read_run_file_contents(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_TRUE(read->closed);
+    ASSERT_EQ(read->revisions.answers.size(), 1U);
+    const auto& [finding, at, utc_ns, text] = read->revisions.answers[0];
+    EXPECT_EQ(finding, "moved_optic");
+    EXPECT_EQ(at, monotonic_from_ns(9));
+    EXPECT_EQ(utc_ns, 11);
+    EXPECT_EQ(text, "the bracket was tight");
+    EXPECT_TRUE(verify_chain(path)->intact());
 }
 
 TEST(RevisionRows, OnlyAnOrderReopensAClosedRun) {

@@ -421,6 +421,14 @@ public:
         run(1s);
         return answer ? *answer : Result<int>{fail(Fault::internal, "still at it")};
     }
+    Result<void> answer_finding(AnswerRequest request) {
+        std::optional<Result<void>> answer;
+        boost::asio::co_spawn(
+            scheduler.loop(), station->answer_finding(std::move(request)),
+            [&answer](std::exception_ptr, Result<void> r) { answer = std::move(r); });
+        run(1s);
+        return answer ? *answer : Result<void>{fail(Fault::internal, "still at it")};
+    }
     Result<std::vector<PreflightRecord>> preflight(ArmRequest request = {}) {
         std::optional<Result<std::vector<PreflightRecord>>> answer;
         boost::asio::co_spawn(scheduler.loop(), station->preflight(std::move(request)),

@@ -216,6 +216,61 @@ TEST_F(StationRevises, LeavesAReadingOutOfARunThatTheLastDaemonClosed) {
     EXPECT_TRUE(contents().closed && contents().run.complete);
 }
 
+/// As the report program stores it: moved_optic was found.
+void store_finding(const std::string& path) {
+    const std::string document = R"({"setup_findings":[{"error":"moved_optic"}]})";
+    ASSERT_TRUE(store_result(path, {sha256_hex(document), document}));
+}
+
+AnswerRequest answer_to(const std::string& finding) {
+    AnswerRequest request;
+    request.finding = finding;
+    request.text = "the table was bumped";
+    request.by.name = "Jo Miller";
+    return request;
+}
+
+TEST_F(StationRevises, KeepsAnAnswerToAFindingOfARunThatTheLastDaemonClosed) {
+    {
+        Life life{shop};
+        whole_run(life);
+    }
+    store_finding(shop.run_files().at(0));
+    Life life{shop};
+    const auto answered = life.answer_finding(answer_to("moved_optic"));
+    ASSERT_TRUE(answered) << describe(answered.error());
+    const RunFileContents file = contents();
+    ASSERT_EQ(file.revisions.answers.size(), 1U);
+    EXPECT_EQ(file.revisions.answers[0].finding, "moved_optic");
+    EXPECT_EQ(file.revisions.answers[0].text, "the table was bumped");
+    EXPECT_EQ(file.revisions.orders.back().kind, "answer");
+    EXPECT_EQ(file.revisions.orders.back().about, "moved_optic");
+    EXPECT_EQ(file.revisions.orders.back().by.name, "Jo Miller");
+    EXPECT_TRUE(file.closed && file.run.complete);
+    EXPECT_EQ(file.revisions.closings, 2) << "its certificate is a new one";
+    EXPECT_EQ(life.notes_with("is answered: the table was bumped; by Jo Miller"), 1);
+    EXPECT_EQ(life.status().run->state, "complete");
+}
+
+TEST_F(StationRevises, RefusesAnAnswerToWhatWasNotFound) {
+    Life life{shop};
+    const auto words = [&](const std::string& finding) {
+        const auto refused = life.answer_finding(answer_to(finding));
+        return refused ? std::string{} : refused.error().detail;
+    };
+    EXPECT_NE(words("moved_optic").find("no run was measured yet"), std::string::npos);
+    ASSERT_TRUE(life.arm());
+    EXPECT_NE(words("moved_optic").find("the run is open"), std::string::npos);
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step)) << step;
+    life.run(2s);
+    EXPECT_NE(words("moved_optic").find("has no certificate yet"), std::string::npos);
+    store_finding(shop.run_files().at(0));
+    EXPECT_NE(words("growth").find("no finding 'growth'; it has moved_optic"), std::string::npos);
+    EXPECT_TRUE(contents().revisions.answers.empty());
+    EXPECT_EQ(contents().revisions.closings, 1);
+}
+
 template <class Value> Fault fault_of(const Result<Value>& answer) {
     return answer ? Fault::none : answer.error().fault;
 }
@@ -365,6 +420,25 @@ TEST_F(StationRevisesOnAFailingDisk, AnExclusionThatIsInTheFileAfterAllHolds) {
     EXPECT_EQ(life.status().run->excluded, 1);
     EXPECT_TRUE(contents().closed && contents().run.complete);
     EXPECT_FALSE(life.exclude(one_reading())) << "it is left out already";
+}
+
+TEST_F(StationRevisesOnAFailingDisk, AnAnswerThatIsInTheFileAfterAllHolds) {
+    Life life{shop};
+    whole_run(life);
+    store_finding(shop.run_files().at(0));
+    {
+        const FullDisk full;
+        const auto answered = life.answer_finding(answer_to("moved_optic"));
+        ASSERT_FALSE(answered);
+        ASSERT_EQ(answered.error().fault, Fault::not_durable) << describe(answered.error());
+    }
+    RunBatch batch;
+    batch.answers.emplace_back().finding = "moved_optic";
+    ASSERT_TRUE(RunFileWriter::reopen_closed(shop.run_files().at(0), batch));
+    life.run(3s);
+    EXPECT_EQ(life.notes_with("is in the run file all the same, and holds"), 1);
+    EXPECT_TRUE(contents().closed && contents().run.complete);
+    EXPECT_EQ(contents().revisions.answers.size(), 1U);
 }
 
 /// The last retake was broken off while the disk was gone: the run stays complete.

@@ -35,6 +35,7 @@ struct Options {
     std::vector<std::string> statements, overrides;
     RevisionOrder revision;
     bool exclude_instead = false;
+    FindingAnswer finding_answer;
     ProgramRequest program;
     NewCaseOrder new_case;
     ResultRequest result;

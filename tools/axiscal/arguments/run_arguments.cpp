@@ -18,6 +18,10 @@ constexpr const char* exclude_footer = R"(Example:
   axiscal exclude --target 3 --cycle 2 --reason "coolant in the beam"
 Nothing is deleted: the certificate tells which readings are left out, and why. See docs/retake.md.)";
 
+constexpr const char* answer_footer = R"(Example:
+  axiscal answer moved_optic "the bracket was tight; the table had been bumped in cycle 3"
+The findings stand in axiscal result and on the certificate. See docs/setup-findings.md.)";
+
 constexpr const char* arm_footer = R"(Examples, while the axis stands at its datum and waits:
   axiscal arm --program X-whole.ngc --state-that operator="Shift 2"
   axiscal arm --program X-whole.ngc --override soak="the customer waits"
@@ -188,14 +192,33 @@ void add_watch_commands(CLI::App& app, Options& options, Command& chosen) {
     });
 }
 
+void add_answer_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* answer = app.add_subcommand(
+        "answer", "Answer a finding about the set-up of the last run; its next certificate prints "
+                  "finding and answer");
+    answer
+        ->add_option("FINDING", options.finding_answer.finding, "its name, as axiscal result says")
+        ->required();
+    answer->add_option("TEXT", options.finding_answer.text, "what was looked at, and what it was")
+        ->required();
+    orderer_option(*answer, options.finding_answer.by);
+    teach(*answer, answer_footer, asking_codes);
+    answer->callback([&] {
+        chosen = [&] {
+            return command_answer(client_of(options), options.finding_answer, options.json);
+        };
+    });
+}
+
 } // namespace
 
 void add_run_commands(CLI::App& app, Options& options, Command& chosen) {
     add_arm_commands(app, options, chosen);
     add_revision_commands(app, options, chosen);
+    add_answer_command(app, options, chosen);
     add_watch_commands(app, options, chosen);
-    for (const char* name : {"arm", "preflight", "retake", "exclude", "status", "watch", "trigger",
-                             "reading", "abort"})
+    for (const char* name : {"arm", "preflight", "retake", "exclude", "answer", "status", "watch",
+                             "trigger", "reading", "abort"})
         daemon_options(*app.get_subcommand(name), options);
 }
 
