@@ -167,6 +167,18 @@ TEST(CaseTable, IsRefusedWithoutItsUnitsOrTheKindOfItsReadings) {
               std::string::npos);
 }
 
+TEST(CaseTable, WhoseStatementsTakeTheColumnsPlaceIsRefused) {
+    const std::string rows = "target [mm],run1 + [mm],run1 - [mm]\n0,0.001,-0.001\n";
+    for (const std::string key : {"targets", "forward", "backward", "traces"})
+        EXPECT_NE(
+            refusal(statements + "# " + key + ": 3\n" + rows).find("made of the table's columns"),
+            std::string::npos)
+            << key;
+    EXPECT_NE(refusal(statements + "# customer: B\n# customer.name: C\n" + rows)
+                  .find("what another line states as a whole"),
+              std::string::npos);
+}
+
 TEST(CaseTable, OfAnotherProgramIsRefusedWithWhatIsAccepted) {
     for (const std::string text :
          {"HEADER::\nMachine: X\nTARGETS::\n", "hello", "1;2;3\n4;5;6\n"}) {
@@ -177,7 +189,8 @@ TEST(CaseTable, OfAnotherProgramIsRefusedWithWhatIsAccepted) {
 }
 
 TEST(CaseTable, ThatIsEmptySaysSoAndHowOneIsMade) {
-    for (const std::string& text : {std::string{}, std::string{" \n\r\n"}, std::string{"\xff\xfe"}}) {
+    for (const std::string& text :
+         {std::string{}, std::string{" \n\r\n"}, std::string{"\xff\xfe"}}) {
         const std::string told = refusal(text);
         EXPECT_NE(told.find("the file is empty"), std::string::npos) << told;
         EXPECT_NE(told.find("axiscal case new positioning --csv FILE"), std::string::npos) << told;

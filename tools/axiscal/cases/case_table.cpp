@@ -33,19 +33,29 @@ json value_of(const std::string& text) {
     return !value.is_discarded() && number ? value : json(text);
 }
 
-/// "uncertainty.eve_um" is a member of a member.
-void put(json& object, const std::string& key, json value) {
+/// "uncertainty.eve_um" is a member of a member. False where that is stated as something else.
+bool put(json& object, const std::string& key, json value) {
     const auto point = key.find('.');
-    if (point == std::string::npos)
+    if (point == std::string::npos) {
         object[key] = std::move(value);
-    else
-        put(object[key.substr(0, point)], key.substr(point + 1), std::move(value));
+        return true;
+    }
+    json& member = object[key.substr(0, point)];
+    if (!member.is_null() && !member.is_object()) return false;
+    return put(member, key.substr(point + 1), std::move(value));
 }
 
-json statements_of(const CaseTable& table) {
+Result<json> statements_of(const CaseTable& table) {
+    const Words columns{"targets", "forward", "backward", "traces"};
     json object = json::object();
-    for (const auto& [key, text] : table.statements)
-        put(object, key, value_of(text));
+    for (const auto& [key, text] : table.statements) {
+        if (std::ranges::find(columns, key) != columns.end())
+            return refuse(Fault::bad_case, printable(key),
+                          "is made of the table's columns: leave the line out");
+        if (!put(object, key, value_of(text)))
+            return refuse(Fault::bad_case, printable(key),
+                          "is a member of what another line states as a whole");
+    }
     return object;
 }
 
@@ -217,7 +227,7 @@ Result<void> complete_positioning(json& object) {
 }
 
 Result<json> long_positioning_of(const CaseTable& table, const LongForm& form) {
-    json object = statements_of(table);
+    AXISCAL_TRY(json object, statements_of(table));
     AXISCAL_TRY(object["target_unit"], common_unit(table, {form.target}, object, "target_unit"));
     AXISCAL_TRY(object["unit"], common_unit(table, {form.reading}, object, "unit"));
     if (!object.contains("readings") && !form.readings.empty()) object["readings"] = form.readings;
@@ -229,7 +239,7 @@ Result<json> long_positioning_of(const CaseTable& table, const LongForm& form) {
 Result<json> positioning_of(const CaseTable& table) {
     AXISCAL_TRY(const auto form, long_form_of(table));
     if (form) return long_positioning_of(table, *form);
-    json object = statements_of(table);
+    AXISCAL_TRY(json object, statements_of(table));
     AXISCAL_TRY(const ApproachColumns columns, approach_columns(table));
     AXISCAL_TRY(object["target_unit"], common_unit(table, {0}, object, "target_unit"));
     AXISCAL_TRY(object["unit"], common_unit(table, places_of(columns), object, "unit"));
@@ -261,7 +271,7 @@ Result<json> trace_of(const CaseTable& table, std::size_t column, const std::str
 }
 
 Result<json> circular_of(const CaseTable& table) {
-    json object = statements_of(table);
+    AXISCAL_TRY(json object, statements_of(table));
     object["analysis"] = "circular";
     const std::string unit = heading_of(table.header.cells[0]).unit;
     if (unit != "deg" && unit != "rad")
