@@ -20,6 +20,19 @@ struct NewCaseOrder {
 /// Writes a table to be filled in; overwrites nothing.
 int command_case_new(const NewCaseOrder& order);
 
+struct ImportOrder {
+    std::vector<std::string> files;
+    std::string map, out; ///< empty: none; standard output
+};
+/// Files of other programs as cases (docs/import.md); overwrites nothing.
+int command_import(const ImportOrder& order);
+
+struct JudgeOrder {
+    std::string document, report;
+};
+/// Holds a published report against the case of its readings. Exit 8 when they differ.
+int command_judge(const JudgeOrder& order);
+
 struct ResultRequest {
     std::string run;              ///< path or id; empty: the newest run of the station
     std::string station_file;     ///< whose state directory holds the runs

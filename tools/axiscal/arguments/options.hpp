@@ -38,6 +38,8 @@ struct Options {
     FindingAnswer finding_answer;
     ProgramRequest program;
     NewCaseOrder new_case;
+    ImportOrder import;
+    JudgeOrder judge;
     ResultRequest result;
     BudgetRequest budget;
     ConformanceOrder conformance;

@@ -15,6 +15,17 @@ constexpr const char* case_footer = R"(Example:
   axiscal analyze readings.csv
 The file holds an example with remarks; comma, semicolon or tab, decimal point or comma, UTF-8 or UTF-16.)";
 
+constexpr const char* import_footer = R"(Examples:
+  axiscal import X-axis.rtl --out x.json
+  axiscal import log.txt --map rig.toml --out x.json
+  axiscal analyze x.json
+Laser10 text (.rtl, .rta), API .pos, raw streams and tables; the last two by a map. See docs/import.md.)";
+
+constexpr const char* judge_footer = R"(Example:
+  axiscal judge x.json report.json
+The report: {"parameters":{"E":6.86,"R":4.04},"unit":"um"}, perhaps with its readings. Prints JSON: what
+differs, and the known mistake that gives it. See docs/import.md.)";
+
 constexpr const char* result_footer = R"(Examples:
   axiscal result                                  of the newest run of this station
   axiscal result 20261121T093005Z-X --json        of one run, by its id or its file
@@ -47,6 +58,28 @@ constexpr const char* verify_footer = R"(Example:
 Computes the figures anew; each row that is not as it was written is named with its table and number, and
 the certificate must say the same. A run that is still open can be verified as well. See docs/run-file.md
 for what chain, signature and receipt can show.)";
+
+void add_import(CLI::App& app, Options& options, Command& chosen) {
+    auto* import = app.add_subcommand(
+        "import", "Files of other lasers and programs as cases for axiscal analyze");
+    import->add_option("FILE", options.import.files, "what the other program wrote")->required();
+    import->add_option("--map", options.import.map,
+                       "TOML file: which column, signal and unit is which");
+    import->add_option("--out", options.import.out,
+                       "file to be written; must not be there; default: standard output");
+    teach(*import, import_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
+    import->callback([&] { chosen = [&] { return command_import(options.import);
+};
+} // namespace
+);
+
+auto* judge = app.add_subcommand(
+    "judge", "Does a report that somebody published follow from its own readings?");
+judge->add_option("CASE", options.judge.document, "the readings, as a case")->required();
+judge->add_option("REPORT", options.judge.report, "its figures, as JSON")->required();
+teach(*judge, judge_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_changed});
+judge->callback([&] { chosen = [&] { return command_judge(options.judge); }; });
+} // namespace axiscal
 
 void add_result(CLI::App& app, Options& options, Command& chosen) {
     auto* result = app.add_subcommand("result", "E, A, R, B, M of a run, each with its U");
@@ -135,6 +168,7 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
     teach(*new_case, case_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
     new_case->callback([&] { chosen = [&] { return command_case_new(options.new_case); }; });
 
+    add_import(app, options, chosen);
     add_result(app, options, chosen);
     add_budget(app, options, chosen);
     add_program(app, options, chosen);

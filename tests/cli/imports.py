@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""Files of other programs become cases whose figures are those of ISO 230-2, computed here by themselves.
+
+imports.py BIN_FOLDER SOURCE_FOLDER [SUITE]   writes only into scratch folders of its own
+"""
+import hashlib
+import json
+import os
+import random
+import statistics
+import sys
+import unittest
+
+from axiscal_cli import Scratch
+
+TARGETS = [0.0, 47.5, 101.25, 150.0, 204.75]
+CYCLES = 5
+
+
+def deviations(seed):
+    """um, [target][cycle] of both directions: a slope, play and scatter."""
+    chance = random.Random(seed)
+    rows = {"forward": [], "backward": []}
+    for target in TARGETS:
+        for way, play in (("forward", 0.0), ("backward", -2.2)):
+            rows[way].append([round(0.021 * target + play + chance.gauss(0, 0.6), 3) for _ in range(CYCLES)])
+    return rows
+
+
+def figures(forward, backward):
+    """ISO 230-2:2014, clause 3, of deviations of both directions."""
+    mean_f, mean_b = [statistics.fmean(r) for r in forward], [statistics.fmean(r) for r in backward]
+    s_f, s_b = [statistics.stdev(r) for r in forward], [statistics.stdev(r) for r in backward]
+    reversal = [f - b for f, b in zip(mean_f, mean_b)]
+    middle = [(f + b) / 2 for f, b in zip(mean_f, mean_b)]
+    ends = [m + sign * 2 * s for m, s in zip(mean_f + mean_b, s_f + s_b) for sign in (1, -1)]
+    both = [max(2 * f + 2 * b + abs(r), 4 * f, 4 * b) for f, b, r in zip(s_f, s_b, reversal)]
+    return {"A": max(ends) - min(ends), "E": max(mean_f + mean_b) - min(mean_f + mean_b), "M": max(middle) - min(middle),
+            "B": max(abs(r) for r in reversal), "B_mean": statistics.fmean(reversal), "R": max(both),
+            "R_forward": max(4 * s for s in s_f), "R_backward": max(4 * s for s in s_b),
+            "E_forward": max(mean_f) - min(mean_f), "E_backward": max(mean_b) - min(mean_b)}
+
+
+def passes(rows):
+    """Every reading in the order in which it was taken: (pass from 1, target from 1, cycle, um)."""
+    for cycle in range(CYCLES):
+        for target in range(len(TARGETS)):
+            yield 2 * cycle + 1, target + 1, "up", rows["forward"][target][cycle]
+        for target in reversed(range(len(TARGETS))):
+            yield 2 * cycle + 2, target + 1, "down", rows["backward"][target][cycle]
+
+
+def rtl(rows):
+    lines = ["HEADER::", "File type  : rtl", "Owner      : Linear", "Version no : V20.02.02", "", "TARGET DATA::",
+             "Filetype  : ISO", f"Target-count: {len(TARGETS)}", "Targets :", *(f"  {t:.6f}" for t in TARGETS), "Flags: 0 0 2 0", "",
+             "USER-TEXT::", "Machine:中国机床", "Axis:Y", "", "RUNS::", f"Run-count:{2 * CYCLES}", "", "DEVIATIONS::",
+             "Run Target Data:", *(f"{run}   {target}   {um:.3f}" for run, target, _, um in passes(rows)), "EOF::", ""]
+    return "\r\n".join(lines)
+
+
+def table(rows):
+    lines = ["Maschine;BAZ 4", "", "Lauf;Soll;Fehler;Richtung"]
+    lines += [f"{(run + 1) // 2};{TARGETS[target - 1]};{um:.3f};{way}".replace(".", ",") for run, target, way, um in passes(rows)]
+    return "\n".join(lines) + "\n"
+
+
+TABLE_MAP = """kind = "table"
+readings = "deviations"
+unit = "um"
+target_unit = "mm"
+axis = "Z"
+[columns]
+target = "Soll"
+reading = "Fehler"
+run = "Lauf"
+direction = "Richtung"
+[direction]
+forward = ["up"]
+backward = ["down"]
+"""
+
+
+def stream(rows):
+    """Between two captures the axis drives and rests; the reference reads the other way round, from 150 mm."""
+    lines, clock = [], 0
+
+    def add(name, value):
+        nonlocal clock
+        clock += 100_000
+        second = clock // 1_000_000
+        lines.append(f"{name:30} 2026-04-06 {10 + second // 3600:02d}:{second // 60 % 60:02d}:{second % 60:02d}.{clock % 1_000_000:06d} {value}")
+
+    add("IOC:Test", 0)
+    for run, target, way, um in passes(rows):
+        add("AXIS:Cmd", TARGETS[target - 1])
+        for rest in (3.0, 0.4, 0.0):
+            add("IOC:Laser", repr(150 - (TARGETS[target - 1] + um * 1e-3 + rest)))
+        add("AXIS:Act", f"{TARGETS[target - 1]} LOLO MAJOR")
+        add("IOC:Test", f"{1 if way == 'up' else 2}{(run + 1) // 2}{target:02d}")
+    return "\n".join(lines) + "\n"
+
+
+STREAM_MAP = """kind = "stream"
+unit = "mm"
+[reading]
+signal = "IOC:Laser"
+scale = -1
+offset = 150
+take = "last"
+[target]
+signal = "AXIS:Cmd"
+[capture]
+signal = "IOC:Test"
+digits = "dcpp"
+forward = 1
+backward = 2
+"""
+
+
+class Import(Scratch):
+    def raw(self, name, data):
+        path = os.path.join(self.folder, name)
+        with open(path, "wb") as out:
+            out.write(data)
+        return path
+
+    def imported(self, path, *words):
+        out = os.path.join(self.folder, "case.json")
+        told = self.expect(0, "import", path, *words, "--out", out).stdout
+        with open(out, encoding="utf-8") as read:
+            return json.load(read), told
+
+    def check(self, path, rows, unit_um, *words):
+        case, told = self.imported(path, *words)
+        result = json.loads(self.expect(0, "analyze", os.path.join(self.folder, "case.json")).stdout)
+        wanted = figures(rows["forward"], rows["backward"])
+        for name, um in wanted.items():
+            self.assertAlmostEqual(result["parameters"][name]["value"] * unit_um, um, delta=1e-12 * unit_um, msg=name)
+        self.assertIn(f"E {wanted['E']:.2f}", told)
+        with open(path, "rb") as data:
+            self.assertIn(hashlib.sha256(data.read()).hexdigest(), case["source"])
+        self.assertIn("imported, readings by others", case["note"])
+        return case
+
+    def test_a_laser10_file_in_four_encodings(self):
+        rows = deviations(1)
+        for name, data in (("utf8", rtl(rows).encode()), ("utf16", rtl(rows).encode("utf-16")), ("gbk", rtl(rows).encode("gbk")),
+                           ("latin1", rtl(rows).replace("中国机床", "Fräse").encode("latin-1"))):
+            with self.subTest(name):
+                case = self.check(self.raw(f"{name}.rtl", data), rows, 1)
+                self.assertEqual(case["machine"], "Fräse" if name == "latin1" else "中国机床")
+                self.assertEqual(case["axis"]["name"], "Y")
+                os.remove(os.path.join(self.folder, "case.json"))
+
+    def test_a_table_of_another_program(self):
+        rows = deviations(2)
+        case = self.check(self.file("z.csv", table(rows)), rows, 1, "--map", self.file("map.toml", TABLE_MAP))
+        self.assertEqual(case["axis"]["name"], "Z")
+
+    def test_a_raw_stream(self):
+        rows = deviations(3)
+        self.check(self.file("x.log", stream(rows)), rows, 1000, "--map", self.file("map.toml", STREAM_MAP))
+
+    def test_a_map_for_what_needs_one_and_no_file_is_overwritten(self):
+        log = self.file("x.log", stream(deviations(4)))
+        self.assertIn('a map of kind "stream"', self.expect(3, "import", log).stderr)
+        self.assertIn(log, self.expect(3, "import", log).stderr)
+        there = self.file("there.json", "{}")
+        self.assertIn("is there already", self.expect(3, "import", self.file("a.rtl", rtl(deviations(5))), "--out", there).stderr)
+        self.assertIn("map.toml:1: kind", self.expect(3, "import", log, "--map", self.file("map.toml", "kind = 1\n")).stderr)
+        self.expect(1, "import", os.path.join(self.folder, "none.rtl"))
+        broken = self.expect(3, "import", self.file("b.rtl", rtl(deviations(5))[:200])).stderr
+        self.assertIn("has no section", broken)
+
+    def test_two_files_are_two_cases(self):
+        one, two = self.file("a.rtl", rtl(deviations(6))), self.file("b.rtl", rtl(deviations(7)))
+        cases = json.loads(self.expect(0, "import", one, two).stdout)
+        self.assertEqual([case["source"].split(",")[0] for case in cases], ["a.rtl", "b.rtl"])
+
+
+class Judge(Scratch):
+    def judged(self, code, report):
+        rows = deviations(8)
+        case = self.file("case.json", json.dumps({"analysis": "positioning", "standard": "ISO 230-2:2014", "unit": "um", "target_unit": "mm",
+                                                  "axis": {"name": "X", "kind": "linear"}, "readings": "deviations", "targets": TARGETS, **rows}))
+        right = figures(rows["forward"], rows["backward"])
+        text = json.dumps(report(rows, {name: round(um, 2) for name, um in right.items()}))
+        return json.loads(self.expect(code, "judge", case, self.file("report.json", text)).stdout), right
+
+    def test_a_report_that_is_right(self):
+        answer, _ = self.judged(0, lambda rows, right: {"parameters": right, **rows})
+        self.assertEqual(answer, {"verdict": "agrees", "findings": []})
+
+    def test_a_report_whose_tool_computes_e_and_r_of_one_side(self):
+        def report(rows, right):
+            return {"parameters": right | {"E": right["E_forward"], "R": right["R_backward"], "M": right["M"] + 0.4}}
+        answer, right = self.judged(8, report)
+        self.assertEqual({f["parameter"]: f["code"] for f in answer["findings"]},
+                         {"E": "E_ONE_SIDE", "R": "R_WITHOUT_B", "M": "UNEXPLAINED"})
+        for finding in answer["findings"]:
+            self.assertAlmostEqual(finding["recomputed"], right[finding["parameter"]], delta=1e-12)
+
+    def test_a_report_with_its_directions_exchanged(self):
+        def report(rows, right):
+            return {"forward": rows["backward"], "backward": rows["forward"], "parameters": right | {"B_mean": -right["B_mean"]}}
+        answer, _ = self.judged(8, report)
+        self.assertEqual({f["parameter"]: f["code"] for f in answer["findings"]},
+                         {"readings": "DIRECTIONS_SWAPPED", "B_mean": "DIRECTIONS_SWAPPED"})
+
+    def test_what_is_no_report_is_refused_by_name(self):
+        case = self.file("case.json", json.dumps({"analysis": "positioning"}))
+        self.assertIn("report", self.expect(3, "judge", case, self.file("report.json", "[1]")).stderr)
+        self.expect(1, "judge", case, os.path.join(self.folder, "none.json"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

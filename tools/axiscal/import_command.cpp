@@ -1,0 +1,121 @@
+// `axiscal import`: files of other programs as cases.
+#include "acquisition/runfile/digest.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "analysis/quantity/counted.hpp"
+#include "config/json_text.hpp"
+#include "tools/axiscal/analyze_case.hpp"
+#include "tools/axiscal/complaint.hpp"
+#include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/imports/import_file.hpp"
+#include "tools/axiscal/offline_commands.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+namespace axiscal {
+namespace {
+
+using ImportedJson = nlohmann::json;
+
+Result<std::string> bytes_of(const std::string& path) {
+    std::ifstream file{path, std::ios::binary};
+    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
+    return std::string{std::istreambuf_iterator<char>{file}, {}};
+}
+
+Result<std::optional<ImportMap>> map_in(const std::string& path) {
+    if (path.empty()) return std::optional<ImportMap>{};
+    AXISCAL_TRY(std::string text, bytes_of(path));
+    AXISCAL_TRY(ImportMap map, import_map(std::move(text), path));
+    return std::optional{std::move(map)};
+}
+
+/// What the figures were computed of can be found again by its hash.
+Result<ImportedFile> read_import(const std::string& path, const std::optional<ImportMap>& map) {
+    AXISCAL_TRY(const std::string bytes, bytes_of(path));
+    auto file = import_file(bytes, map);
+    if (!file) {
+        Error error = file.error();
+        error.field = path + (error.field.empty() ? "" : ", " + error.field);
+        return tl::unexpected<Error>(std::move(error));
+    }
+    file->document["source"] = std::filesystem::path{path}.filename().string() + ", " + file->form +
+                               ", SHA-256 " + sha256_hex(bytes);
+    return file;
+}
+
+std::string text_about(const ImportedFile& file) {
+    const ImportedJson& targets = file.document.value("targets", ImportedJson::array());
+    if (targets.empty()) return file.form;
+    const auto ways = [&](const char* key) {
+        return file.document.contains(key) ? static_cast<long>(file.document[key].at(0).size())
+                                           : 0L;
+    };
+    return file.form + ", " + counted(static_cast<long>(targets.size()), "target") + ", " +
+           counted(ways("forward"), "run") + " forward, " + std::to_string(ways("backward")) +
+           " backward";
+}
+
+/// "E 6.56 um, A 7.78 um": those that a customer asks for first; the reason where there are none.
+std::string first_figures(const ImportedJson& document) {
+    const CaseAnswer answer = analyze_cases(json_text(document));
+    const ImportedJson result = ImportedJson::parse(answer.output, nullptr, false);
+    if (!result.is_object() || !result.contains("parameters")) return answer.error_line;
+    const std::string unit = result.at("unit");
+    const bool metric = unit == "mm" || unit == "um" || unit == "m";
+    const double factor = unit == "mm" ? 1e3 : unit == "m" ? 1e6 : unit == "deg" ? 3600 : 1;
+    std::string text;
+    for (const char* key : {"A", "E", "M", "R", "B", "B_mean"}) {
+        if (!result["parameters"].contains(key)) continue;
+        std::array<char, 48> number{};
+        std::snprintf(number.data(), number.size(), "%.2f",
+                      result["parameters"][key]["value"].get<double>() * factor);
+        text += (text.empty() ? "" : ", ") + std::string{key} + " " + number.data();
+    }
+    return text + (metric ? " um" : " arcsec");
+}
+
+void tell_import(const std::string& path, const ImportedFile& file) {
+    std::cout << path << ": " << text_about(file) << "\n";
+    for (const std::string& remark : file.remarks)
+        std::cout << "  " << remark << "\n";
+    if (file.document.value("analysis", "") == "positioning")
+        std::cout << "  " << first_figures(file.document) << "\n";
+}
+
+int write_cases(const ImportedJson& cases, const std::string& out) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(out)))
+        return std::cerr << out << " is there already: name another file\n", exit_refused;
+    if (const auto written = replace_synced(out, json_text(cases) + "\n"); !written)
+        return complain(written.error());
+    std::cout << out << " is written; axiscal analyze " << out << " gives every figure\n";
+    return exit_ok;
+}
+
+} // namespace
+
+int command_import(const ImportOrder& order) {
+    const auto map = map_in(order.map);
+    if (!map) return complain(map.error());
+    ImportedJson cases = ImportedJson::array();
+    for (const std::string& path : order.files) {
+        const auto file = read_import(path, *map);
+        if (!file) return complain(file.error());
+        cases.push_back(file->document);
+        if (!order.out.empty())
+            tell_import(path, *file);
+        else
+            for (const std::string& remark : file->remarks)
+                std::cerr << path << ": " << remark << "\n";
+    }
+    const ImportedJson all = cases.size() == 1 ? cases.front() : cases;
+    if (!order.out.empty()) return write_cases(all, order.out);
+    std::cout << json_text(all) << "\n" << std::flush;
+    return exit_ok;
+}
+
+} // namespace axiscal

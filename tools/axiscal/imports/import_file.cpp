@@ -1,0 +1,66 @@
+#include "tools/axiscal/imports/import_file.hpp"
+
+#include "tools/axiscal/case_text.hpp"
+#include "tools/axiscal/cases/case_table.hpp"
+#include "tools/axiscal/imports/foreign_text.hpp"
+#include "tools/axiscal/imports/pos_file.hpp"
+#include "tools/axiscal/imports/readings_case.hpp"
+#include "tools/axiscal/imports/rtl_file.hpp"
+#include "tools/axiscal/imports/stream_file.hpp"
+#include "tools/axiscal/imports/table_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+Result<ImportedFile>
+as_case(std::string form, Result<LaserReadings> read, const std::optional<ImportMap>& map) {
+    if (!read) return tl::unexpected<Error>(read.error());
+    LaserReadings& readings = *read;
+    AXISCAL_TRY(auto document, case_of_readings(readings));
+    if (map && !map->axis.empty()) document["axis"]["name"] = map->axis;
+    return ImportedFile{std::move(form), std::move(document), std::move(readings.remarks)};
+}
+
+/// A table as `axiscal case new` writes it.
+Result<ImportedFile> own_table(const std::string& text, TableKind kind) {
+    if (kind == TableKind::workpiece)
+        return refuse(
+            Fault::bad_case, "file",
+            "is a table of both measurements of a workpiece: axiscal analyze takes it as it is");
+    AXISCAL_TRY(const CaseTable table, read_table_text(text));
+    AXISCAL_TRY(auto document, case_of_table(table, kind));
+    return ImportedFile{"table", std::move(document), {}};
+}
+
+tl::unexpected<Error> refuse_unknown(const std::string& text) {
+    std::string columns;
+    for (const std::string& cell : header_cells_of(text))
+        if (columns.size() < 200) columns += (columns.empty() ? "" : ", ") + printable(cell);
+    return refuse(Fault::bad_case, "file",
+                  "is no Laser10 text and no table of ours; a map says what its columns are "
+                  "(--map, docs/import.md). Its first line has: " +
+                      columns);
+}
+
+} // namespace
+
+Result<ImportedFile> import_file(std::string_view bytes, const std::optional<ImportMap>& map) {
+    AXISCAL_TRY(const ForeignText read, foreign_text(bytes));
+    const std::string& text = read.utf8;
+    if (is_rtl(text)) return as_case("Laser10 text (.rtl, .rta)", read_rtl(text), map);
+    if (is_pos(text)) return as_case("API .pos", read_pos(text), map);
+    const bool stream = map && std::holds_alternative<StreamMap>(map->of);
+    if (is_stream(text) && !stream)
+        return refuse(Fault::bad_case, "file",
+                      "is a raw stream: a map of kind \"stream\" says which name is what (--map, "
+                      "docs/import.md)");
+    if (stream) return as_case("raw stream", read_stream(text, *map), map);
+    if (map) return as_case("table", read_table(text, *map), map);
+    if (const auto kind = kind_of_table(text)) return own_table(text, *kind);
+    return refuse_unknown(text);
+}
+
+} // namespace axiscal

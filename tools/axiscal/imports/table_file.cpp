@@ -1,0 +1,149 @@
+#include "tools/axiscal/imports/table_file.hpp"
+
+#include "tools/axiscal/case_text.hpp"
+#include "tools/axiscal/cases/table_text.hpp"
+#include "tools/axiscal/imports/passes.hpp"
+#include "tools/axiscal/imports/text_lines.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+#include <vector>
+
+namespace axiscal {
+namespace {
+
+/// Without blanks, and quotes that a cell kept.
+std::string word_in(std::string_view cell) {
+    std::string_view text = without_blanks(cell);
+    if (text.size() > 1 && text.front() == '"' && text.back() == '"')
+        text = text.substr(1, text.size() - 2);
+    return std::string{without_blanks(text)};
+}
+
+/// A column by its number from 1.
+std::optional<std::size_t> column_number(const std::string& name) {
+    std::size_t value = 0;
+    const auto [end, fault] = std::from_chars(name.data(), name.data() + name.size(), value);
+    const bool whole = fault == std::errc{} && end == name.data() + name.size();
+    return whole && value >= 1 && value <= 1000 ? std::optional{value - 1} : std::nullopt;
+}
+
+bool names_columns(const TableMap& map) {
+    return !column_number(map.target) || !column_number(map.reading);
+}
+
+std::optional<std::size_t> column_of(const std::vector<std::string>& cells,
+                                     const std::string& name) {
+    if (const auto number = column_number(name))
+        return *number < cells.size() ? number : std::nullopt;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (word_in(cells[i]) == name) return i;
+    return std::nullopt;
+}
+
+bool looks_like_number(const std::string& cell) {
+    const std::string text = word_in(cell);
+    return !text.empty() && text.find_first_not_of("+-.,0123456789eE") == std::string::npos;
+}
+
+/// Whether the table begins at this line.
+bool begins(const std::string& line, const TableMap& map) {
+    const auto cells = header_cells_of(line);
+    const auto target = column_of(cells, map.target), reading = column_of(cells, map.reading);
+    if (!target || !reading) return false;
+    return names_columns(map) ||
+           (looks_like_number(cells[*target]) && looks_like_number(cells[*reading]));
+}
+
+struct FoundTable {
+    CaseTable table;
+    bool has_header = true;
+};
+
+/// Lines above the table become empty ones, so that the places in refusals are those of the file.
+Result<FoundTable> find_table(const std::string& utf8, const TableMap& map) {
+    std::string above;
+    for (std::size_t at = 0; at < utf8.size();) {
+        const auto end = std::min(utf8.find('\n', at), utf8.size());
+        if (begins(utf8.substr(at, end - at), map)) {
+            FoundTable found;
+            AXISCAL_TRY(found.table, read_table_text(above + utf8.substr(at)));
+            found.has_header = names_columns(map);
+            return found;
+        }
+        above += '\n';
+        at = end + 1;
+    }
+    return refuse(Fault::bad_case, "table",
+                  "no line has the columns " + printable(map.target) + " and " +
+                      printable(map.reading) + ", which the map names");
+}
+
+struct Columns {
+    std::size_t target = 0, reading = 0;
+    std::optional<std::size_t> run, direction;
+};
+
+Result<Columns> columns_of(const CaseTable& table, const TableMap& map) {
+    Columns columns;
+    columns.target = column_of(table.header.cells, map.target).value_or(0);
+    columns.reading = column_of(table.header.cells, map.reading).value_or(0);
+    if (!map.run.empty()) columns.run = column_of(table.header.cells, map.run);
+    if (!map.direction.empty()) columns.direction = column_of(table.header.cells, map.direction);
+    const std::string place = "table line " + std::to_string(table.header.line);
+    if (!map.run.empty() && !columns.run)
+        return refuse(Fault::bad_case, place, "has no column " + printable(map.run));
+    if (!map.direction.empty() && !columns.direction)
+        return refuse(Fault::bad_case, place, "has no column " + printable(map.direction));
+    return columns;
+}
+
+Result<bool> says_forward(const std::string& cell, const TableMap& map, const std::string& place) {
+    const std::string word = word_in(cell);
+    if (std::ranges::find(map.forward, word) != map.forward.end()) return true;
+    if (std::ranges::find(map.backward, word) != map.backward.end()) return false;
+    return refuse(Fault::bad_case, place,
+                  "'" + printable(word) + "' is neither forward nor backward in the map");
+}
+
+Result<Captured>
+captured_in(const TableRow& row, const Columns& at, const TableMap& map, char separator) {
+    const std::string place = "table line " + std::to_string(row.line);
+    Captured one;
+    one.line = row.line;
+    AXISCAL_TRY(one.target, number_in_cell(row.cells[at.target], separator, place + ", target"));
+    AXISCAL_TRY(one.reading, number_in_cell(row.cells[at.reading], separator, place + ", reading"));
+    if (at.run) one.group = word_in(row.cells[*at.run]);
+    if (!at.direction) return one;
+    AXISCAL_TRY(one.says_forward, says_forward(row.cells[*at.direction], map, place));
+    if (at.run) one.pass = "run " + one.group + (*one.says_forward ? " forward" : " backward");
+    return one;
+}
+
+} // namespace
+
+Result<LaserReadings> read_table(const std::string& utf8, const ImportMap& map) {
+    const TableMap& of = std::get<TableMap>(map.of);
+    AXISCAL_TRY(auto found, find_table(utf8, of));
+    CaseTable& table = found.table;
+    AXISCAL_TRY(const Columns columns, columns_of(table, of));
+    if (!found.has_header) table.rows.insert(table.rows.begin(), table.header);
+    std::vector<Captured> captured;
+    for (const TableRow& row : table.rows) {
+        if (word_in(row.cells[columns.target]).empty() &&
+            word_in(row.cells[columns.reading]).empty())
+            continue;
+        AXISCAL_TRY(Captured one, captured_in(row, columns, of, table.separator));
+        captured.push_back(std::move(one));
+    }
+    LaserReadings out;
+    out.kind = map.kind;
+    out.unit = map.unit;
+    out.target_unit = map.target_unit;
+    out.positions = map.positions;
+    AXISCAL_CHECK(add_passes(captured, out));
+    return out;
+}
+
+} // namespace axiscal
