@@ -35,7 +35,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "answer": ["FINDING", "TEXT", "--by"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],
-            "export": ["RUN", "--out"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
+            "export": ["RUN", "--out", "--format"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
             "record": ["--instrument", "--out", "--for", "--who"],
             "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild", "--block"],

@@ -11,7 +11,8 @@ import statistics
 import sys
 import unittest
 
-from axiscal_cli import Scratch
+import run_files
+from axiscal_cli import RUN, SOURCE, Scratch
 
 TARGETS = [0.0, 47.5, 101.25, 150.0, 204.75]
 CYCLES = 5
@@ -176,6 +177,85 @@ class Import(Scratch):
         one, two = self.file("a.rtl", rtl(deviations(6))), self.file("b.rtl", rtl(deviations(7)))
         cases = json.loads(self.expect(0, "import", one, two).stdout)
         self.assertEqual([case["source"].split(",")[0] for case in cases], ["a.rtl", "b.rtl"])
+
+
+def targets_by_prefix(lines):
+    """One public reader: keys stand at the begin of their lines, and the list ends with its flags."""
+    begin = next(i for i, line in enumerate(lines) if line.startswith("Targets :"))
+    end = next(i for i, line in enumerate(lines) if line.startswith("Flags:"))
+    count = next(int(line.split(":")[1]) for line in lines if line.startswith("Target-count:"))
+    found = [float(word) for line in lines[begin + 1:end] for word in line.split()]
+    assert len(found) == count and all(line[0].isdigit() for line in lines[begin + 1:end])
+    return found
+
+
+def readings_by_reversal(lines, targets):
+    """A second: no look at the target's number; every second run is reversed. Its line begins with a digit."""
+    begin = lines.index("Run Target Data:")
+    values = []
+    for line in lines[begin + 1:]:
+        if line.startswith("E"):
+            break
+        if line and line[0].isdigit():
+            values.append(float(line.split()[2]))
+    runs = [values[i:i + targets] for i in range(0, len(values), targets)]
+    return [list(reversed(run)) if k % 2 else run for k, run in enumerate(runs)]
+
+
+def readings_by_four_blanks(lines, targets):
+    """A third: value behind four blanks, two blanks between targets, the target's number counts."""
+    runs = {}
+    for line in lines[lines.index("Run Target Data:") + 1:]:
+        if "    " not in line:
+            break
+        place, value = line.split("    ", 1)
+        run, target = place.split()
+        runs.setdefault(int(run), {})[int(target)] = float(value)
+    return [[runs[run][i + 1] for i in range(targets)] for run in sorted(runs)]
+
+
+class Export(Scratch):
+    def exported(self, form):
+        told = self.expect(0, "export", RUN, "--format", form, "--out", self.folder, "--json").stdout
+        document = json.loads(self.expect(0, "analyze", RUN).stdout)
+        return json.loads(told)["readings"], document
+
+    def test_laser10_text_is_read_by_our_reader_and_by_the_rules_of_three_others(self):
+        path, document = self.exported("rtl")
+        case = json.loads(self.expect(0, "import", path).stdout)
+        with open(path, encoding="ascii", newline="") as text:
+            whole = text.read()
+        self.assertEqual(whole.count("\r\n"), whole.count("\n"))
+        lines = whole.split("\r\n")
+        targets = targets_by_prefix(lines)
+        self.assertEqual(targets, case["targets"])
+        runs = readings_by_four_blanks(lines, len(targets))
+        self.assertEqual(runs, readings_by_reversal(lines, len(targets)))
+        self.assertEqual(case["forward"], [[run[i] for run in runs[0::2]] for i in range(len(targets))])
+        self.assertEqual(case["backward"], [[run[i] for run in runs[1::2]] for i in range(len(targets))])
+        self.assertNotRegex(whole.split("DEVIATIONS::")[1].split("ENVIRONMENT::")[0].replace("Run Target Data:", ""), "[eE+]")
+        again = json.loads(self.expect(0, "analyze", "-", text=json.dumps(case)).stdout)
+        for name, figure in document["parameters"].items():
+            self.assertAlmostEqual(again["parameters"][name]["value"], figure["value"] * 1000, delta=1e-5, msg=name)
+
+    def test_a_table_is_taken_by_analyze_as_it_is(self):
+        path, document = self.exported("csv")
+        again = json.loads(self.expect(0, "analyze", path).stdout)
+        for name, figure in document["parameters"].items():
+            self.assertAlmostEqual(again["parameters"][name]["value"], figure["value"] * 1000, delta=1e-9, msg=name)
+
+    def test_what_has_no_place_in_laser10_text_is_refused_with_the_way_out(self):
+        rows = run_files.with_synchronisation(run_files.read(RUN))
+        closing = [1, "again", *(t + 6 * 10**10 for t in rows[-1][1][2:])]
+        rows += [("exclusion", [20, rows[-1][1][2], rows[-1][1][3], "a door was open"]), ("closing", closing)]
+        revised = os.path.join(self.folder, "revised.axiscal")
+        run_files.write(revised, SOURCE, rows)
+        told = self.expect(3, "export", revised, "--format", "rtl", "--out", self.folder).stderr
+        self.assertIn("no place for a gap; use --format csv", told)
+        path = json.loads(self.expect(0, "export", revised, "--format", "csv", "--out", self.folder, "--json").stdout)["readings"]
+        with open(path, encoding="utf-8") as text:
+            self.assertIn("# left out, step 20\n", text.read())
+        self.assertTrue(path.endswith("-r2.csv"), path)
 
 
 class Judge(Scratch):

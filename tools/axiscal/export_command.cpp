@@ -1,7 +1,12 @@
 // `axiscal export`: the report program draws, this one says where the papers lie.
+#include "acquisition/documents/evaluate.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
 #include "acquisition/station/certificate_writer.hpp"
 #include "config/json_text.hpp"
+#include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/exports/readings_text.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 
 #include <nlohmann/json.hpp>
@@ -92,6 +97,44 @@ void print_papers(const Json& papers) {
 }
 
 } // namespace
+
+namespace {
+
+Result<std::string> exported_text(const Certificate& certificate, const std::string& format) {
+    if (format == "csv") return readings_csv(certificate);
+    return laser10_text(certificate);
+}
+
+/// The readings alone, for another program. @returns the file.
+Result<std::string>
+export_readings(const std::string& file, const std::string& folder, const std::string& format) {
+    AXISCAL_TRY(const TestResult result, evaluate_run_file(file));
+    const auto* certificate = std::get_if<Certificate>(&result);
+    if (certificate == nullptr)
+        return fail(Fault::refused,
+                    file + " is no positioning test: it has no readings at targets");
+    AXISCAL_TRY(const std::string text, exported_text(*certificate, format));
+    AXISCAL_TRY(const RunSummary run, summarize_run_file(file));
+    std::error_code ignored; // writing tells
+    std::filesystem::create_directories(folder, ignored);
+    std::string path = folder + "/" + certificate_name(run) + "." + format;
+    AXISCAL_CHECK(replace_synced(path, text));
+    return path;
+}
+
+} // namespace
+
+int command_export_readings(const std::string& file,
+                            const std::string& folder,
+                            const std::string& format,
+                            bool json) {
+    const auto path = export_readings(file, folder, format);
+    if (!path) return complain(path.error());
+    std::cout << (json ? json_text(Json{{"readings", *path}}) + "\n"
+                       : "The readings lie in " + *path + "\n")
+              << std::flush;
+    return exit_ok;
+}
 
 int command_export(const std::string& file, const std::string& out_directory, bool json) {
     const std::string program = sibling_program("axiscal-report");

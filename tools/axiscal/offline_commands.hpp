@@ -64,6 +64,13 @@ int command_program(const ProgramRequest& request, bool json);
 /// the files.
 int command_export(const std::string& file, const std::string& out_directory, bool json);
 
+/// The readings of a positioning run for other programs, `format` "rtl" or "csv", into
+/// `folder`/<run-id>.<format>.
+int command_export_readings(const std::string& file,
+                            const std::string& folder,
+                            const std::string& format,
+                            bool json);
+
 /// Holds a run file against its hash chain, its certificate, the station's keys and a receipt. Exit
 /// 8 when something is not what was written, signed or published; each is named.
 int command_verify(const std::string& run_file, const VerifyAgainst& against, bool json);

@@ -24,7 +24,7 @@ struct Options {
     bool json = false;
     DoorAddress door{"/run/axiscal/axiscald.sock", "", ""};
     std::string config = "/etc/axiscal/station.toml";
-    std::string file, out = ".", reason, by;
+    std::string file, out = ".", format = "certificate", reason, by;
     VerifyAgainst against;
     double reading_arcsec = 0;
     bool until_published = false, drivers = false;

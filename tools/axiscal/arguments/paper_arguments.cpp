@@ -44,8 +44,9 @@ constexpr const char* program_footer = R"(Examples:
   axiscal program --config station.toml --datum-by-cnc      the CNC ties the datum: axiscal arm --datum-by-cnc
 Load and start it; when the axis waits at its datum: axiscal arm --program X-whole.ngc)";
 
-constexpr const char* export_footer = R"(Example:
+constexpr const char* export_footer = R"(Examples:
   axiscal export RUN.axiscal --out papers
+  axiscal export RUN.axiscal --format rtl      the readings alone, for other programs
 Writes what the station wrote after the run, with the same figures.)";
 
 constexpr const char* check_config_footer = R"(Example:
@@ -177,9 +178,20 @@ void add_offline_commands(CLI::App& app, Options& options, Command& chosen) {
         "export", "certificate.json, .csv and .pdf of a closed run file, or of a circular case");
     write->add_option("RUN", options.file, "run file, or the JSON of a circular case")->required();
     write->add_option("--out", options.out, "folder to write into")->capture_default_str();
+    write
+        ->add_option(
+            "--format", options.format,
+            "certificate, or the readings alone for other programs: rtl (Laser10 text) or csv")
+        ->check(CLI::IsMember({"certificate", "rtl", "csv"}))
+        ->capture_default_str();
     teach(*write, export_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
-    write->callback(
-        [&] { chosen = [&] { return command_export(options.file, options.out, options.json); }; });
+    write->callback([&] {
+        chosen = [&] {
+            if (options.format == "certificate")
+                return command_export(options.file, options.out, options.json);
+            return command_export_readings(options.file, options.out, options.format, options.json);
+        };
+    });
 
     auto* verify = app.add_subcommand(
         "verify", "Is a run file what was written? Names each changed, missing or added row");
