@@ -37,7 +37,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out", "--format"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
             "doctor": ["STATION", "--socket"], "selftest": ["--state-directory", "--port", "--count"],
-            "record": ["--instrument", "--out", "--for", "--who"],
+            "record": ["--instrument", "--raw", "--baud", "--out", "--for", "--who"], "tape": ["ACTION", "TAPE", "--name"],
             "replay": ["TAPE", "--link", "--port", "--fast", "--expect", "--rebuild", "--block"],
             "conformance": ["--against", "--cases", "--only", "--timeout", "--brief"]}
 CASE = {"analysis": "positioning", "standard": "ISO 230-2:2014", "axis": {"name": "X", "kind": "linear"},

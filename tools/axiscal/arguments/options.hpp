@@ -47,6 +47,7 @@ struct Options {
     DoctorRequest doctor;
     NewStationRequest new_station;
     RecordRequest record;
+    TapeRequest tape;
     ReplayRequest replay;
     SelfTestRequest selftest{"/var/lib/axiscal", {}, 200};
 };

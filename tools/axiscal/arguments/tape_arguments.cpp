@@ -12,6 +12,8 @@ A good tape holds the start, a while of usual readings, and what goes wrong in p
 pulled, cable out and in again. The header keeps maker, model, serial number, firmware, who, when, and the
 driver's keys of the station file; no other instrument is touched. docs/add-an-instrument.md tells what
 becomes of it.
+An instrument that no driver knows yet: axiscal record --raw serial:/dev/ttyUSB0 --baud 9600 --out strange.tape;
+it only listens, then axiscal tape check strange.tape says what came.
 Every instrument can be recorded: serial, TCP, Modbus, USB, HID, CAN, and those that the kernel reads for us (the
 texts of 1-Wire sensors, the records of a counter).)";
 
@@ -30,6 +32,25 @@ Through the driver, in this process and in virtual time:
   axiscal replay air.tape --expect air.expected  exit 7 with the first line that differs
   axiscal replay air.tape --rebuild air.expected writes it anew; read the difference before you keep it)";
 
+constexpr const char* tape_footer = R"(Examples:
+  axiscal tape check air.tape                    what it holds, and what of it is private
+  axiscal tape keep air.tape --name air-stick    as a test, in a clone of the sources
+See docs/share-a-recording.md.)";
+
+void add_tape_command(CLI::App& app, Options& options, Command& chosen) {
+    auto* tape = app.add_subcommand("tape", "What a tape holds; or keep it as a test");
+    tape->add_option("ACTION", options.tape.action, "check or keep")
+        ->required()
+        ->check(CLI::IsMember({"check", "keep"}));
+    tape->add_option("TAPE", options.tape.tape, "what axiscal record wrote")->required();
+    tape->add_option("--name", options.tape.name, "keep: what the test is called")
+        ->default_val("a-recording");
+    tape->add_option("--folder", options.tape.folder, "keep: where the tests' tapes lie")
+        ->capture_default_str();
+    teach(*tape, tape_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
+    tape->callback([&] { chosen = [&] { return command_tape(options.tape, options.json); }; });
+}
+
 } // namespace
 
 void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
@@ -38,9 +59,22 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
         "record",
         "Write what passes over an instrument's wire to a tape; axiscald must be stopped");
     keep->add_option("--config", record.station_file, "station file")->capture_default_str();
-    keep->add_option("--instrument", record.instrument, "its name in the station file")->required();
+    auto* named =
+        keep->add_option("--instrument", record.instrument, "its name in the station file");
+    auto* raw =
+        keep->add_option("--raw", record.raw,
+                         "serial:/dev/... or tcp:host:port: listen there, without a station "
+                         "file, to an instrument that no driver knows")
+            ->excludes(named);
+    keep->add_option("--baud", record.baud, "speed of that serial line")
+        ->needs(raw)
+        ->check(CLI::Range(50, 4'000'000))
+        ->capture_default_str();
+    keep->add_option("--frame", record.frame, "its data bits, parity and stop bits")
+        ->needs(raw)
+        ->capture_default_str();
     keep->add_option("--out", record.tape, "tape to write; never one that is there")->required();
-    keep->add_option("--for", record.seconds, "seconds; Ctrl-C ends it earlier")
+    keep->add_option("--for,--seconds", record.seconds, "seconds; Ctrl-C ends it earlier")
         ->check(CLI::Range(0.1, 86400.0))
         ->capture_default_str();
     keep->add_option("--who", record.who, "who records");
@@ -49,7 +83,14 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
         ->check(CLI::IsMember({"device", "simulator"}))
         ->capture_default_str();
     teach(*keep, record_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
-    keep->callback([&] { chosen = [&] { return command_record(options.record, options.json); }; });
+    keep->callback([&] {
+        if (options.record.raw.empty() && options.record.instrument.empty())
+            throw CLI::RequiredError("--instrument, or --raw of one that no driver knows,");
+        chosen = [&] {
+            return options.record.raw.empty() ? command_record(options.record, options.json)
+                                              : command_record_raw(options.record, options.json);
+        };
+    });
 
     ReplayRequest& replay = options.replay;
     auto* play = app.add_subcommand(
@@ -69,6 +110,7 @@ void add_tape_commands(CLI::App& app, Options& options, Command& chosen) {
                      "print the [[instrument]] block of this name with which axiscald plays it");
     teach(*play, replay_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_disagrees});
     play->callback([&] { chosen = [&] { return command_replay(options.replay, options.json); }; });
+    add_tape_command(app, options, chosen);
 }
 
 } // namespace axiscal
