@@ -130,6 +130,12 @@ TEST(RtlFile, ThatIsNotWholeOrNotOneAxisIsRefusedWithThePlace) {
          "line 30", "turns within");
 }
 
+TEST(RtlFile, OfTypePosIsTakenWithARemark) {
+    const auto made = case_of(with("File type  : rtl", "File type  : pos"));
+    EXPECT_EQ(made.at("unit"), "um");
+    EXPECT_NE(made.at("note").get<std::string>().find("of type pos"), std::string::npos);
+}
+
 TEST(RtlFile, OfAnotherVersionIsTakenWithARemark) {
     EXPECT_NE(
         case_of(with("V20.02.02", "V21.00.00")).at("note").get<std::string>().find("V21.00.00"),

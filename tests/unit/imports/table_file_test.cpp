@@ -63,6 +63,33 @@ TEST(TableFile, WithoutHeadingsGoesByTheNumbersOfItsColumns) {
     expect_both_ways(case_of(german, map_text("target = \"2\"\nreading = \"3\"\n")));
 }
 
+/// A row a target, a column a run.
+const std::string wide =
+    "Report 7\n\nPos,Hin 1,Hin 2,Her 1,Her 2\n0,0.5,1.5,-0.5,-1.5\n100,2.5,3.5,1.0,1.25\n"
+    "200,4.0,5.0,3.0,3.25\n";
+const std::string wide_map = map_text(
+    "target = \"Pos\"\nforward = [\"Hin 1\", \"Hin 2\"]\nbackward = [\"Her 1\", \"Her 2\"]\n");
+
+TEST(TableFile, WithAColumnForEachRunSaysItsDirectionsByTheMap) {
+    const Json made = case_of(wide, wide_map);
+    expect_both_ways(made);
+    EXPECT_NE(made.at("note").get<std::string>().find("Each run is taken as it says"),
+              std::string::npos);
+    expect_both_ways(case_of(
+        wide, map_text("target = \"1\"\nforward = [\"2\", \"3\"]\nbackward = [\"4\", \"5\"]\n")));
+    std::string gap = wide;
+    gap.replace(gap.find("3.25"), 4, "");
+    const auto refused = imported(gap, wide_map);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(describe(refused.error()).find("run Her 2 has no reading of target 3"),
+              std::string::npos);
+    const auto other =
+        imported(wide, map_text("target = \"Pos\"\nforward = [\"Hin 1\", \"Hin 3\"]\n"));
+    ASSERT_FALSE(other);
+    EXPECT_NE(describe(other.error()).find("[table line 3] has no column Hin 3"),
+              std::string::npos);
+}
+
 TEST(TableFile, ThatDoesNotFitItsMapIsRefusedWithThePlace) {
     const auto refused = [](const std::string& text, const std::string& map) {
         const auto file = imported(text, map);

@@ -20,6 +20,12 @@ TableMap table_map(Settings root) {
     TableMap map;
     Settings columns = root.table("columns");
     map.target = name_in(columns, "target");
+    if (columns.has("forward")) {
+        map.forward_columns = columns.texts("forward");
+        map.backward_columns = columns.texts("backward", std::vector<std::string>{});
+        if (map.forward_columns.empty()) columns.refuse("forward", "names no column");
+        return map;
+    }
     map.reading = name_in(columns, "reading");
     map.run = columns.text("run", "");
     map.direction = columns.text("direction", "");

@@ -13,11 +13,13 @@
 
 namespace axiscal {
 
-/// A row a reading.
+/// A row a reading; or a row a target, with a column for each run.
 struct TableMap {
     std::string target, reading;                ///< headings of columns, or their numbers from 1
     std::string run, direction;                 ///< the same; empty: the order of the targets tells
     std::vector<std::string> forward, backward; ///< what stands in the column `direction`
+    /// Of a row a target: the columns of the runs each way. `reading` is empty then.
+    std::vector<std::string> forward_columns, backward_columns;
 };
 
 /// "NAME DATE TIME VALUE" a line, several names after each other.

@@ -82,6 +82,11 @@ Result<AxisKind> kind_of(const Sections& sections, std::vector<std::string>& rem
     }
     if (type == "rtl") return AxisKind::linear;
     if (type == "rta") return AxisKind::rotary;
+    if (type == "pos") {
+        remarks.emplace_back("The file is of type pos and is read as one of type rtl, in um; no "
+                             "document of the maker says so.");
+        return AxisKind::linear;
+    }
     if (type.empty()) return refuse(Fault::bad_case, "file", "states no \"File type\"");
     return refuse_line(at, "file type \"" + type + "\" is neither rtl (linear) nor rta (angular)");
 }

@@ -29,8 +29,16 @@ std::optional<std::size_t> column_number(const std::string& name) {
     return whole && value >= 1 && value <= 1000 ? std::optional{value - 1} : std::nullopt;
 }
 
+/// Every column that holds readings.
+std::vector<std::string> reading_columns(const TableMap& map) {
+    if (map.forward_columns.empty()) return {map.reading};
+    std::vector<std::string> columns = map.forward_columns;
+    columns.insert(columns.end(), map.backward_columns.begin(), map.backward_columns.end());
+    return columns;
+}
+
 bool names_columns(const TableMap& map) {
-    return !column_number(map.target) || !column_number(map.reading);
+    return !column_number(map.target) || !column_number(reading_columns(map).front());
 }
 
 std::optional<std::size_t> column_of(const std::vector<std::string>& cells,
@@ -50,7 +58,8 @@ bool looks_like_number(const std::string& cell) {
 /// Whether the table begins at this line.
 bool begins(const std::string& line, const TableMap& map) {
     const auto cells = header_cells_of(line);
-    const auto target = column_of(cells, map.target), reading = column_of(cells, map.reading);
+    const auto target = column_of(cells, map.target);
+    const auto reading = column_of(cells, reading_columns(map).front());
     if (!target || !reading) return false;
     return names_columns(map) ||
            (looks_like_number(cells[*target]) && looks_like_number(cells[*reading]));
@@ -77,21 +86,26 @@ Result<FoundTable> find_table(const std::string& utf8, const TableMap& map) {
     }
     return refuse(Fault::bad_case, "table",
                   "no line has the columns " + printable(map.target) + " and " +
-                      printable(map.reading) + ", which the map names");
+                      printable(reading_columns(map).front()) + ", which the map names");
 }
 
 struct Columns {
-    std::size_t target = 0, reading = 0;
+    std::size_t target = 0;
+    std::vector<std::size_t> readings; ///< as reading_columns()
     std::optional<std::size_t> run, direction;
 };
 
 Result<Columns> columns_of(const CaseTable& table, const TableMap& map) {
     Columns columns;
     columns.target = column_of(table.header.cells, map.target).value_or(0);
-    columns.reading = column_of(table.header.cells, map.reading).value_or(0);
+    const std::string place = "table line " + std::to_string(table.header.line);
+    for (const std::string& name : reading_columns(map)) {
+        const auto column = column_of(table.header.cells, name);
+        if (!column) return refuse(Fault::bad_case, place, "has no column " + printable(name));
+        columns.readings.push_back(*column);
+    }
     if (!map.run.empty()) columns.run = column_of(table.header.cells, map.run);
     if (!map.direction.empty()) columns.direction = column_of(table.header.cells, map.direction);
-    const std::string place = "table line " + std::to_string(table.header.line);
     if (!map.run.empty() && !columns.run)
         return refuse(Fault::bad_case, place, "has no column " + printable(map.run));
     if (!map.direction.empty() && !columns.direction)
@@ -107,18 +121,51 @@ Result<bool> says_forward(const std::string& cell, const TableMap& map, const st
                   "'" + printable(word) + "' is neither forward nor backward in the map");
 }
 
-Result<Captured>
-captured_in(const TableRow& row, const Columns& at, const TableMap& map, char separator) {
-    const std::string place = "table line " + std::to_string(row.line);
+std::string place_of(const TableRow& row) {
+    return "table line " + std::to_string(row.line);
+}
+
+Result<Captured> begun(const TableRow& row, const Columns& at, std::size_t k, char separator) {
+    const std::string& cell = row.cells[at.readings[k]];
     Captured one;
     one.line = row.line;
-    AXISCAL_TRY(one.target, number_in_cell(row.cells[at.target], separator, place + ", target"));
-    AXISCAL_TRY(one.reading, number_in_cell(row.cells[at.reading], separator, place + ", reading"));
+    AXISCAL_TRY(one.target,
+                number_in_cell(row.cells[at.target], separator, place_of(row) + ", target"));
+    AXISCAL_TRY(one.reading, number_in_cell(cell, separator, place_of(row) + ", reading"));
+    return one;
+}
+
+/// Of a row a reading.
+Result<Captured>
+captured_in(const TableRow& row, const Columns& at, const TableMap& map, char separator) {
+    AXISCAL_TRY(Captured one, begun(row, at, 0, separator));
     if (at.run) one.group = word_in(row.cells[*at.run]);
     if (!at.direction) return one;
-    AXISCAL_TRY(one.says_forward, says_forward(row.cells[*at.direction], map, place));
+    AXISCAL_TRY(one.says_forward, says_forward(row.cells[*at.direction], map, place_of(row)));
     if (at.run) one.pass = "run " + one.group + (*one.says_forward ? " forward" : " backward");
     return one;
+}
+
+/// Of a row a target; an empty cell is no reading.
+Result<void> add_row(const TableRow& row,
+                     const Columns& at,
+                     const TableMap& map,
+                     char separator,
+                     std::vector<Captured>& captured) {
+    const std::size_t forward = map.forward_columns.size();
+    for (std::size_t k = 0; k < at.readings.size(); ++k) {
+        if (word_in(row.cells[at.readings[k]]).empty()) continue;
+        AXISCAL_TRY(Captured one, begun(row, at, k, separator));
+        one.says_forward = k < forward;
+        one.pass = "run " + printable(k < forward ? map.forward_columns[k]
+                                                  : map.backward_columns[k - forward]);
+        captured.push_back(std::move(one));
+    }
+    return {};
+}
+
+bool is_empty(const TableRow& row, const Columns& at) {
+    return word_in(row.cells[at.target]).empty() && word_in(row.cells[at.readings.front()]).empty();
 }
 
 } // namespace
@@ -131,9 +178,11 @@ Result<LaserReadings> read_table(const std::string& utf8, const ImportMap& map) 
     if (!found.has_header) table.rows.insert(table.rows.begin(), table.header);
     std::vector<Captured> captured;
     for (const TableRow& row : table.rows) {
-        if (word_in(row.cells[columns.target]).empty() &&
-            word_in(row.cells[columns.reading]).empty())
+        if (is_empty(row, columns)) continue;
+        if (!of.forward_columns.empty()) {
+            AXISCAL_CHECK(add_row(row, columns, of, table.separator, captured));
             continue;
+        }
         AXISCAL_TRY(Captured one, captured_in(row, columns, of, table.separator));
         captured.push_back(std::move(one));
     }
