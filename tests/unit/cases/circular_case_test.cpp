@@ -185,6 +185,32 @@ TEST(CircularCase, UncertaintyGivesEachFigureItsOwnTwice) {
               "uncertainty.bar_temperature_width_K");
 }
 
+/// Squareness alone: a radius of 3.75 um sin 2 theta, so that each G is 7.5 um; its U is
+/// 2 * 0.5 um / sqrt(12) = 0.289 um.
+TEST(CircularCase, IsJudgedByItsLimits) {
+    json request =
+        with(made_case(5e-5, 0), "/uncertainty", {{"device_width_um", 0.5}, {"trials", 300}});
+    request["tolerances"] = {{"name", "agreed"},
+                             {"source", "order 17"},
+                             {"unit", "um"},
+                             {"rule", "guard-U"},
+                             {"limits",
+                              {{{"parameter", "G_b"}, {"limit", 7.6}},
+                               {{"parameter", "G_ccw"}, {"limit", 8}},
+                               {{"parameter", "G_cw"}, {"limit", 7}}}}};
+    const json answer = answer_to(request);
+    EXPECT_EQ(answer.at("verdicts").at("G_b").at("verdict"), "not_provable");
+    EXPECT_EQ(answer.at("verdicts").at("G_ccw").at("verdict"), "pass");
+    EXPECT_EQ(answer.at("verdicts").at("G_cw").at("verdict"), "fail");
+    EXPECT_DOUBLE_EQ(value(answer, "/verdicts/G_cw/limit"), 0.007);
+    EXPECT_EQ(answer.at("tolerances").at("rule"), "guard-U");
+    EXPECT_EQ(refused_field(with(request, "/tolerances/limits/0/parameter", "E")),
+              "tolerances.limits[0].parameter");
+    EXPECT_EQ(refused_field(with(request, "/tolerances/limits/0/travel_up_to_mm", 5)),
+              "tolerances.limits[0].travel_up_to_mm");
+    EXPECT_EQ(refused_field(with(request, "/tolerances/unit", "deg")), "tolerances.unit");
+}
+
 TEST(CircularCase, LeastSquaresCentreIsRefusedBelow90Deg) {
     const json shorter = made_case(5e-5, 0, 10, 95, 1);
     EXPECT_EQ(refused_field(with(shorter, "/f_centre", "least_squares")), "f_centre");

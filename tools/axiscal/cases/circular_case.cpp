@@ -2,6 +2,7 @@
 #include "tools/axiscal/cases/cases.hpp"
 #include "tools/axiscal/cases/circular_input.hpp"
 #include "tools/axiscal/cases/plausibility.hpp"
+#include "tools/axiscal/cases/tolerances_member.hpp"
 
 namespace axiscal {
 
@@ -17,6 +18,7 @@ Result<nlohmann::ordered_json> circular_case(const nlohmann::json& object) {
                                             input.uncertainty->stated, input.uncertainty->trials));
     }
     auto document = circular_to_json({test, input.axes, parameters, diagnosis, budget});
+    if (input.tolerances) add_verdicts(*input.tolerances, document);
     add_remarks(circular_remarks(test), document);
     return document;
 }

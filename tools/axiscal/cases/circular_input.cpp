@@ -2,6 +2,7 @@
 
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/circular_report_member.hpp"
+#include "tools/axiscal/cases/tolerances_member.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -19,8 +20,7 @@ Result<std::vector<double>> angles_of(const json& object, const std::string& fie
     if (degrees && object.contains("angle_rad"))
         return refuse(Fault::bad_case, field + ".angle_deg", "stands beside angle_rad");
     if (!degrees) return numbers_at(object, "angle_rad", field + ".angle_rad");
-    AXISCAL_TRY(std::vector<double> angles,
-                numbers_at(object, "angle_deg", field + ".angle_deg"));
+    AXISCAL_TRY(std::vector<double> angles, numbers_at(object, "angle_deg", field + ".angle_deg"));
     for (double& angle : angles)
         angle *= std::numbers::pi / 180;
     return angles;
@@ -83,16 +83,16 @@ Result<CircularTest> test_of(const json& object) {
 Result<std::optional<BarExpansion>> bar_of(const json& object) {
     if (!object.contains("temperature")) return std::optional<BarExpansion>{};
     const json& stated = object.at("temperature");
-    AXISCAL_CHECK(check_object(
-        stated, "temperature",
-        {"bar_degC", "machine_degC", "bar_expansion_per_K", "machine_expansion_per_K", "bar_length_mm"}));
+    AXISCAL_CHECK(check_object(stated, "temperature",
+                               {"bar_degC", "machine_degC", "bar_expansion_per_K",
+                                "machine_expansion_per_K", "bar_length_mm"}));
     BarExpansion bar;
     AXISCAL_TRY(bar.bar_degC, number_at(stated, "bar_degC", "temperature.bar_degC"));
     AXISCAL_TRY(bar.machine_degC, number_at(stated, "machine_degC", "temperature.machine_degC"));
     AXISCAL_TRY(bar.bar_alpha_per_K,
                 number_at(stated, "bar_expansion_per_K", "temperature.bar_expansion_per_K"));
-    AXISCAL_TRY(bar.machine_alpha_per_K,
-                number_at(stated, "machine_expansion_per_K", "temperature.machine_expansion_per_K"));
+    AXISCAL_TRY(bar.machine_alpha_per_K, number_at(stated, "machine_expansion_per_K",
+                                                   "temperature.machine_expansion_per_K"));
     AXISCAL_TRY(bar.bar_length_mm, number_at(stated, "bar_length_mm", "temperature.bar_length_mm"));
     return std::optional{bar};
 }
@@ -166,7 +166,7 @@ Result<CircularInput> read_circular_case(const json& object) {
     AXISCAL_CHECK(
         check_object(object, "",
                      {"analysis", "nominal_radius_mm", "feed_mm_per_min", "traces", "f_centre",
-                      "temperature", "axes", "uncertainty", "source", "report"}));
+                      "temperature", "axes", "uncertainty", "tolerances", "source", "report"}));
     CircularInput input;
     AXISCAL_TRY(input.test, test_of(object));
     AXISCAL_TRY(input.f_centre, centre_of(object));
@@ -174,6 +174,9 @@ Result<CircularInput> read_circular_case(const json& object) {
     AXISCAL_TRY(input.axes, axes_of(object));
     AXISCAL_TRY(input.uncertainty, statement_of(object));
     AXISCAL_TRY(input.report, report_of(object));
+    if (object.contains("tolerances")) {
+        AXISCAL_TRY(input.tolerances, circular_tolerances_of(object.at("tolerances")));
+    }
     return input;
 }
 

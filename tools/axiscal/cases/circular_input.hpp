@@ -27,6 +27,7 @@ struct CircularInput {
     std::optional<BarExpansion> bar;
     AxisNames axes{"X", "Y"};
     std::optional<StatedCircularUncertainty> uncertainty;
+    std::optional<ToleranceRecord> tolerances; ///< in um
     CircularReportWords report;
 };
 

@@ -165,6 +165,7 @@ CircularMeasurement measurement_of(CircularInput input) {
         measured.trials = input.uncertainty->trials;
         measured.conditions.repeats = measured.stated->runs;
     }
+    measured.run.tolerances = std::move(input.tolerances);
     measured.run.run_id = input.report.id;
     measured.run.statements = std::move(input.report.statements);
     measured.run.instruments = std::move(input.report.instruments);

@@ -15,22 +15,28 @@ double converted(double value, const std::string& from, const std::string& to) {
 }
 
 struct LimitReader {
-    std::string band_key, from, to; ///< units
+    TestKind kind;
+    std::string band_key; ///< empty: the figures have no bands
+    std::string from, to; ///< units
 };
 
 Result<ToleranceLimit>
 limit_of(const json& object, const std::string& field, const LimitReader& reader) {
     const std::string& band_key = reader.band_key;
-    AXISCAL_CHECK(check_object(object, field, {"parameter", band_key, "limit"}));
+    Words keys{"parameter", "limit"};
+    if (!band_key.empty()) keys.push_back(band_key);
+    AXISCAL_CHECK(check_object(object, field, keys));
     ToleranceLimit limit;
     AXISCAL_TRY(limit.parameter, text_of(object, "parameter", field + ".parameter"));
-    const auto known = judged_parameters(TestKind::positioning);
+    const auto known = judged_parameters(reader.kind);
     if (std::ranges::find(known, limit.parameter) == known.end())
         return refuse(Fault::bad_case, field + ".parameter",
-                      "is no parameter of any standard; see docs/analysis/positioning.md");
+                      reader.kind == TestKind::circular
+                          ? "is no figure of a circular test; see docs/analysis/circular.md"
+                          : "is no parameter of any standard; see docs/analysis/positioning.md");
     AXISCAL_TRY(const double stated, positive_at(object, "limit", field + ".limit"));
     limit.limit = converted(stated, reader.from, reader.to);
-    if (object.contains(band_key)) {
+    if (!band_key.empty() && object.contains(band_key)) {
         AXISCAL_TRY(limit.travel_up_to, positive_at(object, band_key, field + "." + band_key));
     }
     return limit;
@@ -89,16 +95,14 @@ std::vector<FigureToJudge> figures_of(const ordered_json& parameters) {
 
 } // namespace
 
-Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) {
+namespace {
+
+Result<ToleranceRecord> record_of(const json& member, const Words& units, LimitReader reader) {
     AXISCAL_CHECK(check_object(member, "tolerances", {"unit", "limits", "to_be_checked", "rule"}));
-    ToleranceSet set;
-    set.kind = axis.kind;
-    const bool linear = axis.kind == AxisKind::linear;
+    ToleranceRecord set;
     AXISCAL_TRY(set.name, text_of(member, "name", "tolerances.name"));
     AXISCAL_TRY(set.source, text_of(member, "source", "tolerances.source"));
-    AXISCAL_TRY(const std::string unit,
-                one_of(member, "unit", "tolerances.unit",
-                       linear ? Words{"mm", "um", "m"} : Words{"deg", "arcsec"}));
+    AXISCAL_TRY(reader.from, one_of(member, "unit", "tolerances.unit", units));
     if (member.contains("to_be_checked")) {
         if (!member.at("to_be_checked").is_boolean())
             return refuse(Fault::bad_case, "tolerances.to_be_checked", "must be true or false");
@@ -107,10 +111,24 @@ Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) 
     if (member.contains("rule")) {
         AXISCAL_TRY(set.rule, rule_of(member));
     }
-    set.unit = axis.unit;
-    AXISCAL_TRY(set.limits, limits_of(member, {linear ? "travel_up_to_mm" : "travel_up_to_deg",
-                                               unit, axis.unit}));
+    set.unit = reader.to;
+    AXISCAL_TRY(set.limits, limits_of(member, reader));
     return set;
+}
+
+} // namespace
+
+Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) {
+    const bool linear = axis.kind == AxisKind::linear;
+    const char* const band_key = linear ? "travel_up_to_mm" : "travel_up_to_deg";
+    const Words units = linear ? Words{"mm", "um", "m"} : Words{"deg", "arcsec"};
+    AXISCAL_TRY(ToleranceRecord record,
+                record_of(member, units, {TestKind::positioning, band_key, "", axis.unit}));
+    return ToleranceSet{std::move(record), axis.kind};
+}
+
+Result<ToleranceRecord> circular_tolerances_of(const json& member) {
+    return record_of(member, {"mm", "um", "m"}, {TestKind::circular, "", "", "um"});
 }
 
 void add_verdicts(const ToleranceSet& set, double travel, ordered_json& document) {
@@ -123,6 +141,13 @@ void add_verdicts(const ToleranceSet& set, double travel, ordered_json& document
     for (const JudgedFigure& judged :
          judge_figures(set.limits, figures_of(document.at("parameters")), travel, set.rule))
         verdicts[judged.parameter] = verdict_json(judged, band_key);
+}
+
+void add_verdicts(ToleranceRecord circular, ordered_json& document) {
+    for (ToleranceLimit& limit : circular.limits)
+        limit.limit /= 1000;
+    circular.unit = "mm";
+    add_verdicts(ToleranceSet{std::move(circular), AxisKind::linear}, 0, document);
 }
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #pragma once
-// `tolerances` of a positioning case: the user's limits, and the verdicts on them. Pure.
+// `tolerances` of a positioning or circular case: the user's limits, and the verdicts on them.
+// Pure.
 
 #include "analysis/conformity/tolerances.hpp"
 #include "tools/axiscal/cases/positioning_input.hpp"
@@ -19,8 +20,13 @@ struct ToleranceSet : ToleranceRecord {
 /// @errors Fault::bad_case by field; a parameter that no standard knows, a band that stands twice.
 Result<ToleranceSet> tolerance_set_of(const nlohmann::json& member, const CaseAxis& axis);
 
+/// The same of a circular case, in um, without bands. @errors as tolerance_set_of().
+Result<ToleranceRecord> circular_tolerances_of(const nlohmann::json& member);
+
 /// Adds `tolerances` (name, source, rule, mark) and `verdicts`; values and expanded uncertainties
 /// are taken from `parameters` of the finished document. `travel` in mm or degrees.
 void add_verdicts(const ToleranceSet& set, double travel, nlohmann::ordered_json& document);
+/// The same of a circular case, whose figures are in mm.
+void add_verdicts(ToleranceRecord circular, nlohmann::ordered_json& document);
 
 } // namespace axiscal
