@@ -256,6 +256,11 @@ class Export(Scratch):
         with open(path, encoding="utf-8") as text:
             self.assertIn("# left out, step 20\n", text.read())
         self.assertTrue(path.endswith("-r2.csv"), path)
+        again = json.loads(self.expect(0, "analyze", path).stdout)
+        self.assertEqual(again["completeness"]["used"], 49)
+        document = json.loads(self.expect(0, "analyze", revised).stdout)
+        for name, figure in document["parameters"].items():
+            self.assertAlmostEqual(again["parameters"][name]["value"], figure["value"] * 1000, delta=1e-9, msg=name)
 
 
 class Judge(Scratch):

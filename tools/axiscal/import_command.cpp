@@ -60,11 +60,15 @@ std::string text_about(const ImportedFile& file) {
            " backward";
 }
 
-/// "E 6.56 um, A 7.78 um": those that a customer asks for first; the reason where there are none.
-std::string first_figures(const ImportedJson& document) {
+/// "A 7.78, E 6.56 um": those that a customer asks for first.
+/// @errors Fault::bad_case where the case is none: what axiscal analyze would say.
+Result<std::string> first_figures(const ImportedJson& document) {
     const CaseAnswer answer = analyze_cases(json_text(document));
     const ImportedJson result = ImportedJson::parse(answer.output, nullptr, false);
-    if (!result.is_object() || !result.contains("parameters")) return answer.error_line;
+    if (answer.exit_code != exit_ok || !result.is_object())
+        return fail(Fault::bad_case, answer.error_line);
+    if (!result.contains("parameters") || document.value("analysis", "") != "positioning")
+        return std::string{};
     const std::string unit = result.at("unit");
     const bool metric = unit == "mm" || unit == "um" || unit == "m";
     const double factor = unit == "mm" ? 1e3 : unit == "m" ? 1e6 : unit == "deg" ? 3600 : 1;
@@ -79,12 +83,13 @@ std::string first_figures(const ImportedJson& document) {
     return text + (metric ? " um" : " arcsec");
 }
 
-void tell_import(const std::string& path, const ImportedFile& file) {
+Result<void> tell_import(const std::string& path, const ImportedFile& file) {
+    AXISCAL_TRY(const std::string figures, first_figures(file.document));
     std::cout << path << ": " << text_about(file) << "\n";
     for (const std::string& remark : file.remarks)
         std::cout << "  " << remark << "\n";
-    if (file.document.value("analysis", "") == "positioning")
-        std::cout << "  " << first_figures(file.document) << "\n";
+    if (!figures.empty()) std::cout << "  " << figures << "\n";
+    return {};
 }
 
 int write_cases(const ImportedJson& cases, const std::string& out) {
@@ -106,11 +111,12 @@ int command_import(const ImportOrder& order) {
         const auto file = read_import(path, *map);
         if (!file) return complain(file.error());
         cases.push_back(file->document);
-        if (!order.out.empty())
-            tell_import(path, *file);
-        else
-            for (const std::string& remark : file->remarks)
-                std::cerr << path << ": " << remark << "\n";
+        if (!order.out.empty()) {
+            if (const auto told = tell_import(path, *file); !told) return complain(told.error());
+            continue;
+        }
+        for (const std::string& remark : file->remarks)
+            std::cerr << path << ": " << remark << "\n";
     }
     const ImportedJson all = cases.size() == 1 ? cases.front() : cases;
     if (!order.out.empty()) return write_cases(all, order.out);

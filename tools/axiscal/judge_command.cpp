@@ -1,5 +1,6 @@
 // `axiscal judge`: a published report held against its own readings.
 #include "config/json_text.hpp"
+#include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/imports/judged_report.hpp"
@@ -8,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -15,9 +18,18 @@ namespace {
 Result<nlohmann::json> json_in(const std::string& path) {
     std::ifstream file{path, std::ios::binary};
     if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    auto parsed = nlohmann::json::parse(file, nullptr, false);
-    if (parsed.is_discarded()) return fail(Fault::bad_case, path + " is no JSON");
-    return parsed;
+    const std::string bytes{std::istreambuf_iterator<char>{file}, {}};
+    auto read = read_case_text(bytes);
+    if (!read) {
+        Error error = read.error();
+        error.field = path + ", " + error.field;
+        return tl::unexpected<Error>(std::move(error));
+    }
+    if (!read->repeated_keys.empty())
+        return refuse(Fault::bad_case, path,
+                      printable(read->repeated_keys.begin()->second) +
+                          " stands twice in one object");
+    return std::move(read->document);
 }
 
 } // namespace

@@ -23,7 +23,9 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
+#include <unistd.h>
 
 namespace axiscal {
 namespace raw_recording {
@@ -46,12 +48,19 @@ public:
     }
     [[nodiscard]] std::string transfers() const { return tape_.str(); }
     [[nodiscard]] std::string_view kind() const { return opener_.wire(); }
+    /// Why no wire of these settings can ever be opened.
+    [[nodiscard]] const std::optional<Error>& no_link() const { return no_link_; }
 
 private:
     Task<void> keep_listening() {
         for (;;) {
             auto link = co_await opener_.open(settings_, scheduler_.now() + 2s);
             if (link) co_await read_to_the_end(**link);
+            if (!link && link.error().fault == Fault::bad_configuration) {
+                no_link_ = link.error();
+                loop_.stop();
+                co_return;
+            }
             if (!link) tell(describe(link.error()));
             co_await scheduler_.sleep_for(1s);
         }
@@ -79,6 +88,7 @@ private:
     LinkSettings settings_;
     std::ostringstream tape_;
     std::string told_;
+    std::optional<Error> no_link_;
     boost::asio::io_context loop_{1};
     AsioScheduler scheduler_{loop_};
     RealLinkOpener links_{scheduler_};
@@ -142,6 +152,11 @@ int command_record_raw(const RecordRequest& request, bool json) {
     if (std::filesystem::exists(request.tape))
         return raw_refused(request.tape + " is there already; a tape is never overwritten",
                            exit_usage);
+    const std::filesystem::path folder = std::filesystem::absolute(request.tape).parent_path();
+    if (::access(folder.c_str(), W_OK) != 0)
+        return raw_refused("no file can be written into " + folder.string() +
+                               ": it is not there, or yours to write",
+                           exit_failed);
     LinkSettings defaults;
     defaults.baud = request.baud;
     if (!take_frame(request.frame, defaults))
@@ -153,6 +168,7 @@ int command_record_raw(const RecordRequest& request, bool json) {
     ListenedWire wire{*settings};
     wire.listen(
         std::chrono::duration_cast<Duration>(std::chrono::duration<double>{request.seconds}));
+    if (wire.no_link()) return raw_refused("--raw: " + describe(*wire.no_link()), exit_usage);
     return keep(request, wire, json);
 }
 

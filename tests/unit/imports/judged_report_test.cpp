@@ -85,16 +85,17 @@ TEST(JudgedReport, ThatIsNoneIsRefusedByName) {
         return answer ? std::string{} : answer.error().field;
     };
     EXPECT_EQ(refused(Json::object()), "report.parameters");
+    EXPECT_EQ(refused({{"parameters", Json::object()}}), "report.parameters");
     EXPECT_EQ(refused({{"parameters", {{"E", "6"}}}}), "report.parameters.E");
     EXPECT_EQ(refused({{"parameters", {{"Q", 6}}}}), "report.parameters.Q");
-    EXPECT_EQ(refused({{"parameters", Json::object()}, {"unit", "inch"}}), "report.unit");
+    EXPECT_EQ(refused({{"parameters", {{"E", 6}}}, {"unit", "inch"}}), "report.unit");
     EXPECT_EQ(refused({{"parameters", Json::object()}, {"figures", 1}}), "report.figures");
     EXPECT_EQ(refused({{"parameters", Json::object()},
                        {"forward", Json::parse("[[1,2]]")},
                        {"backward", Json::parse("[[1,2]]")}}),
               "report.forward");
     EXPECT_EQ(
-        judge_report({{"analysis", "positioning"}}, {{"parameters", Json::object()}}).error().field,
+        judge_report({{"analysis", "positioning"}}, {{"parameters", {{"E", 6}}}}).error().field,
         "case");
 }
 

@@ -48,6 +48,10 @@ TEST(PosFile, ThatDoesNotTellTheDirectionsOrIsNotWholeIsRefused) {
     EXPECT_NE(refused(both).find("both directions together alone"), std::string::npos);
     EXPECT_NE(refused(both.substr(0, both.find("80.0")) + forward).find("other positions"),
               std::string::npos);
+    EXPECT_NE(refused(backward).find("no forward averages"), std::string::npos);
+    EXPECT_NE(refused(forward + forward).find("two axes in one file"), std::string::npos);
+    EXPECT_NE(refused("Position \tForward Directional Avg Error\r\n").find("holds no reading"),
+              std::string::npos);
     EXPECT_NE(refused(forward + "80.0 0.001\r\n").find("line 5"), std::string::npos);
     EXPECT_NE(refused(forward + "90.0\r\n").find("line 5"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace axiscal::imports_test {
@@ -82,8 +83,12 @@ TEST(RtlFile, ThatItsWriterHasSortedGoesByTheNumbersOfTheRunsAndSaysSo) {
 }
 
 TEST(RtlFile, HasDecimalCommasOtherBlanksAndNoEnvironmentAsWell) {
-    const auto made = case_of(with("1   2      1.250\r\n", "1\t2\t+1,250\n"));
-    EXPECT_EQ(made.at("forward").at(1).at(0), 1.25);
+    std::string commas = with("1   2      1.250\r\n", "1\t2\t+1.250\n");
+    std::ranges::replace(commas, '.', ',');
+    EXPECT_EQ(case_of(commas).at("forward").at(1).at(0), 1.25);
+    const Error mixed = refusal_of(with("50.000000", "50,000000"));
+    EXPECT_EQ(mixed.field, "line 10");
+    EXPECT_NE(mixed.detail.find("comma where other numbers have a point"), std::string::npos);
     std::string bare = rtl_file();
     bare.resize(bare.find("ENVIRONMENT::"));
     EXPECT_NE(case_of(bare).at("note").get<std::string>().find("EOF::"), std::string::npos);
@@ -122,6 +127,7 @@ TEST(RtlFile, ThatIsNotWholeOrNotOneAxisIsRefusedWithThePlace) {
     says(refusal_of(with("2   1      -0.300", "3   1      -0.300")), "line 32", "from 1 to 2");
     says(refusal_of(with("2   1      -0.300", "2   2      -0.300")), "line 32", "twice");
     says(refusal_of(with("2   1      -0.300", "2   1")), "line 32", "2 words");
+    says(refusal_of(with("Target-count: 3\r\n", "")), "file", "states no \"Target-count\"");
     says(refusal_of(with("Target-count: 3", "Target-count: 4")), "file", "3 targets and states 4");
     says(refusal_of(with("rtl", "b5r")), "line 2", "neither rtl");
     says(refusal_of(with("EOF::", "DEVIATIONS::")), "line 38", "two axes in one file");

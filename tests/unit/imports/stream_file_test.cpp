@@ -161,6 +161,11 @@ TEST(StreamFile, ThatDoesNotFitThePlanIsRefusedWithThePlace) {
         "line 6", "no value at this capture");
 }
 
+TEST(StreamFile, ThatBeginsWithTheNumberOfAnEarlierJobPassesItOver) {
+    const std::string left = "IOC:Test 2026-04-06 11:59:00.000000 223\n" + stream();
+    EXPECT_EQ(case_of(left, map_of(map_text)), case_of(stream(), map_of(map_text)));
+}
+
 TEST(StreamFile, WithAlarmsIsTakenWithARemark) {
     const Json made =
         case_of(replaced(stream(), " 0.003\n", " 0.003 HIHI MAJOR\n"), map_of(map_text));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 namespace axiscal::table_file_test {
@@ -73,10 +74,23 @@ const std::string wide_map = map_text(
 TEST(TableFile, WithAColumnForEachRunSaysItsDirectionsByTheMap) {
     const Json made = case_of(wide, wide_map);
     expect_both_ways(made);
-    EXPECT_NE(made.at("note").get<std::string>().find("Each run is taken as it says"),
-              std::string::npos);
+    EXPECT_EQ(made.at("note"), "imported, readings by others");
     expect_both_ways(case_of(
         wide, map_text("target = \"1\"\nforward = [\"2\", \"3\"]\nbackward = [\"4\", \"5\"]\n")));
+    std::string headed = wide;
+    headed.replace(headed.find("Hin 1,Hin 2,Her 1,Her 2"), 23, "1,2,3,4");
+    expect_both_ways(case_of(
+        headed,
+        map_text("target = \"Pos\"\nforward = [\"1\", \"2\"]\nbackward = [\"3\", \"4\"]\n")));
+    for (const auto& [from, to, words] :
+         {std::array{"200,4.0", ",4.0", "[table line 6, target]"},
+          std::array{"4.0,5.0,3.0,3.25", ",,,", "has a target and no reading"},
+          std::array{"2.5", "2,5", "another"}}) {
+        std::string broken = wide;
+        broken.replace(broken.find(from), std::string{from}.size(), to);
+        EXPECT_FALSE(imported(broken, wide_map)) << words;
+    }
+    EXPECT_FALSE(imported(wide, map_text("target = \"Pos\"\nforward = [\"Hin 1\", \"Hin 1\"]\n")));
     std::string gap = wide;
     gap.replace(gap.find("3.25"), 4, "");
     const auto refused = imported(gap, wide_map);
@@ -120,6 +134,13 @@ TEST(ImportFile, ThatNobodyKnowsSaysWhatItsFirstLineHolds) {
     ASSERT_FALSE(file);
     EXPECT_NE(describe(file.error()).find("--map"), std::string::npos);
     EXPECT_NE(describe(file.error()).find("Soll, Fehler"), std::string::npos);
+}
+
+TEST(ImportFile, ThatIsEmptyOrJsonIsToldSo) {
+    EXPECT_NE(describe(import_file("\n \n", std::nullopt).error()).find("is empty"),
+              std::string::npos);
+    EXPECT_NE(describe(import_file("{}", std::nullopt).error()).find("axiscal analyze"),
+              std::string::npos);
 }
 
 TEST(ImportFile, OfOurOwnFormNeedsNoMap) {

@@ -38,7 +38,7 @@ struct Options {
     FindingAnswer finding_answer;
     ProgramRequest program;
     NewCaseOrder new_case;
-    ImportOrder import;
+    ImportOrder foreign;
     JudgeOrder judge;
     ResultRequest result;
     BudgetRequest budget;

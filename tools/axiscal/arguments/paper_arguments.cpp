@@ -61,26 +61,23 @@ the certificate must say the same. A run that is still open can be verified as w
 for what chain, signature and receipt can show.)";
 
 void add_import(CLI::App& app, Options& options, Command& chosen) {
-    auto* import = app.add_subcommand(
+    auto* take = app.add_subcommand(
         "import", "Files of other lasers and programs as cases for axiscal analyze");
-    import->add_option("FILE", options.import.files, "what the other program wrote")->required();
-    import->add_option("--map", options.import.map,
-                       "TOML file: which column, signal and unit is which");
-    import->add_option("--out", options.import.out,
-                       "file to be written; must not be there; default: standard output");
-    teach(*import, import_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
-    import->callback([&] { chosen = [&] { return command_import(options.import);
-};
-} // namespace
-);
+    take->add_option("FILE", options.foreign.files, "what the other program wrote")->required();
+    take->add_option("--map", options.foreign.map,
+                     "TOML file: which column, signal and unit is which");
+    take->add_option("--out", options.foreign.out,
+                     "file to be written; must not be there; default: standard output");
+    teach(*take, import_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
+    take->callback([&] { chosen = [&] { return command_import(options.foreign); }; });
 
-auto* judge = app.add_subcommand(
-    "judge", "Does a report that somebody published follow from its own readings?");
-judge->add_option("CASE", options.judge.document, "the readings, as a case")->required();
-judge->add_option("REPORT", options.judge.report, "its figures, as JSON")->required();
-teach(*judge, judge_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_changed});
-judge->callback([&] { chosen = [&] { return command_judge(options.judge); }; });
-} // namespace axiscal
+    auto* judge = app.add_subcommand(
+        "judge", "Does a report that somebody published follow from its own readings?");
+    judge->add_option("CASE", options.judge.document, "the readings, as a case")->required();
+    judge->add_option("REPORT", options.judge.report, "its figures, as JSON")->required();
+    teach(*judge, judge_footer, {exit_ok, exit_failed, exit_usage, exit_refused, exit_changed});
+    judge->callback([&] { chosen = [&] { return command_judge(options.judge); }; });
+}
 
 void add_result(CLI::App& app, Options& options, Command& chosen) {
     auto* result = app.add_subcommand("result", "E, A, R, B, M of a run, each with its U");

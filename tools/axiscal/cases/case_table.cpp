@@ -143,14 +143,17 @@ Result<void> read_long_rows(const CaseTable& table, const LongForm& form, json& 
     std::map<double, std::pair<json, json>> readings;
     for (const TableRow& row : table.rows) {
         AXISCAL_TRY(const double target, reading_at(table, row, form.target));
-        AXISCAL_TRY(const double reading, reading_at(table, row, form.reading));
+        json reading; // an empty cell: it is missing
+        if (!row.cells[form.reading].empty()) {
+            AXISCAL_TRY(reading, reading_at(table, row, form.reading));
+        }
         const auto approach = approach_of(row.cells[form.direction]);
         if (!approach)
             return refuse(Fault::bad_case, place_of(table, row, form.direction),
                           "must be + or -, forward or backward, up or down");
         if (!readings.contains(target)) targets.push_back(target);
         auto& [forward, backward] = readings[target];
-        (approach->forward ? forward : backward).push_back(reading);
+        (approach->forward ? forward : backward).push_back(std::move(reading));
     }
     const bool both =
         std::ranges::any_of(readings, [](const auto& one) { return !one.second.second.is_null(); });

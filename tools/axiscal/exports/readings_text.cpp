@@ -170,17 +170,21 @@ std::string readings_csv(const Certificate& certificate) {
     append_csv_line(csv, {"run", "direction", rotary ? "target [deg]" : "target [mm]",
                           rotary ? "deviation [arcsec]" : "deviation [um]", "time"});
     const ClockTie tie = tie_of_points(run.opened, run.events);
-    for (std::size_t k = 0; k < run.points.size(); ++k) {
-        const PointRecord& point = run.points[k];
-        const auto left_out = std::ranges::find(certificate.set_aside, point.step, &SetAside::step);
-        if (left_out != certificate.set_aside.end()) continue;
-        const bool forward = point.planned.direction == Direction::positive;
-        const auto i = static_cast<std::size_t>(point.planned.target_index);
+    for (const PlannedPoint& planned : run.plan.points) {
+        const auto point = std::ranges::find(
+            run.points, planned.step, [](const PointRecord& one) { return one.planned.step; });
+        const bool there = point != run.points.end() &&
+                           std::ranges::find(certificate.set_aside, point->step, &SetAside::step) ==
+                               certificate.set_aside.end();
+        const auto k = static_cast<std::size_t>(point - run.points.begin());
+        const double factor = rotary ? 3600 : 1000;
         append_csv_line(csv,
-                        {std::to_string(point.planned.approach + 1), forward ? "+" : "-",
-                         csv_number(certificate.planned_targets.at(i)),
-                         csv_number(certificate.compensation.after.at(k) * (rotary ? 3600 : 1000)),
-                         iso8601_utc(tie.utc_ns_at(point.window_end))});
+                        {std::to_string(planned.approach + 1),
+                         planned.direction == Direction::positive ? "+" : "-",
+                         csv_number(certificate.planned_targets.at(
+                             static_cast<std::size_t>(planned.target_index))),
+                         there ? csv_number(certificate.compensation.after.at(k) * factor) : "",
+                         there ? iso8601_utc(tie.utc_ns_at(point->window_end)) : ""});
     }
     return csv;
 }

@@ -24,6 +24,15 @@ as_case(std::string form, Result<LaserReadings> read, const std::optional<Import
     return ImportedFile{std::move(form), std::move(document), std::move(readings.remarks)};
 }
 
+/// What says itself which column is which.
+Result<ImportedFile>
+known_form(std::string form, Result<LaserReadings> read, const std::optional<ImportMap>& map) {
+    if (read && map)
+        read->remarks.emplace_back(
+            "The map counts for the name of the axis alone: the file says the rest.");
+    return as_case(std::move(form), std::move(read), map);
+}
+
 /// A table as `axiscal case new` writes it.
 Result<ImportedFile> own_table(const std::string& text, TableKind kind) {
     if (kind == TableKind::workpiece)
@@ -50,8 +59,12 @@ tl::unexpected<Error> refuse_unknown(const std::string& text) {
 Result<ImportedFile> import_file(std::string_view bytes, const std::optional<ImportMap>& map) {
     AXISCAL_TRY(const ForeignText read, foreign_text(bytes));
     const std::string& text = read.utf8;
-    if (is_rtl(text)) return as_case("Laser10 text (.rtl, .rta)", read_rtl(text), map);
-    if (is_pos(text)) return as_case("API .pos", read_pos(text), map);
+    const auto begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos) return refuse(Fault::bad_case, "file", "is empty");
+    if (text[begin] == '{' || text[begin] == '[')
+        return refuse(Fault::bad_case, "file", "is JSON: axiscal analyze takes a case as it is");
+    if (is_rtl(text)) return known_form("Laser10 text (.rtl, .rta)", read_rtl(text), map);
+    if (is_pos(text)) return known_form("API .pos", read_pos(text), map);
     const bool stream = map && std::holds_alternative<StreamMap>(map->of);
     if (is_stream(text) && !stream)
         return refuse(Fault::bad_case, "file",

@@ -176,22 +176,27 @@ Json finding(const std::string& parameter,
             {"sentence", sentence_of(code)}};
 }
 
+/// A reading that is missing (null) is the same as another that is.
+bool are_same(const Json& a, const Json& b, double tolerance) {
+    if (!a.is_number() || !b.is_number()) return a.is_null() && b.is_null();
+    return std::fabs(a.get<double>() - b.get<double>()) <= tolerance;
+}
+
 /// Whether two sets of rows are the same within the rounding of both.
 bool same(const Json& a, const Json& b, double tolerance) {
     if (a.size() != b.size()) return false;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (a[i].size() != b[i].size()) return false;
         for (std::size_t j = 0; j < a[i].size(); ++j)
-            if (!b[i][j].is_number() ||
-                std::fabs(a[i][j].get<double>() - b[i][j].get<double>()) > tolerance)
-                return false;
+            if (!are_same(a[i][j], b[i][j], tolerance)) return false;
     }
     return true;
 }
 
 bool is_row(const Json& row, std::size_t size) {
     return row.is_array() && !row.empty() && row.size() == size &&
-           std::ranges::all_of(row, [](const Json& cell) { return cell.is_number(); });
+           std::ranges::all_of(row,
+                               [](const Json& cell) { return cell.is_number() || cell.is_null(); });
 }
 
 /// The report's rows in the unit of the case.
@@ -202,9 +207,12 @@ Result<Json> rows_in(const Json& report, const char* key, std::size_t targets, d
                                       " rows, one a target of the case");
     const std::size_t size = rows.front().is_array() ? rows.front().size() : 0;
     for (Json& row : rows) {
-        if (!is_row(row, size)) return refuse_report(key, "must be rows of as many numbers each");
+        if (!is_row(row, size))
+            return refuse_report(
+                key,
+                "must be rows of as many numbers each; null stands for a reading that is missing");
         for (Json& cell : row)
-            if (factor != 1) cell = cell.get<double>() * factor;
+            if (factor != 1 && cell.is_number()) cell = cell.get<double>() * factor;
     }
     return rows;
 }
@@ -260,6 +268,8 @@ Result<void> check_report(const Json& report) {
             return refuse_report(key, "is unknown; known are forward, backward, parameters, unit");
     if (!report.contains("parameters") || !report.at("parameters").is_object())
         return refuse_report("parameters", "is missing: the published figures by name");
+    if (report.at("parameters").empty() && !report.contains("forward"))
+        return refuse_report("parameters", "is empty, and no readings stand beside it");
     for (const auto& [key, value] : report.at("parameters").items())
         if (!value.is_number()) return refuse_report("parameters." + key, "must be a number");
     return {};

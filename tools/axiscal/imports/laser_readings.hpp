@@ -26,6 +26,7 @@ struct LaserReadings {
     bool positions = false;                      ///< where the axis was; else deviations
     std::vector<double> targets;
     std::vector<LaserPass> passes;
+    bool order_tells = true;           ///< passes are listed in the order in which they were driven
     bool says_both_directions = false; ///< the file's own flag, believed where no order tells
     /// What the file says of machine, place and air: "Machine" and so on, in its order.
     std::vector<std::pair<std::string, std::string>> statements;

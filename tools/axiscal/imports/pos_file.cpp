@@ -18,7 +18,9 @@ std::optional<Averages> title_of(std::string_view line) {
         words[words.size() - 2] != "Avg")
         return std::nullopt;
     if (words[1] == "Bidirectional") return Averages::bidirectional;
-    return words[1] == "Forward" ? Averages::forward : Averages::backward;
+    if (words[1] == "Forward") return Averages::forward;
+    if (words[1] == "Backward" || words[1] == "Reverse") return Averages::backward;
+    return std::nullopt;
 }
 
 struct Table {
@@ -48,6 +50,9 @@ Result<Tables> tables_of(std::string_view text) {
     for (const TextLine& line : lines_of(text)) {
         if (line.text.empty()) continue;
         if (const auto title = title_of(line.text)) {
+            if (tables.contains(*title))
+                return refuse_line(line.number, "a second table of this title: two axes in one "
+                                                "file; save each by itself");
             open = &tables[*title];
             continue;
         }
@@ -86,6 +91,8 @@ bool is_pos(std::string_view utf8) {
 
 Result<LaserReadings> read_pos(std::string_view utf8) {
     AXISCAL_TRY(Tables tables, tables_of(utf8));
+    if (tables.contains(Averages::backward) && !tables.contains(Averages::forward))
+        return refuse(Fault::bad_case, "file", "has no forward averages");
     if (!tables.contains(Averages::forward))
         return refuse(Fault::bad_case, "file",
                       "has averages of both directions together alone: neither E nor B follow from "

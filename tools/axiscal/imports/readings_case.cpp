@@ -70,12 +70,19 @@ Result<std::vector<bool>> directions_of(LaserReadings& readings) {
     std::vector<bool> forward;
     for (const LaserPass& pass : readings.passes) {
         AXISCAL_CHECK(check_whole(pass));
+        if (!readings.order_tells) {
+            forward.push_back(pass.says_forward.value_or(true));
+            continue;
+        }
         AXISCAL_TRY(const bool up, rises(pass, readings.targets));
         forward.push_back(up);
     }
+    if (!readings.order_tells) return forward;
     const bool sorted = std::ranges::all_of(forward, [&](bool up) { return up == forward[0]; });
     if (sorted && forward.size() > 1 && says_both(readings)) return directions_as_said(readings);
     remark_on_other_directions(readings, forward);
+    if (sorted && forward.size() > 1 && forward[0])
+        readings.remarks.emplace_back("All runs go the same way: a test from one side.");
     return forward;
 }
 
@@ -100,7 +107,8 @@ std::string stated(const LaserReadings& readings, std::string_view key) {
 } // namespace
 
 Result<Json> case_of_readings(LaserReadings& readings) {
-    if (readings.passes.empty()) return refuse(Fault::bad_case, "file", "has no run");
+    if (readings.passes.empty() || readings.targets.empty())
+        return refuse(Fault::bad_case, "file", "holds no reading");
     AXISCAL_TRY(const std::vector<bool> forward, directions_of(readings));
     const auto up = std::ranges::count(forward, true), down = std::ranges::count(forward, false);
     if (up != down && up > 0 && down > 0)
@@ -128,7 +136,7 @@ Result<Json> case_of_readings(LaserReadings& readings) {
         if (auto words = stated(readings, from); !words.empty()) out[to] = std::move(words);
     std::string note = "imported, readings by others";
     for (const std::string& remark : readings.remarks)
-        note += ". " + remark;
+        note += (note.ends_with('.') ? " " : ". ") + remark;
     out["note"] = note;
     return out;
 }

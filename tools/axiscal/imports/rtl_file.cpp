@@ -1,5 +1,6 @@
 #include "tools/axiscal/imports/rtl_file.hpp"
 
+#include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/imports/text_lines.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ Result<Sections> sections_of(std::string_view text) {
     std::vector<TextLine>* open = nullptr;
     std::string name;
     for (const TextLine& line : lines_of(text)) {
-        if (line.text.ends_with("::")) {
+        if (line.text.find(':') + 2 == line.text.size() && line.text.ends_with("::")) {
             name = in_small_letters(without_blanks(line.text.substr(0, line.text.size() - 2)));
             const bool again = sections.contains(name);
             if (again && (name == "header" || name == "target data" || name == "deviations"))
@@ -77,7 +78,7 @@ Result<AxisKind> kind_of(const Sections& sections, std::vector<std::string>& rem
         if (found->key == "file type") type = in_small_letters(found->value), at = line.number;
         constexpr std::string_view known = "V20.02.02";
         if (found->key == "version no" && found->value != known)
-            remarks.push_back("The file is of version " + std::string{found->value} +
+            remarks.push_back("The file is of version " + printable(found->value) +
                               "; this reader was made after " + std::string{known} + ".");
     }
     if (type == "rtl") return AxisKind::linear;
@@ -88,7 +89,8 @@ Result<AxisKind> kind_of(const Sections& sections, std::vector<std::string>& rem
         return AxisKind::linear;
     }
     if (type.empty()) return refuse(Fault::bad_case, "file", "states no \"File type\"");
-    return refuse_line(at, "file type \"" + type + "\" is neither rtl (linear) nor rta (angular)");
+    return refuse_line(at, "file type \"" + printable(type) +
+                               "\" is neither rtl (linear) nor rta (angular)");
 }
 
 constexpr std::size_t most_targets = 10'000, most_runs = 1000;
@@ -119,11 +121,27 @@ Result<std::vector<double>> targets_of(const std::vector<TextLine>& lines) {
             targets.push_back(target);
         }
     }
-    if (targets.empty() || targets.size() != stated)
+    if (stated == 0) return refuse(Fault::bad_case, "file", "states no \"Target-count\"");
+    if (targets.size() != stated)
         return refuse(Fault::bad_case, "file",
                       "has " + std::to_string(targets.size()) + " targets and states " +
                           std::to_string(stated) + ": is it whole?");
     return targets;
+}
+
+/// Where some numbers have a point, a comma may part thousands.
+Result<void> check_marks(const Sections& sections) {
+    bool point = false;
+    std::size_t comma = 0;
+    for (const char* name : {"target data", "deviations"})
+        for (const TextLine& line : sections.at(name)) {
+            if (line.text.find_first_not_of("+-.,0123456789 \t") != std::string_view::npos)
+                continue;
+            point = point || line.text.find('.') != std::string_view::npos;
+            if (comma == 0 && line.text.find(',') != std::string_view::npos) comma = line.number;
+        }
+    if (!point || comma == 0) return {};
+    return refuse_line(comma, "has a comma where other numbers have a point");
 }
 
 /// "0 0 2 0" was written for both directions, "0 1 2 0" for one.
@@ -211,13 +229,15 @@ void add_statements(LaserReadings& out, const Sections& sections) {
 } // namespace
 
 bool is_rtl(std::string_view utf8) {
-    return in_small_letters(without_blanks(utf8.substr(0, 64))).starts_with("header::");
+    const auto begin = std::min(utf8.find_first_not_of(" \t\r\n"), utf8.size());
+    return in_small_letters(utf8.substr(begin, 8)) == "header::";
 }
 
 Result<LaserReadings> read_rtl(std::string_view utf8) {
     LaserReadings out;
     AXISCAL_TRY(const Sections sections, sections_of(utf8));
     AXISCAL_TRY(out.kind, kind_of(sections, out.remarks));
+    AXISCAL_CHECK(check_marks(sections));
     AXISCAL_TRY(out.targets, targets_of(sections.at("target data")));
     out.says_both_directions = says_both_directions(sections.at("target data"));
     AXISCAL_TRY(const std::size_t runs, runs_of(sections.at("runs")));

@@ -1,6 +1,7 @@
 #include "tools/axiscal/imports/stream_file.hpp"
 
 #include "analysis/quantity/counted.hpp"
+#include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/imports/passes.hpp"
 #include "tools/axiscal/imports/text_lines.hpp"
 
@@ -104,7 +105,7 @@ Result<void> take_line(std::string_view text, std::size_t number, Signals& signa
     const auto value = line ? number_in(line->value) : std::nullopt;
     if (!value) return refuse_line(number, "is no \"NAME DATE TIME VALUE\": is the file whole?");
     if (line->severity == "INVALID")
-        return refuse_line(number, std::string{name} + " was not valid here (severity INVALID)");
+        return refuse_line(number, printable(name) + " was not valid here (severity INVALID)");
     if (!line->severity.empty() && line->severity != "NO_ALARM") ++signals.alarms;
     wanted->second.push_back({line->at_us, *value, number});
     return {};
@@ -195,7 +196,7 @@ public:
         for (const Value& number : signals_.of.find(map_.capture)->second) {
             const bool again = number.value == last;
             last = number.value;
-            if (number.value == 0 || again) continue;
+            if (number.value == 0 || again || was_there_before(number)) continue;
             AXISCAL_TRY(Captured captured, capture(number));
             list.push_back(std::move(captured));
         }
@@ -206,6 +207,12 @@ public:
     }
 
 private:
+    /// A stream begins with the last value of each name, however old it is.
+    [[nodiscard]] bool was_there_before(const Value& number) const {
+        return &number == &signals_.of.find(map_.capture)->second.front() &&
+               value_at(signals_.of.find(map_.reading)->second, number.at_us) == nullptr;
+    }
+
     Result<Captured> capture(const Value& number) {
         AXISCAL_TRY(const Numbered says, numbered(number, map_.digits));
         Captured out;

@@ -37,32 +37,34 @@ std::vector<std::string> reading_columns(const TableMap& map) {
     return columns;
 }
 
+/// Whether a column has a name: a line of headings is then looked for.
 bool names_columns(const TableMap& map) {
-    return !column_number(map.target) || !column_number(reading_columns(map).front());
+    std::vector<std::string> columns = reading_columns(map);
+    columns.push_back(map.target);
+    if (!map.run.empty()) columns.push_back(map.run);
+    if (!map.direction.empty()) columns.push_back(map.direction);
+    return !std::ranges::all_of(
+        columns, [](const std::string& name) { return column_number(name).has_value(); });
 }
 
-std::optional<std::size_t> column_of(const std::vector<std::string>& cells,
-                                     const std::string& name) {
-    if (const auto number = column_number(name))
-        return *number < cells.size() ? number : std::nullopt;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        if (word_in(cells[i]) == name) return i;
-    return std::nullopt;
-}
-
-bool looks_like_number(const std::string& cell) {
-    const std::string text = word_in(cell);
-    return !text.empty() && text.find_first_not_of("+-.,0123456789eE") == std::string::npos;
+/// A heading first: runs are often called by their numbers.
+std::optional<std::size_t>
+column_of(const std::vector<std::string>& cells, const std::string& name, bool by_heading) {
+    if (by_heading)
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (word_in(cells[i]) == name) return i;
+    const auto number = column_number(name);
+    return number && *number < cells.size() ? number : std::nullopt;
 }
 
 /// Whether the table begins at this line.
 bool begins(const std::string& line, const TableMap& map) {
     const auto cells = header_cells_of(line);
-    const auto target = column_of(cells, map.target);
-    const auto reading = column_of(cells, reading_columns(map).front());
-    if (!target || !reading) return false;
-    return names_columns(map) ||
-           (looks_like_number(cells[*target]) && looks_like_number(cells[*reading]));
+    const bool by_heading = names_columns(map);
+    const auto target = column_of(cells, map.target, by_heading);
+    if (!target || !column_of(cells, reading_columns(map).front(), by_heading)) return false;
+    // Any separator: whether a comma is a decimal one is seen when all is read.
+    return by_heading || number_in_cell(cells[*target], ';', "").has_value();
 }
 
 struct FoundTable {
@@ -95,21 +97,34 @@ struct Columns {
     std::optional<std::size_t> run, direction;
 };
 
+Result<void> check_distinct(const Columns& columns, const std::string& place) {
+    std::vector<std::size_t> all = columns.readings;
+    all.push_back(columns.target);
+    if (columns.run) all.push_back(*columns.run);
+    if (columns.direction) all.push_back(*columns.direction);
+    std::ranges::sort(all);
+    if (std::ranges::adjacent_find(all) == all.end()) return {};
+    return refuse(Fault::bad_case, place, "has one column for two names of the map");
+}
+
 Result<Columns> columns_of(const CaseTable& table, const TableMap& map) {
     Columns columns;
-    columns.target = column_of(table.header.cells, map.target).value_or(0);
+    const bool by_heading = names_columns(map);
+    columns.target = column_of(table.header.cells, map.target, by_heading).value_or(0);
     const std::string place = "table line " + std::to_string(table.header.line);
     for (const std::string& name : reading_columns(map)) {
-        const auto column = column_of(table.header.cells, name);
+        const auto column = column_of(table.header.cells, name, by_heading);
         if (!column) return refuse(Fault::bad_case, place, "has no column " + printable(name));
         columns.readings.push_back(*column);
     }
-    if (!map.run.empty()) columns.run = column_of(table.header.cells, map.run);
-    if (!map.direction.empty()) columns.direction = column_of(table.header.cells, map.direction);
+    if (!map.run.empty()) columns.run = column_of(table.header.cells, map.run, by_heading);
+    if (!map.direction.empty())
+        columns.direction = column_of(table.header.cells, map.direction, by_heading);
     if (!map.run.empty() && !columns.run)
         return refuse(Fault::bad_case, place, "has no column " + printable(map.run));
     if (!map.direction.empty() && !columns.direction)
         return refuse(Fault::bad_case, place, "has no column " + printable(map.direction));
+    AXISCAL_CHECK(check_distinct(columns, place));
     return columns;
 }
 
@@ -142,7 +157,8 @@ captured_in(const TableRow& row, const Columns& at, const TableMap& map, char se
     if (at.run) one.group = word_in(row.cells[*at.run]);
     if (!at.direction) return one;
     AXISCAL_TRY(one.says_forward, says_forward(row.cells[*at.direction], map, place_of(row)));
-    if (at.run) one.pass = "run " + one.group + (*one.says_forward ? " forward" : " backward");
+    if (at.run)
+        one.pass = "run " + printable(one.group) + (*one.says_forward ? " forward" : " backward");
     return one;
 }
 
@@ -152,7 +168,7 @@ Result<void> add_row(const TableRow& row,
                      const TableMap& map,
                      char separator,
                      std::vector<Captured>& captured) {
-    const std::size_t forward = map.forward_columns.size();
+    const std::size_t forward = map.forward_columns.size(), before = captured.size();
     for (std::size_t k = 0; k < at.readings.size(); ++k) {
         if (word_in(row.cells[at.readings[k]]).empty()) continue;
         AXISCAL_TRY(Captured one, begun(row, at, k, separator));
@@ -161,11 +177,31 @@ Result<void> add_row(const TableRow& row,
                                                   : map.backward_columns[k - forward]);
         captured.push_back(std::move(one));
     }
+    if (captured.size() == before)
+        return refuse(Fault::bad_case, place_of(row), "has a target and no reading");
     return {};
 }
 
 bool is_empty(const TableRow& row, const Columns& at) {
-    return word_in(row.cells[at.target]).empty() && word_in(row.cells[at.readings.front()]).empty();
+    return word_in(row.cells[at.target]).empty() &&
+           std::ranges::all_of(at.readings,
+                               [&](std::size_t k) { return word_in(row.cells[k]).empty(); });
+}
+
+/// Where some numbers have a point, a comma may part thousands.
+Result<void> check_marks(const CaseTable& table, const Columns& at) {
+    std::vector<std::size_t> columns = at.readings;
+    columns.push_back(at.target);
+    bool point = false;
+    const TableRow* comma = nullptr;
+    for (const TableRow& row : table.rows)
+        for (const std::size_t k : columns) {
+            point = point || row.cells[k].find('.') != std::string::npos;
+            if (comma == nullptr && row.cells[k].find(',') != std::string::npos) comma = &row;
+        }
+    if (!point || comma == nullptr) return {};
+    return refuse(Fault::bad_case, place_of(*comma),
+                  "has a comma where other numbers have a point");
 }
 
 } // namespace
@@ -176,6 +212,7 @@ Result<LaserReadings> read_table(const std::string& utf8, const ImportMap& map) 
     CaseTable& table = found.table;
     AXISCAL_TRY(const Columns columns, columns_of(table, of));
     if (!found.has_header) table.rows.insert(table.rows.begin(), table.header);
+    AXISCAL_CHECK(check_marks(table, columns));
     std::vector<Captured> captured;
     for (const TableRow& row : table.rows) {
         if (is_empty(row, columns)) continue;
@@ -191,6 +228,7 @@ Result<LaserReadings> read_table(const std::string& utf8, const ImportMap& map) 
     out.unit = map.unit;
     out.target_unit = map.target_unit;
     out.positions = map.positions;
+    out.order_tells = of.forward_columns.empty();
     AXISCAL_CHECK(add_passes(captured, out));
     return out;
 }

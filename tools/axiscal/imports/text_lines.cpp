@@ -1,5 +1,7 @@
 #include "tools/axiscal/imports/text_lines.hpp"
 
+#include "tools/axiscal/case_text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -45,7 +47,7 @@ Result<double> number_of(std::string_view word, std::size_t line) {
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     constexpr double largest = 1e9;
     if (fault != std::errc{} || end != text.data() + text.size() || !(std::fabs(value) <= largest))
-        return refuse_line(line, "\"" + std::string{word} + "\" is no number");
+        return refuse_line(line, "\"" + printable(word) + "\" is no number");
     return value;
 }
 

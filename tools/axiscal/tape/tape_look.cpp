@@ -3,6 +3,7 @@
 #include "analysis/quantity/counted.hpp"
 #include "analysis/quantity/time.hpp"
 #include "config/json_text.hpp"
+#include "tools/axiscal/case_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,33 +39,39 @@ std::string readable_of(std::string text) {
 
 struct Pattern {
     const char* what;
+    const char* needs; ///< no line without one of these letters is searched
     std::regex form;
 };
 
 const std::array<Pattern, 4>& patterns() {
     static const std::array<Pattern, 4> known{
-        {{"e-mail address",
+        {{"e-mail address", "@",
           std::regex{R"([A-Za-z0-9._%+-]{1,64}@[A-Za-z0-9-]{1,63}(\.[A-Za-z0-9-]{1,63}){1,4})"}},
-         {"IP address",
+         {"IP address", ".",
           std::regex{R"(\b(25[0-5]|2[0-4]\d|1?\d?\d)(\.(25[0-5]|2[0-4]\d|1?\d?\d)){3}\b)"}},
-         {"hardware address", std::regex{R"(\b[0-9A-Fa-f]{2}(:[0-9A-Fa-f]{2}){5}\b)"}},
-         {"home folder", std::regex{R"((/home|/Users|\\Users)[/\\][^/\\\s"]{1,64})"}}}};
+         {"hardware address", ":-", std::regex{R"(\b[0-9A-Fa-f]{2}([:-][0-9A-Fa-f]{2}){5}\b)"}},
+         {"home folder", "/\\",
+          std::regex{R"((/home|/Users|\\Users)(/|\\{1,2})[^/\\\s"]{1,64}|/root/[^/\s"]{1,64})"}}}};
     return known;
 }
 
-/// Line by line: what people wrote is short, and a pattern's work grows with its text.
+/// Piece by piece, because a pattern's work grows with its text; no trace is longer than the
+/// overlap.
 void search(const std::string& where, const std::string& text, std::vector<PrivateTrace>& found) {
-    constexpr std::size_t longest = 400;
+    constexpr std::size_t longest = 400, overlap = 150;
     std::set<std::string> told;
     for (std::size_t at = 0; at < text.size();) {
-        const auto end = std::min({text.find('\n', at), text.size(), at + longest});
-        const std::string line = text.substr(at, end - at);
-        for (const Pattern& pattern : patterns())
-            for (std::sregex_iterator hit{line.begin(), line.end(), pattern.form}, none;
+        const auto line_end = std::min(text.find_first_of("\r\n", at), text.size());
+        const auto end = std::min(line_end, at + longest);
+        const std::string piece = text.substr(at, end - at);
+        for (const Pattern& pattern : patterns()) {
+            if (piece.find_first_of(pattern.needs) == std::string::npos) continue;
+            for (std::sregex_iterator hit{piece.begin(), piece.end(), pattern.form}, none;
                  hit != none; ++hit)
                 if (told.insert(hit->str()).second)
                     found.push_back({where, pattern.what, hit->str()});
-        at = std::max(end, at + 1);
+        }
+        at = end < line_end ? end - overlap : end + 1;
     }
 }
 
@@ -78,14 +85,16 @@ TapeJson look_at(const Tape& tape, Way direction) {
     look["lines"] = std::ranges::count(bytes, '\n');
     constexpr std::size_t shown = 80;
     const std::string text = readable_of(bytes);
-    look["first_line"] = text.substr(0, std::min(text.find_first_of("\r\n"), shown));
+    const auto begin = std::min(text.find_first_not_of("\r\n"), text.size());
+    const auto end = std::min(text.find_first_of("\r\n", begin), text.size());
+    look["first_line"] = printable(text.substr(begin, std::min(end - begin, shown)));
     return look;
 }
 
 TapeJson stated(const Tape& tape, const char* key) {
     const auto found = tape.header.find(key);
     return found == tape.header.end() || found->second.empty() ? TapeJson{}
-                                                               : TapeJson(found->second);
+                                                               : TapeJson(printable(found->second));
 }
 
 std::string rounded(double value) {
@@ -104,12 +113,24 @@ std::string line_about(const char* who, const TapeJson& look) {
     return text + (first.empty() ? "" : "; the first: " + first) + "\n";
 }
 
+/// Stretches between two closings in which anything passed.
+long openings_of(const Tape& tape) {
+    long openings = 0;
+    bool open = false;
+    for (const TapeEntry& entry : tape.entries) {
+        if (!open && entry.direction != Way::closed) ++openings;
+        open = entry.direction != Way::closed;
+    }
+    return openings;
+}
+
 } // namespace
 
 std::vector<PrivateTrace> private_traces(const Tape& tape) {
     std::vector<PrivateTrace> found;
     for (const auto& [key, value] : tape.header) {
-        if (key == "who" && !value.empty()) found.push_back({"header who", "name", value});
+        if (key == "who" && !value.empty())
+            found.push_back({"header who", "name", printable(value)});
         search("header " + key, value, found);
     }
     search("from the instrument", readable_of(bytes_of(tape, Way::in)), found);
@@ -122,8 +143,7 @@ TapeJson look_into(const Tape& tape) {
     for (const char* key : {"origin", "driver", "wire"})
         look[key] = stated(tape, key);
     look["seconds"] = tape.entries.empty() ? 0.0 : seconds_of(tape.entries.back().offset);
-    look["openings"] = std::max<long>(
-        1, static_cast<long>(std::ranges::count(tape.entries, Way::closed, &TapeEntry::direction)));
+    look["openings"] = openings_of(tape);
     look["from_instrument"] = look_at(tape, Way::in);
     look["to_instrument"] = look_at(tape, Way::out);
     look["missing"] = TapeJson::array();
@@ -151,7 +171,8 @@ std::string text_of_look(const TapeJson& look) {
         text += "Private? " + trace.at("where").get<std::string>() + ": " +
                 trace.at("what").get<std::string>() + " " + trace.at("text").get<std::string>() +
                 "\n";
-    if (look.at("private").empty()) text += "No name, address or home folder in it\n";
+    if (look.at("private").empty())
+        text += "No name, address or home folder was found in it; read it all the same\n";
     return text;
 }
 
