@@ -387,10 +387,8 @@ def by_trigger(b):
     expect_hidden_form(answer)
     for circle in answer["run"]["circles"]:
         expect(circle["start_from"] == "trigger", f"{circle}")
-        # started and braked once at 5 m/s2: v2/a = 2 mm; both words up to 20 ms late or early. On a computer that is
-        # kept busy a word comes later than any limit: the circle then says so, and is driven again.
-        if abs(circle["residual_mm"] - 2) >= 2:
-            raise bench.MissedByChance(f"a word of the CNC came late: {circle}")
+        # started and braked once at 5 m/s2: v2/a = 2 mm; both words up to 20 ms late or early
+        expect(abs(circle["residual_mm"] - 2) < 2, f"{circle}")
     found = answer["diagnosis"]["squareness_rad"]
     hidden = HIDDEN["squareness_um_per_m"] * 1e-6
     expect(abs(found - hidden) < 0.15 * hidden, f"squareness {found}, hidden {hidden}")
