@@ -1,26 +1,19 @@
 #include "tools/axiscal/circular_case_certificate.hpp"
 
-#include "acquisition/runfile/digest.hpp"
 #include "acquisition/documents/result_digest.hpp"
+#include "acquisition/runfile/digest.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "config/version.hpp"
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/cases/case_reader.hpp"
 #include "tools/axiscal/cases/circular_input.hpp"
+#include "tools/axiscal/whole_file.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace axiscal {
 namespace {
-
-Result<std::string> whole_file(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    return std::string{std::istreambuf_iterator<char>{file}, {}};
-}
 
 Result<CircularInput> input_of(const std::string& text) {
     AXISCAL_TRY(const CaseText read, read_case_text(text));
@@ -45,9 +38,8 @@ Result<CircularCertificate> circular_certificate_of_case(const std::string& case
     AXISCAL_TRY(CircularInput input, input_of(text));
     CircularMeasurement measured = measurement_of(std::move(input));
     const std::string& id = measured.run.run_id;
-    measured.run.run_id =
-        id_of_name(id.empty() ? std::filesystem::path(case_file).stem().string() : id, "case",
-                   longest_run_id);
+    measured.run.run_id = id_of_name(
+        id.empty() ? std::filesystem::path(case_file).stem().string() : id, "case", longest_run_id);
     measured.run.software_version = software_version();
     AXISCAL_TRY(CircularCertificate certificate,
                 evaluate_measurement(std::move(measured), std::move(sha256)));

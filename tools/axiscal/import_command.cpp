@@ -8,35 +8,28 @@
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/imports/import_file.hpp"
 #include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/whole_file.hpp"
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 namespace axiscal {
 namespace {
 
 using ImportedJson = nlohmann::json;
 
-Result<std::string> bytes_of(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    return std::string{std::istreambuf_iterator<char>{file}, {}};
-}
-
 Result<std::optional<ImportMap>> map_in(const std::string& path) {
     if (path.empty()) return std::optional<ImportMap>{};
-    AXISCAL_TRY(std::string text, bytes_of(path));
+    AXISCAL_TRY(std::string text, whole_file(path));
     AXISCAL_TRY(ImportMap map, import_map(std::move(text), path));
     return std::optional{std::move(map)};
 }
 
 /// What the figures were computed of can be found again by its hash.
 Result<ImportedFile> read_import(const std::string& path, const std::optional<ImportMap>& map) {
-    AXISCAL_TRY(const std::string bytes, bytes_of(path));
+    AXISCAL_TRY(const std::string bytes, whole_file(path));
     auto file = import_file(bytes, map);
     if (!file) {
         Error error = file.error();

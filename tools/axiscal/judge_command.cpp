@@ -5,20 +5,16 @@
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/imports/judged_report.hpp"
 #include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/whole_file.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <utility>
 
 namespace axiscal {
 namespace {
 
 Result<nlohmann::json> json_in(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    const std::string bytes{std::istreambuf_iterator<char>{file}, {}};
+    AXISCAL_TRY(const std::string bytes, whole_file(path));
     auto read = read_case_text(bytes);
     if (!read) {
         Error error = read.error();

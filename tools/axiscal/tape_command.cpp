@@ -5,20 +5,13 @@
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/tape/tape_look.hpp"
 #include "tools/axiscal/tape_commands.hpp"
+#include "tools/axiscal/whole_file.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 namespace axiscal {
 namespace {
-
-Result<std::string> text_of_tape(const std::string& path) {
-    std::ifstream file{path, std::ios::binary};
-    if (!file || std::filesystem::is_directory(path)) return fail(Fault::io, "cannot read " + path);
-    return std::string{std::istreambuf_iterator<char>{file}, {}};
-}
 
 /// The expectation first: a tape that its driver refuses is not kept.
 int keep_tape(const TapeRequest& request, const std::string& text, bool json) {
@@ -41,7 +34,7 @@ int keep_tape(const TapeRequest& request, const std::string& text, bool json) {
 } // namespace
 
 int command_tape(const TapeRequest& request, bool json) {
-    const auto text = text_of_tape(request.tape);
+    const auto text = whole_file(request.tape);
     if (!text) return complain(text.error());
     const auto tape = parse_tape(*text);
     if (!tape)

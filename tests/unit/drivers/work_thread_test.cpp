@@ -108,7 +108,7 @@ std::size_t threads_now() {
 
 TEST(WorkThreadThatIsLeftBehind, CostsNoThreadWhileItIsIdle) {
     // With the first one the thread sanitizer begins one of its own. One that was joined is still
-    // counted until the kernel has buried it.
+    // counted until the kernel has removed it.
     std::atomic<pid_t> first = 0;
     std::thread{[&] { first = ::gettid(); }}.join();
     while (std::filesystem::exists("/proc/self/task/" + std::to_string(first)))
