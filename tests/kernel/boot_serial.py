@@ -1,131 +1,25 @@
-"""Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm, a
-Modbus sensor by ftdi_sio, behind udev's names; those that answer text, each by an FTDI adapter; the CNC, a
-Modbus RTU client on libmodbus, by another one; and a scale on a counter, whose records come by a named pipe. A
-plain guest with udev, no systemd.
+"""Serial instruments on the kernel's own drivers: the µMD counter and a Dracal stick by cdc_acm, a Modbus sensor
+and a Vaisala by ftdi_sio, behind udev's names; the CNC, a Modbus RTU client on libmodbus, by another adapter; and
+a scale on a counter, whose records come by a named pipe. A plain guest with udev, no systemd.
 
 The checks run in their order on one station that never ends: what one of them breaks, it mends.
 """
 
-import contextlib
 import os
 import sys
 from pathlib import Path
 
-from counter_pipe import EVENT, STATUS, VALUE, CounterPipe
+from counter_pipe import EVENT, STATUS, VALUE
 from guest import check, expect, load_modules, run_checks, start_udev, wait_until
+from line_station import CNC_LINE, COUNT, GONE, SCALE, SENSORS, LineStation, spoilt, suffers, told, unplugged
 from usb_station import LINKS, RECOVERY_S, Undisturbed, UsbStation
 
-SENSORS = ("air", "material")
-TEXT = {  # name: what stands in the station file, what the simulator has behind the adapter, the adapter
-    "ptu": ({"driver": "vaisala", "model": "ptu300"}, "vaisala", "A601AXIS"),
-    "gauge": ({"driver": "ascii-gauge", "model": "mitutoyo", "unit": "mm"}, "mitutoyo", "A602AXIS"),
-    "stick": ({"driver": "temper-serial"}, "temper-serial", "A603AXIS"),
-    "readout": ({"driver": "ascii-gauge", "model": "nd-28x"}, "nd-28x", "A604AXIS"),
-    "caliper": ({"driver": "ascii-gauge", "model": "sylvac"}, "sylvac", "A605AXIS"),
-}
-EIGHT_BIT, SEVEN_BIT = ("ptu", "gauge"), ("readout", "caliper")  # which bit no character of theirs has
-FTDI = ("material", *TEXT)
-SCALE = "scale"
-BESIDE_TEXT = (*LINKS, SCALE)
-BESIDE_SCALE = (*LINKS, *TEXT)
-INSTRUMENTS = (*LINKS, *TEXT, SCALE)
-COUNT, COUNT_M = 123456, 1e-7
+VAISALA = "ptu"
+BESIDE = (VAISALA, SCALE)  # of the instruments behind LINKS
+BESIDE_SCALE = (*LINKS, VAISALA)
+INSTRUMENTS = (*LINKS, *BESIDE)
+COUNT_M = 1e-7
 NOISE_M = 5e-6  # far beyond noise, vibration and drift of the standing axis; a digit that is lost moves it further
-CNC_LINE = "/dev/axiscal/ftdi-A800AXIS-00"
-GONE = ("unavailable", "faulty")
-
-
-class LineStation(UsbStation):
-    """The trigger is a serial line, too."""
-
-    def __init__(self):
-        super().__init__()
-        self.trigger("sequence-block", "rtu")
-        self.station["trigger"]["serial_port"] = CNC_LINE
-        self.scenario["cnc"]["poll_s"] = 0.05  # emulation beside other work
-        # The part program waits for an answer as long as a capture may last, and 2 s.
-        self.station["capture"]["timeout"] = "30 s"
-        self.wires["cnc"] = ("ftdi", {"called": "cnc", "serial": "A800AXIS"})
-        self.links["cnc"] = CNC_LINE
-        for name, (keys, kind, serial) in TEXT.items():
-            self.scenario["sensor"].append({"name": name, "kind": kind, "path": str(self.folder / f"{name}.tty")})
-            self.wires[name] = ("ftdi", {"called": name, "serial": serial})
-            self.links[name] = f"/dev/axiscal/ftdi-{serial}-00"
-            self.station["instrument"].append({"name": name, **keys, "link": "serial:" + self.links[name]})
-        self.counter = CounterPipe(self.folder / "counter0", COUNT)
-        self.station["instrument"].append(
-            {"name": SCALE, "driver": "counter", "device": str(self.counter.path), "event": "capture", "bits": 32,
-             "resolution": "0.1 um", "fastest": "40 m/min", "silence": "2 s"})
-
-    def line_notes(self, since):
-        lines = [line for line in self.logged()[since:] if CNC_LINE in line]
-        print("\n".join(lines))
-        return lines
-
-    def requested(self):
-        return self.sim("status")["requests"]
-
-    def adapter(self, name):
-        """What its adapter says that the host has set."""
-        return self.ask_usb("status")["devices"][name]["state"]
-
-    def go_on_until(self, requests):
-        """The CNC moves and asks until it has asked so often; then it stands still."""
-        self.sim(f"hold {requests}")
-
-    def captured(self, points):
-        """So many points are durable, the CNC has read so of the last one, and nothing was taken twice."""
-        self.wait_for_points(points)
-        wait_until(f"the CNC reads done = {points}", lambda: self.sim("status")["done"] == points)
-        expect(self.run()["step"] == points, f"{self.run()['step']} points of {points} requests")
-
-
-def told(station, name, since):
-    """What the log says of one instrument since that line, without its changes of state."""
-    lines = [line for line in station.logged()[since:] if f"{name}:" in line or f"{name} is " in line]
-    print("\n".join(lines))
-    return [line for line in lines if f"{name}:" in line]
-
-
-def suffers(station, names, begin, end, others, most_reasons=1):
-    """`begin` spoils the named instruments, all of them are given up, `end` mends them, all come
-    back within 5 s; the others lose nothing meanwhile. The log says once that each is gone, and once why at most:
-    what a driver finds itself; that nothing good came for ten seconds is in the state. `most_reasons`: of
-    several faults one after the other."""
-    since = len(station.logged())
-    with contextlib.ExitStack() as mending:
-        with Undisturbed(station, *others):
-            for name in names:
-                mending.callback(end, name)
-                begin(name)
-            for name in names:
-                station.wait_for_state(name, GONE)
-            mending.close()
-            station.wait_until_good(*names)
-    for name in names:
-        reasons = told(station, name, since)
-        gone = [line for line in station.logged()[since:] if any(f"{name} is {state}" in line for state in GONE)]
-        expect(len(gone) == 1, f"that {name} is gone is told {len(gone)} times: {gone}")
-        sentences = {line.split("info: ")[1] for line in reasons}
-        expect(len(reasons) == len(sentences) <= most_reasons, f"why {name} is gone is told {len(reasons)} times: {reasons}")
-
-
-def unplugged(station, names, others):
-    links = [station.links[name] for name in names]
-    nodes = {os.path.realpath(link) for link in links}
-
-    def plug(name):
-        station.usb(f"plug {name}")
-        wait_until(f"udev made {station.links[name]} again", Path(station.links[name]).exists)
-
-    suffers(station, names, lambda name: station.usb(f"unplug {name}"), plug, others)
-    back = {os.path.realpath(link) for link in links}
-    expect(back == nodes, f"a dead descriptor held its node: {nodes} came back as {back}")
-
-
-def spoilt(station, names, fault, others, **more):
-    suffers(station, names, lambda name: station.usb(f"fault {name} {fault}"),
-            lambda name: station.usb(f"fault {name} none"), others, **more)
 
 
 @check("StationReadsInstrumentsThroughTheKernelsDrivers")
@@ -150,14 +44,6 @@ def scale_reads(station):
     wait_until("the scale is back", lambda: scale_shows(station, COUNT))
 
 
-@check("OptoHeadOfASylvacGetsItsPowerFromTheModemLines")
-def powered(station):
-    """DTR high and RTS low; the kernel itself raises both when it opens a line."""
-    for name in TEXT:
-        levels = "DTR high, RTS low" if name == "caliper" else "DTR high, RTS high"
-        expect(station.adapter(name).endswith(levels), f"{name}: {station.adapter(name)}")
-
-
 @check("UnpluggedCounterIsUnavailableAndComesBack")
 def laser_unplugged(station):
     unplugged(station, ["laser"], SENSORS)
@@ -180,7 +66,7 @@ def sensors_mute(station):
 
 @check("ShortReadsOfCounterAndSensorsAreNoReadings")
 def cut(station):
-    spoilt(station, LINKS, "cut 3", (*TEXT, SCALE))
+    spoilt(station, LINKS, "cut 3", BESIDE)
 
 
 @check("GarbledRecordsOfTheCounterAreCountedAndNeverRead")
@@ -220,7 +106,7 @@ def corrupt(station):
     since = len(station.logged())
     faults = {name: "corrupt 1" if name in SENSORS else "garble 128" for name in LINKS}
     suffers(station, LINKS, lambda name: station.usb(f"fault {name} {faults[name]}"),
-            lambda name: station.usb(f"fault {name} none"), (*TEXT, SCALE))
+            lambda name: station.usb(f"fault {name} none"), BESIDE)
     expect(station.instrument("air")["checksum_errors"] > before["air"]["checksum_errors"], "air counts no wrong checksum")
     was, now = (one["checksum_errors"] + one["bad_frames"] for one in (before["material"], station.instrument("material")))
     expect(now > was, "material counts no wrong answer")
@@ -231,7 +117,7 @@ def corrupt(station):
 
 @check("StalledCounterAndSensorsAreGivenUpAndComeBack")
 def stalled(station):
-    spoilt(station, LINKS, "stall", (*TEXT, SCALE))
+    spoilt(station, LINKS, "stall", BESIDE)
 
 
 @check("NodeThatComesBackUnderAnotherNumberIsFoundByItsName")
@@ -263,75 +149,7 @@ def broken_descriptors(station):
         station.replug([name], "none")
         wait_until(f"udev made {LINKS[name]} again", Path(LINKS[name]).exists)
 
-    suffers(station, ["laser", "air"], plug_broken, plug_whole, [*FTDI, SCALE])
-
-
-@check("AdaptersOfFtdiWithBrokenDescriptorsAreUnavailableAndComeBack")
-def broken_adapters(station):
-    """Without the half of its last endpoint an adapter has none to write to. ftdi_sio makes a terminal of it all the
-    same, which opens, and refuses each write with ENODEV."""
-    since, restarts = len(station.logged()), {}
-
-    def refused(name):
-        return [line for line in station.logged()[since:] if f" {name}:" in line and "No such device" in line
-                and "No such device or" not in line]
-
-    def plug_broken(name):
-        station.replug([name], "descriptors")
-        wait_until(f"udev made {station.links[name]} of half a configuration", Path(station.links[name]).exists)
-        restarts[name] = station.instrument(name)["restarts"]
-
-    def plug_whole(name):
-        try:
-            wait_until(f"{name} was tried again", lambda: station.instrument(name)["restarts"] >= restarts[name] + 2)
-            wait_until(f"the log says that nothing can be written to {name}", lambda: refused(name))
-            expect(station.state(name) in GONE, f"{name} is {station.state(name)} behind half an adapter")
-        finally:
-            station.replug([name], "none")
-            wait_until(f"udev made {station.links[name]} again", Path(station.links[name]).exists)
-
-    # Its end, what cannot be written, and that it is not there between the wrong adapter and the right one.
-    suffers(station, FTDI, plug_broken, plug_whole, ["laser", "air", SCALE], most_reasons=3)
-    for name in FTDI:
-        expect(len(refused(name)) == 1, f"that nothing can be written to {name} is told {len(refused(name))} times")
-
-
-@check("UnpluggedTextInstrumentsAreUnavailableAndComeBack")
-def text_unplugged(station):
-    unplugged(station, TEXT, BESIDE_TEXT)
-
-
-@check("TextInstrumentsThatSayNakForEverAreGivenUpAndComeBack")
-def text_mute(station):
-    spoilt(station, TEXT, "mute", BESIDE_TEXT)
-
-
-@check("StalledTextInstrumentsAreGivenUpAndComeBack")
-def text_stalled(station):
-    """ftdi_sio reads no more until the line is opened anew. A Vaisala that says nothing is told its settings
-    and asked once, 2 s; after a pause it is told them again, 1 s."""
-    spoilt(station, TEXT, "stall", BESIDE_TEXT)
-
-
-@check("TextThatIsCutShortIsNoReading")
-def text_cut(station):
-    spoilt(station, TEXT, "cut 3", BESIDE_TEXT)  # two of the three are the adapter's status
-
-
-@check("GarbledTextIsNoReading")
-def text_garbled(station):
-    """A bit above ASCII, for a gauge and the stick send no checksum; with seven data bits the highest of them,
-    which no digit has. Of the stick's two lines in a transfer one stays whole and is read."""
-    spoilt(station, EIGHT_BIT, "corrupt 128", BESIDE_TEXT)
-    before = {name: station.instrument(name)["bad_frames"] for name in SEVEN_BIT}
-    spoilt(station, SEVEN_BIT, "corrupt 64", BESIDE_TEXT)
-    for name in SEVEN_BIT:
-        expect(station.instrument(name)["bad_frames"] > before[name], f"{name} counts no bad frame")
-    before = station.instrument("stick")["bad_frames"]
-    station.usb("fault stick corrupt 128")
-    wait_until("the stick's damaged lines are counted", lambda: station.instrument("stick")["bad_frames"] >= before + 3)
-    station.usb("fault stick none")
-    station.wait_until_good("stick")
+    suffers(station, ["laser", "air"], plug_broken, plug_whole, ["material", *BESIDE])
 
 
 def scale_suffers(station, begin):
@@ -478,7 +296,9 @@ def latency(station):
 def main():
     load_modules("vhci_hcd", "cdc_acm", "ftdi_sio")
     start_udev()
-    with LineStation() as station:
+    with LineStation(VAISALA) as station:
+        station.add_scale()
+        station.add_trigger_line()
         return run_checks(station)
 
 
