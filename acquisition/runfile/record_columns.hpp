@@ -35,6 +35,7 @@ inline constexpr std::array tables{
           "resolution_m, coefficient_per_K, standard_uncertainty_per_K, temperature_width_K",
           "rrRR"},
     Table{"linear_scale_sensor", "channel", "i"},
+    Table{"imported", "file, form, sha256, measured, remark", "ttttt"},
     Table{"uncertainty",
           "device_U_m, device_U_per_m, device_k, device_width_m, device_width_per_m, "
           "misalignment_m, misalignment_rad, temperature_width_K, expansion_width_per_K, eve_m, "

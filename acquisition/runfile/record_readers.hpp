@@ -15,9 +15,8 @@ using ReadMeasuredRow = void(RunRecord& run, RowReader& in);
 // record_rows_read_setup.cpp
 ReadMeasuredRow read_run, read_test, read_plan, read_target, read_plan_point, read_laser,
     read_material, read_air, read_rotary, read_rotary_deviation, read_linear_scale,
-    read_linear_scale_sensor, read_uncertainty, read_uncertainty_target, read_tolerance_set,
-    read_tolerance_limit, read_standard, read_statement,
-    read_instrument, read_channel, read_channel_calibration, read_channel_correction;
+    read_linear_scale_sensor, read_imported, read_uncertainty, read_uncertainty_target,
+    read_tolerance_set, read_tolerance_limit, read_standard, read_statement, read_instrument, read_channel, read_channel_calibration, read_channel_correction;
 ClockTie read_tie(RowReader& in);
 PlannedPoint read_planned(RowReader& in);
 

@@ -75,6 +75,11 @@ ChainedRow row_of_scale(const ScaleSetup& scale) {
                                     si_or_nothing(temperature_width)});
 }
 
+ChainedRow row_of_imported(const ImportedReadings& imported) {
+    const auto& [file, form, sha256, measured, remark] = imported;
+    return chained("imported", {file, form, sha256, measured, remark});
+}
+
 ChainedRow row_of_uncertainty(const UncertaintySetup& setup) {
     const auto& [device_U, device_k, device_width, misalignment, misalignment_angle,
                  temperature_width, expansion_width, eve, eve_model, targets] = setup;
@@ -195,6 +200,7 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
         for (const int channel : header.scale->channels)
             rows.push_back(chained("linear_scale_sensor", {whole(channel)}));
     }
+    if (header.imported) rows.push_back(row_of_imported(*header.imported));
     if (header.uncertainty) {
         rows.push_back(row_of_uncertainty(*header.uncertainty));
         for (const auto& [parameter, limit] : header.uncertainty->targets)

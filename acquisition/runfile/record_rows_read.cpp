@@ -23,6 +23,7 @@ constexpr std::array<void (*)(RecordedRun&, RowReader&), tables.size()> readers{
     measured<read_rotary_deviation>,
     measured<read_linear_scale>,
     measured<read_linear_scale_sensor>,
+    measured<read_imported>,
     measured<read_uncertainty>,
     measured<read_uncertainty_target>,
     measured<read_tolerance_set>,

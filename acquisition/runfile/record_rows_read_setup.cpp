@@ -126,6 +126,17 @@ void read_linear_scale(RunRecord& run, RowReader& in) {
     run.scale = std::move(scale);
 }
 
+void read_imported(RunRecord& run, RowReader& in) {
+    ImportedReadings imported;
+    imported.file = in.text();
+    imported.form = in.text();
+    imported.sha256 = in.text();
+    imported.measured = in.text();
+    imported.remark = in.text();
+    if (run.imported) return in.reject("stands there twice");
+    run.imported = std::move(imported);
+}
+
 void read_linear_scale_sensor(RunRecord& run, RowReader& in) {
     if (!run.scale) run.scale.emplace(); // the writer checks each row by itself
     run.scale->channels.push_back(in.number<int>());

@@ -76,6 +76,8 @@ std::vector<ChainedRow> rows_of_captures(const RunBatch& batch) {
     if (batch.datum)
         rows.push_back(row_of(*batch.datum, batch.point ? std::nullopt : batch.synchronisation));
     if (batch.point) rows.push_back(row_of(*batch.point, batch.synchronisation));
+    for (const PointRecord& point : batch.imported)
+        rows.push_back(row_of(point, std::nullopt));
     return rows;
 }
 
@@ -89,7 +91,7 @@ Error as_not_durable(Error error) {
 bool RunBatch::empty() const {
     return environment.empty() && events.empty() && preflight.empty() && retakes.empty() &&
            exclusions.empty() && answers.empty() && orders.empty() && !datum && !point &&
-           !circular && streams.empty() && chunks.empty();
+           imported.empty() && !circular && streams.empty() && chunks.empty();
 }
 
 RunFileWriter::RunFileWriter(std::string path, std::unique_ptr<Database> database)

@@ -33,6 +33,7 @@ struct RunBatch {
     std::vector<OrderRecord> orders;
     std::optional<DatumRecord> datum;
     std::optional<PointRecord> point;
+    std::vector<PointRecord> imported; ///< all points of a run that others measured, in their order
     std::optional<Synchronisation> synchronisation; ///< of the point, else of the datum
     std::optional<CircularSetup> circular;          ///< once, before the first block
     std::vector<StreamSetup> streams;

@@ -39,6 +39,9 @@ CREATE TABLE linear_scale(link INTEGER PRIMARY KEY, resolution_m ANY NOT NULL,
     hash BLOB NOT NULL) STRICT;
 CREATE TABLE linear_scale_sensor(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL UNIQUE,
     hash BLOB NOT NULL) STRICT;
+-- Readings by others: `point.reading_m` is their deviation.
+CREATE TABLE imported(link INTEGER PRIMARY KEY, file TEXT NOT NULL, form TEXT NOT NULL,
+    sha256 TEXT NOT NULL, measured TEXT NOT NULL, remark TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 CREATE TABLE uncertainty(link INTEGER PRIMARY KEY, device_U_m ANY, device_U_per_m ANY,
     device_k ANY NOT NULL, device_width_m ANY, device_width_per_m ANY, misalignment_m ANY,
     misalignment_rad ANY, temperature_width_K ANY, expansion_width_per_K ANY, eve_m ANY,

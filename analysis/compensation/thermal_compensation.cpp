@@ -309,6 +309,31 @@ std::string reason_of_replacement(const RunRevisions& revisions, const PointReco
            (exclusion != nullptr ? " (excluded before: " + exclusion->reason + ")" : "");
 }
 
+/// What others compensated is taken as it is.
+Result<Compensated> imported_deviations(const RunRecord& run, const RunRevisions& revisions) {
+    AXISCAL_CHECK(run.complete ? check_complete(run) : check_points(run));
+    AXISCAL_CHECK(check_cells(run.plan));
+    if (!revisions.exclusions.empty() || !revisions.superseded.empty())
+        return fail(Fault::refused, "imported readings are neither left out nor taken again here: "
+                                    "mend the file, and import it anew");
+    CompensationSummary summary;
+    for (const PointRecord& point : run.points) {
+        if (!std::isfinite(point.reading.si()))
+            return fail(Fault::bad_run_file, "step " + std::to_string(point.planned.step + 1) +
+                                                 ": the reading is not a number");
+        summary.after.push_back(point.reading.in(mm));
+    }
+    std::vector<double> targets = targets_as_given(run.plan);
+    const bool rotary = run.plan.axis_kind == AxisKind::rotary;
+    AXISCAL_TRY(UsableReadings usable,
+                usable_readings(run, revisions, summary.after, targets, rotary ? "deg" : "mm"));
+    return Compensated{RunAt20CMaker::make(std::move(usable.table), "imported: readings by others"),
+                       std::move(summary),
+                       {},
+                       std::move(usable.completeness),
+                       std::move(targets)};
+}
+
 } // namespace
 
 Length displacement_in_air(Length vacuum_displacement,
@@ -342,6 +367,7 @@ Result<Compensated> compensate_to_20C(const RunRecord& run) {
 }
 
 Result<Compensated> compensate_to_20C(const RunRecord& run, const RunRevisions& revisions) {
+    if (run.imported) return imported_deviations(run, revisions);
     AXISCAL_TRY(const DatumRecord* datum, checked_datum_of(run));
     Compensation compensation{run, *datum};
     if (auto tied = compensation.tie_datum(); !tied) return tl::unexpected(tied.error());

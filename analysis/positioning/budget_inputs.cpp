@@ -203,6 +203,7 @@ void add_scale(std::vector<BudgetInput>& inputs, const Certificate& certificate)
 } // namespace
 
 std::vector<BudgetInput> budget_inputs_of(const Certificate& certificate) {
+    if (certificate.run.imported) return {}; // no U follows from them
     if (certificate.run.rotary) return {device_of(certificate), environment_of(certificate)};
     std::vector<BudgetInput> inputs{
         device_of(certificate),          misalignment_of(certificate),

@@ -96,8 +96,18 @@ void remark_on_manual_points(const RunRecord& run, std::vector<std::string>& rem
                       " points were captured by hand (steps " + list_of_steps(steps) + ").");
 }
 
+std::string remark_on_import(const ImportedReadings& imported) {
+    return "Imported, readings by others: " + imported.file + ", " + imported.form + ", SHA-256 " +
+           imported.sha256 +
+           ". How they were compensated for air and material, and whether at all, is not known "
+           "here. Drift, alignment and the spread of the material sensors are not among them, so "
+           "that no U follows from them." +
+           (imported.remark.empty() ? "" : " " + imported.remark);
+}
+
 std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSummary& summary) {
     std::vector<std::string> remarks;
+    if (run.imported) remarks.push_back(remark_on_import(*run.imported));
     if (!run.plan.remark.empty()) remarks.push_back(run.plan.remark);
     if (run.plan.pass == "stretch")
         remarks.emplace_back("This pass covers a stretch of the axis in its working area, tested "
@@ -106,7 +116,7 @@ std::vector<std::string> remarks_on(const RunRecord& run, const CompensationSumm
         remarks.emplace_back("Step cycle: all approaches of a target follow each other, which "
                              "hides slow drift.");
     remark_on_events(run, remarks);
-    remark_on_manual_points(run, remarks);
+    if (!run.imported) remark_on_manual_points(run, remarks);
     for (const std::string& remark : summary.remarks)
         remarks.push_back(remark);
     return remarks;
@@ -160,7 +170,8 @@ void add_answers(Certificate& certificate) {
 /// nothing is found.
 void search_setup(Certificate& certificate) {
     const RunRecord& run = certificate.run;
-    if (certificate.completeness.partial() || run.rotary) return add_answers(certificate);
+    if (certificate.completeness.partial() || run.rotary || run.imported)
+        return add_answers(certificate);
     std::vector<SetupFinding>& findings = certificate.setup_findings;
     findings = find_sensor_errors(run);
     if (const auto course = course_of(run, certificate.revisions, certificate.compensation.after)) {

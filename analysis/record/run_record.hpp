@@ -6,6 +6,7 @@
 #include "analysis/quantity/result.hpp"
 #include "analysis/quantity/temperature.hpp"
 #include "analysis/quantity/time.hpp"
+#include "analysis/record/imported_readings.hpp"
 #include "analysis/record/rotary_setup.hpp"
 #include "analysis/record/test_kind.hpp"
 #include "analysis/record/tolerance_record.hpp"
@@ -297,6 +298,9 @@ struct RunRecord {
     std::optional<RotarySetup> rotary; ///< of a rotary axis: how its angle was measured
     /// The reference is this scale: of `laser` instrument and sign count, of `air` the age alone.
     std::optional<ScaleSetup> scale;
+    /// Readings by others: PointRecord::reading is the deviation that their program gave, at 20
+    /// degC or whatever it took for that; laser, material and air say nothing then.
+    std::optional<ImportedReadings> imported;
     std::optional<UncertaintySetup> uncertainty;
     std::optional<ToleranceRecord> tolerances; ///< of this kind of test; absent: none was agreed
     /// By which the figures are computed and named (analysis/positioning/standards.hpp), the

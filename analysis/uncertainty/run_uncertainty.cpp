@@ -214,7 +214,7 @@ RunUncertainty uncertainty_of(const RunRecord& run, double edition_k, const Read
     std::vector<std::string> remarks;
     if (!used.targets.empty()) out.statement = statement_of(run, used.targets, remarks);
     out.missing = missing_terms_of(out.statement, run.scale.has_value());
-    if (!run.uncertainty) return out;
+    if (!run.uncertainty || run.imported) return out;
     if (used.approaches < run.plan.approaches)
         remarks.push_back(
             "Uncertainty: the budget is made with n = " + std::to_string(used.approaches) +

@@ -31,7 +31,7 @@ RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--program", "--seed", "--pass", "--override"],
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
-            "import": ["FILE", "--map", "--out"], "judge": ["CASE", "REPORT"],
+            "import": ["FILE", "--map", "--out", "--certificate"], "judge": ["CASE", "REPORT"],
             "answer": ["FINDING", "TEXT", "--by"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],

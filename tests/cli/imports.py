@@ -162,6 +162,33 @@ class Import(Scratch):
         rows = deviations(3)
         self.check(self.file("x.log", stream(rows)), rows, 1000, "--map", self.file("map.toml", STREAM_MAP))
 
+    def test_each_kind_of_file_becomes_a_certificate_in_one_command(self):
+        rows, unit = deviations(9), {"mm": 1000, "deg": 3600}
+        averages = "Position   \tForward Directional Avg Error\n" + "".join(f"{t}\t{r[0] / 1000}\n" for t, r in zip(TARGETS, rows["forward"]))
+        averages += "Position   \tReverse Directional Avg Error\n" + "".join(f"{t}\t{r[0] / 1000}\n" for t, r in zip(TARGETS, rows["backward"]))
+        for name, text, more in (("a.rtl", rtl(rows), []), ("b.csv", table(rows), ["--map", self.file("t.toml", TABLE_MAP)]),
+                                 ("c.log", stream(rows), ["--map", self.file("s.toml", STREAM_MAP)]), ("d.pos", averages, [])):
+            with self.subTest(name):
+                path, papers = self.file(name, text), os.path.join(self.folder, name + "-papers")
+                told = json.loads(self.expect(0, "import", path, *more, "--certificate", papers, "--json").stdout)
+                with open(os.path.join(told["entry"], "certificate.json"), encoding="utf-8") as read:
+                    document = json.load(read)
+                self.assertTrue(os.path.exists(os.path.join(told["entry"], "certificate.pdf")))
+                if name == "d.pos":
+                    self.assertNotIn("A", document["parameters"])
+                    self.assertIn("A", document["not_evaluated"])
+                else:
+                    for figure, um in figures(rows["forward"], rows["backward"]).items():
+                        self.assertAlmostEqual(document["parameters"][figure]["value"] * unit[document["unit"]], um, delta=1e-9, msg=figure)
+                self.assertNotIn("expanded_uncertainty", document["parameters"]["E"])
+                with open(path, "rb") as data:
+                    self.assertEqual(document["run"]["imported"]["sha256"], hashlib.sha256(data.read()).hexdigest())
+                self.assertIn("Imported, readings by others", document["run"]["remarks"][0])
+                [run] = [f for f in os.listdir(papers) if f.endswith(".axiscal")]
+                self.assertTrue(run.startswith("imported-"))
+                self.expect(0, "verify", os.path.join(papers, run))
+                self.assertIn("exists already", self.expect(3, "import", path, *more, "--certificate", papers).stderr)
+
     def test_a_map_for_what_needs_one_and_no_file_is_overwritten(self):
         log = self.file("x.log", stream(deviations(4)))
         self.assertIn('a map of kind "stream"', self.expect(3, "import", log).stderr)

@@ -231,6 +231,13 @@ def scale(reference):
     return rows
 
 
+def imported(reference):
+    """The reference run, as if its readings were the deviations of another program."""
+    rows = with_synchronisation(read(reference))
+    put_behind(rows, "air", [("imported", ["X.rtl", "Laser10 text (.rtl, .rta)", "ab" * 32, "2026-11-21 10:00", "sorted"])])
+    return rows
+
+
 def probing(reference):
     """Six touches, nothing else."""
     rows = header_without_plan(reference, "probing")

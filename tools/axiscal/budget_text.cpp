@@ -64,7 +64,8 @@ void add_true_values(Json& summary, const TrueFigures& found_in, double factor) 
 }
 
 Json summary_of(const Certificate& certificate) {
-    Json summary = head_of(certificate.run.run_id, certificate.run.rotary ? "arcsec" : "um");
+    Json summary = head_of(certificate.run.run_id,
+                           certificate.run.plan.axis_kind == AxisKind::rotary ? "arcsec" : "um");
     summary["inputs"] = inputs_json(budget_inputs_of(certificate));
     add_missing(summary, certificate.uncertainty.missing);
     const auto& budget = certificate.uncertainty.budget;

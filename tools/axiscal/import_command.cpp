@@ -2,10 +2,12 @@
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "analysis/quantity/counted.hpp"
+#include "analysis/quantity/valid_text.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/analyze_case.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/imported_certificate.hpp"
 #include "tools/axiscal/imports/import_file.hpp"
 #include "tools/axiscal/offline_commands.hpp"
 #include "tools/axiscal/whole_file.hpp"
@@ -27,8 +29,13 @@ Result<std::optional<ImportMap>> map_in(const std::string& path) {
     return std::optional{std::move(map)};
 }
 
-/// What the figures were computed of can be found again by its hash.
-Result<ImportedFile> read_import(const std::string& path, const std::optional<ImportMap>& map) {
+/// A file, and by what it can be found again.
+struct ReadImport {
+    ImportedFile file;
+    ImportedReadings from;
+};
+
+Result<ReadImport> read_import(const std::string& path, const std::optional<ImportMap>& map) {
     AXISCAL_TRY(const std::string bytes, whole_file(path));
     auto file = import_file(bytes, map);
     if (!file) {
@@ -36,9 +43,13 @@ Result<ImportedFile> read_import(const std::string& path, const std::optional<Im
         error.field = path + (error.field.empty() ? "" : ", " + error.field);
         return tl::unexpected<Error>(std::move(error));
     }
-    file->document["source"] = std::filesystem::path{path}.filename().string() + ", " + file->form +
-                               ", SHA-256 " + sha256_hex(bytes);
-    return file;
+    ReadImport read{*std::move(file), {}};
+    read.from.file = valid_text(std::filesystem::path{path}.filename().string());
+    read.from.form = read.file.form;
+    read.from.sha256 = sha256_hex(bytes);
+    read.file.document["source"] =
+        read.from.file + ", " + read.from.form + ", SHA-256 " + read.from.sha256;
+    return read;
 }
 
 std::string text_about(const ImportedFile& file) {
@@ -96,24 +107,30 @@ int write_cases(const ImportedJson& cases, const std::string& out) {
 
 } // namespace
 
-int command_import(const ImportOrder& order) {
+int command_import(const ImportOrder& order, bool json) {
     const auto map = map_in(order.map);
     if (!map) return complain(map.error());
     ImportedJson cases = ImportedJson::array();
     for (const std::string& path : order.files) {
-        const auto file = read_import(path, *map);
-        if (!file) return complain(file.error());
-        cases.push_back(file->document);
+        const auto read = read_import(path, *map);
+        if (!read) return complain(read.error());
+        cases.push_back(read->file.document);
         if (!order.out.empty()) {
-            if (const auto told = tell_import(path, *file); !told) return complain(told.error());
+            if (const auto told = tell_import(path, read->file); !told)
+                return complain(told.error());
             continue;
         }
-        for (const std::string& remark : file->remarks)
+        for (const std::string& remark : read->file.remarks)
             std::cerr << path << ": " << remark << "\n";
+        if (order.certificate.empty()) continue;
+        if (const auto figures = first_figures(read->file.document); !figures)
+            return complain(figures.error());
+        const int code = certify_import(read->file, read->from, order.certificate, json);
+        if (code != exit_ok) return code;
     }
     const ImportedJson all = cases.size() == 1 ? cases.front() : cases;
     if (!order.out.empty()) return write_cases(all, order.out);
-    std::cout << json_text(all) << "\n" << std::flush;
+    if (order.certificate.empty()) std::cout << json_text(all) << "\n" << std::flush;
     return exit_ok;
 }
 

@@ -22,10 +22,12 @@ int command_case_new(const NewCaseOrder& order);
 
 struct ImportOrder {
     std::vector<std::string> files;
-    std::string map, out; ///< empty: none; standard output
+    std::string map, out;    ///< empty: none; standard output
+    std::string certificate; ///< folder for run file and certificate; empty: none
 };
-/// Files of other programs as cases (docs/import.md); overwrites nothing.
-int command_import(const ImportOrder& order);
+/// Files of other programs as cases, or as run files with their certificates (docs/import.md);
+/// overwrites nothing.
+int command_import(const ImportOrder& order, bool json);
 
 struct JudgeOrder {
     std::string document, report;

@@ -57,6 +57,10 @@ std::string about(const Certificate& certificate) {
     const auto or_unstated = [](const std::string& text) {
         return text.empty() ? std::string{"not stated"} : text;
     };
+    if (const auto& imported = certificate.run.imported)
+        return "Axis " + or_unstated(said.axis) + ", machine " + or_unstated(said.machine) +
+               ", imported from " + imported->file + ", measured " +
+               or_unstated(imported->measured);
     return "Axis " + or_unstated(said.axis) + ", machine " + or_unstated(said.machine) +
            ", measured from " + certificate.started_utc + " to " + certificate.finished_utc;
 }

@@ -24,10 +24,11 @@ void append_head(std::string& csv, const Certificate& certificate) {
     line("machine", run.statements.machine);
     line("machine_serial", run.statements.machine_serial);
     line("axis", run.statements.axis);
-    line("started", certificate.started_utc);
-    line("finished", certificate.finished_utc);
+    line("started", run.imported ? run.imported->measured : certificate.started_utc);
+    line("finished", run.imported ? run.imported->measured : certificate.finished_utc);
     line("standard", certificate.result.standard);
     if (run.scale) line("reference", "linear scale");
+    if (run.imported) line("imported", run.imported->file + ", SHA-256 " + run.imported->sha256);
     line("sign", "deviation = actual - target; B_mean = mean forward - mean backward");
     line("run_file_sha256", certificate.run_file_sha256);
     line("software_version", run.software_version);
@@ -177,7 +178,8 @@ void append_points(std::string& csv, const Certificate& certificate) {
                               csv_number(target), csv_number(target + deviation),
                               csv_number(deviation * deviation_factor), csv_number(around.air_degC),
                               csv_number(around.pressure_Pa), csv_number(around.humidity_percent),
-                              csv_number(around.material_degC), iso8601_utc(tie.utc_ns_at(at)),
+                              csv_number(around.material_degC),
+                              run.imported ? "" : iso8601_utc(tie.utc_ns_at(at)),
                               csv_number(synchronisation_error(certificate, point))});
     }
 }

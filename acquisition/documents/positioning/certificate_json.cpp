@@ -27,9 +27,11 @@ Json plan_of(const Certificate& certificate) {
     object["seed"] = stated_json(plan.seed);
     object["approaches"] = plan.approaches;
     object["bidirectional"] = plan.bidirectional;
-    object["overrun_mm"] = plan.overrun.in(mm);
-    object["near_tolerance_mm"] = plan.near_tolerance.in(mm);
-    object["datum_mm"] = plan.datum.in(mm);
+    const bool imported = certificate.run.imported.has_value(); // nobody stated these
+    object["overrun_mm"] = imported ? Json{} : Json(plan.overrun.in(mm));
+    object["near_tolerance_mm"] = imported ? Json{} : Json(plan.near_tolerance.in(mm));
+    object["datum_mm"] = imported ? Json{} : Json(plan.datum.in(mm));
+    if (imported) object["cycle"] = nullptr;
     return object;
 }
 
@@ -115,7 +117,16 @@ Json scale_of(const RunRecord& run) {
     return object;
 }
 
+Json imported_json(const ImportedReadings& imported) {
+    return {{"file", imported.file},
+            {"form", imported.form},
+            {"sha256", imported.sha256},
+            {"measured", stated_json(imported.measured)},
+            {"remark", stated_json(imported.remark)}};
+}
+
 Json setup_of(const RunRecord& run) {
+    if (run.imported) return {{"imported", imported_json(*run.imported)}};
     Json object = run.scale ? scale_of(run) : beam_of(run);
     object["material"]["expansion_per_K"] = run.material.coefficient.si();
     object["material"]["standard_uncertainty_per_K"] =
@@ -145,6 +156,7 @@ Json rotary_of(const std::optional<RotarySetup>& rotary) {
 
 Json datums_of(const RunRecord& run) {
     Json list = Json::array();
+    if (run.imported) return list; // its datum is none
     for (const DatumRecord& datum : run.datums) {
         Json object;
         object["id"] = datum.id;
@@ -211,8 +223,8 @@ Json run_of(const Certificate& certificate) {
     Json object;
     object["id"] = stated_json(run.run_id);
     object["station"] = stated_json(run.station);
-    object["started"] = stated_json(certificate.started_utc);
-    object["finished"] = stated_json(certificate.finished_utc);
+    object["started"] = run.imported ? Json{} : stated_json(certificate.started_utc);
+    object["finished"] = run.imported ? Json{} : stated_json(certificate.finished_utc);
     object["issued_on"] = stated_json(certificate.issued_on);
     object["next_calibration_due"] = stated_json(certificate.next_due);
     object["software_version"] = stated_json(run.software_version);
@@ -290,6 +302,12 @@ Json compensation_of(const Certificate& certificate) {
     Json object;
     object["state"] = provenance.substr(0, provenance.find(':'));
     object["reference_temperature_degC"] = reference_temperature.in_celsius();
+    if (certificate.run.imported) {
+        object["reference_temperature_degC"] = nullptr;
+        object["reference"] = "imported";
+        object["after"] = done.after;
+        return object;
+    }
     if (done.scale)
         add_scale_summary(object, *done.scale);
     else

@@ -170,7 +170,7 @@ std::string target_rule(const RunPlan& plan) {
 }
 
 std::string datum_text(const RunRecord& run) {
-    if (run.datums.empty()) return "not stated";
+    if (run.datums.empty() || run.imported) return "not stated";
     const DatumRecord& datum = run.datums.back();
     return coordinate_text(run.plan, datum.coordinate, 4) + ", id " + stated(datum.id);
 }
@@ -179,8 +179,14 @@ std::string approach_travel_text(const RunPlan& plan) {
     return plan.overrun > Length{} ? coordinate_text(plan, plan.overrun, 3) : "not stated";
 }
 
+std::string capture_tolerance_text(const RunPlan& plan) {
+    if (!(plan.near_tolerance > Length{})) return "not stated";
+    return "±" + coordinate_text(plan, plan.near_tolerance, 3);
+}
+
 /// The scale stands under the compensation.
 std::string beam_text(const RunRecord& run) {
+    if (run.imported) return "not stated: the readings are imported";
     if (run.scale) return "none: the reference is a linear scale";
     const LaserSetup& laser = run.laser;
     return fixed(laser.optical_fold, 0) + " passes, count " + (laser.sign > 0 ? "rises" : "falls") +
@@ -192,7 +198,9 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
     const Statements& said = run.statements;
     sheet.heading("Cycle and conditions");
     sheet.fields(
-        {{"Cycle", std::string{name_of(run.plan.cycle)} + ", pass: " + run.plan.pass},
+        {{"Cycle", run.imported
+                       ? "not stated"
+                       : std::string{name_of(run.plan.cycle)} + ", pass: " + run.plan.pass},
          {"Approaches n", std::to_string(run.plan.approaches) +
                               (run.plan.bidirectional ? " in each direction" : " forward")},
          {"Targets", target_rule(run.plan)},
@@ -200,7 +208,7 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
          {"Feed", stated(said.feed)},
          {"Dwell", stated(said.dwell)},
          {"Datum", datum_text(run)},
-         {"Capture tolerance", "±" + coordinate_text(run.plan, run.plan.near_tolerance, 3)},
+         {"Capture tolerance", capture_tolerance_text(run.plan)},
          {"Warm-up", stated(said.warm_up)},
          {"Offsets of the measuring line", stated(said.offsets)},
          {"Positions of idle axes", stated(said.idle_axes)},
@@ -212,6 +220,16 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
         2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
     sheet.text(synchronisation_text(certificate), {7, false, grey});
+}
+
+void draw_import(Sheet& sheet, const ImportedReadings& imported) {
+    sheet.heading("Imported, readings by others");
+    sheet.fields({{"File", imported.file},
+                  {"Form", imported.form},
+                  {"SHA-256 of the file", imported.sha256},
+                  {"Measured", stated(imported.measured)},
+                  {"Compensation", "as the other program made it; nothing was applied here"}},
+                 1);
 }
 
 } // namespace
@@ -226,7 +244,9 @@ void draw_condition_pages(Sheet& sheet,
     draw_environment_table(sheet, certificate);
     draw_calibrations(sheet, certificate.run.calibrations, certificate.run.channels,
                       run_date_of(certificate.run));
-    if (certificate.run.rotary) {
+    if (certificate.run.imported) {
+        draw_import(sheet, *certificate.run.imported);
+    } else if (certificate.run.rotary) {
         draw_angle(sheet, certificate);
     } else {
         sheet.heading("Compensation to 20 °C", 120);
@@ -238,7 +258,7 @@ void draw_condition_pages(Sheet& sheet,
         }
         draw_compensation_table(sheet, certificate);
     }
-    draw_uncertainty(sheet, certificate);
+    if (!certificate.run.imported) draw_uncertainty(sheet, certificate);
     draw_cycle(sheet, certificate);
     draw_alignment(sheet, certificate.attachments.alignment);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())

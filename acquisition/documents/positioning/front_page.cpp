@@ -29,29 +29,35 @@ std::string main_figure(const Certificate& certificate) {
 
 FrontAnswer answer_of(const Certificate& certificate) {
     const Statements& said = certificate.run.statements;
-    return {"Axis " + stated(said.axis) + ", " + machine_in_answer(said), certificate.issued_on,
+    // Of others' readings it is known when this paper was made, not when they were taken.
+    const std::string date = (certificate.run.imported ? "issued " : "") + certificate.issued_on;
+    return {"Axis " + stated(said.axis) + ", " + machine_in_answer(said), date,
             certificate.completeness.partial()
                 ? "PARTIAL: no verdict"
                 : verdict_on_paper(certificate.conformity, positioning_symbol),
             main_figure(certificate)};
 }
 
+/// The file of another program says nothing of it.
+std::string cycle_text(const RunRecord& run) {
+    return run.imported ? "cycle not stated" : std::string{name_of(run.plan.cycle)} + " cycle";
+}
+
 void draw_title(Sheet& sheet, const Certificate& certificate) {
     const bool bidirectional = !certificate.deviations.backward().empty();
     const RunPlan& plan = certificate.run.plan;
     const bool partial = certificate.completeness.partial();
-    draw_front_title(sheet,
-                     {partial ? "PARTIAL RESULT, no certificate" : "Calibration certificate",
-                      certificate.run.statements.state,
-                      (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
-                          std::string{" positioning, "} + certificate.result.standard +
-                          ", k = " + fixed(certificate.result.cover_factor, 0) + ": " +
-                          std::string{name_of(plan.cycle)} + " cycle, " +
-                          std::to_string(certificate.deviations.targets().size()) +
-                          " targets, n = " + std::to_string(certificate.result.approaches) +
-                          (certificate.result.approaches == 1 ? " approach" : " approaches") +
-                          (bidirectional ? " in each direction" : " in the forward direction only"),
-                      answer_of(certificate)});
+    draw_front_title(
+        sheet, {partial ? "PARTIAL RESULT, no certificate" : "Calibration certificate",
+                certificate.run.statements.state,
+                (plan.axis_kind == AxisKind::rotary ? "Rotary" : "Linear") +
+                    std::string{" positioning, "} + certificate.result.standard + ", k = " +
+                    fixed(certificate.result.cover_factor, 0) + ": " + cycle_text(certificate.run) +
+                    ", " + std::to_string(certificate.deviations.targets().size()) +
+                    " targets, n = " + std::to_string(certificate.result.approaches) +
+                    (certificate.result.approaches == 1 ? " approach" : " approaches") +
+                    (bidirectional ? " in each direction" : " in the forward direction only"),
+                answer_of(certificate)});
 }
 
 std::string axis_text(const Certificate& certificate) {
@@ -62,14 +68,18 @@ std::string axis_text(const Certificate& certificate) {
 }
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const Certificate& certificate) {
-    const std::string measured = measured_span(certificate.started_utc, certificate.finished_utc);
+    const auto& imported = certificate.run.imported;
+    const std::string measured =
+        imported ? stated(imported->measured)
+                 : measured_span(certificate.started_utc, certificate.finished_utc);
     auto fields = identity_fields(certificate.run.statements,
                                   {measured, certificate.issued_on, certificate.next_due});
     fields.push_back({"Axis", axis_text(certificate)});
     fields.push_back(
         certificate.run.rotary
             ? StatedField{"Run-out of the set-up", stated(certificate.run.rotary->run_out)}
-            : StatedField{"Reference temperature", "20 °C; all values hold there"});
+            : StatedField{"Reference temperature",
+                          imported ? "not stated" : "20 °C; all values hold there"});
     if (certificate.completeness.partial()) // they have no number, and nothing falls due
         std::erase_if(fields, [](const StatedField& field) {
             return field.key == "Certificate number" || field.key == "Next calibration due";
@@ -110,6 +120,7 @@ std::string uncertainty_head(const RunUncertainty& uncertainty) {
 void draw_uncertainty_notes(Sheet& sheet, const Certificate& certificate) {
     constexpr TextStyle warning{7.5, true, backward_vermilion};
     std::string missing, exceeded;
+    if (certificate.run.imported) return; // said above the figures
     for (const MissingTerm& term : certificate.uncertainty.missing)
         missing += (missing.empty() ? "" : "; ") + term.words;
     if (!missing.empty())
@@ -138,6 +149,9 @@ void draw_partial_notes(Sheet& sheet, const Certificate& certificate) {
     for (const std::string& words :
          remarks_on_completeness(certificate.run, certificate.completeness))
         sheet.text(words, {7.5, true, backward_vermilion});
+    if (const auto& imported = certificate.run.imported)
+        sheet.text("Imported, readings by others: " + imported->file + ". No U follows from them.",
+                   {7.5, true, backward_vermilion});
 }
 
 void draw_parameters(Sheet& sheet, const Certificate& certificate) {

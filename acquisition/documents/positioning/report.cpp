@@ -19,6 +19,7 @@ std::string preliminary_text(const Certificate& certificate) {
     if (readings.partial())
         return "PARTIAL: " + std::to_string(readings.used) + " of " +
                std::to_string(readings.expected) + " planned readings";
+    if (certificate.run.imported) return "IMPORTED, readings by others: no U";
     if (!certificate.preliminary) return {};
     if (!certificate.uncertainty.budget) return "PRELIMINARY: no uncertainty budget";
     std::string names;

@@ -197,6 +197,24 @@ TEST(RunFile, ChainsTheScaleThatMeasuredTheAxis) {
     }
 }
 
+TEST(RunFile, ChainsWhereImportedReadingsComeFrom) {
+    const ScratchFolder scratch;
+    RunRecord run = RandomRun{28}.header();
+    run.imported = ImportedReadings{"x.rtl", "Laser10 text", "ab12", "2026-11-21", "sorted"};
+    for (const std::string change :
+         {"UPDATE imported SET file = 'y.rtl'", "UPDATE imported SET form = 'table'",
+          "UPDATE imported SET sha256 = 'ab13'", "UPDATE imported SET measured = ''",
+          "UPDATE imported SET remark = ''", "DELETE FROM imported"}) {
+        const auto path = scratch.file(sha256_hex(change) + ".axiscal");
+        ASSERT_TRUE(RunFileWriter::create(path, run));
+        const auto read = read_run_file(path);
+        ASSERT_TRUE(read) << describe(read.error());
+        EXPECT_TRUE(same_bits(run.imported, read->imported));
+        run_sql(path, change);
+        EXPECT_FALSE(read_run_file(path)) << change;
+    }
+}
+
 TEST(RunFile, RefusesAFarRestInParts) {
     const ScratchFolder scratch;
     const auto path = scratch.file("r.axiscal");

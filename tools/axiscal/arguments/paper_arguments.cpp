@@ -16,6 +16,7 @@ constexpr const char* case_footer = R"(Example:
 The file holds an example with remarks; comma, semicolon or tab, decimal point or comma, UTF-8 or UTF-16.)";
 
 constexpr const char* import_footer = R"(Examples:
+  axiscal import X-axis.rtl --certificate papers
   axiscal import X-axis.rtl --out x.json
   axiscal import log.txt --map rig.toml --out x.json
   axiscal analyze x.json
@@ -62,14 +63,17 @@ for what chain, signature and receipt can show.)";
 
 void add_import(CLI::App& app, Options& options, Command& chosen) {
     auto* take = app.add_subcommand(
-        "import", "Files of other lasers and programs as cases for axiscal analyze");
+        "import", "Files of other lasers and programs, as cases or as certificates");
     take->add_option("FILE", options.foreign.files, "what the other program wrote")->required();
     take->add_option("--map", options.foreign.map,
                      "TOML file: which column, signal and unit is which");
-    take->add_option("--out", options.foreign.out,
-                     "file to be written; must not be there; default: standard output");
+    auto* out = take->add_option("--out", options.foreign.out,
+                                 "file to be written; must not be there; default: standard output");
+    take->add_option("--certificate", options.foreign.certificate,
+                     "folder: write a run file of the readings, and its certificate")
+        ->excludes(out);
     teach(*take, import_footer, {exit_ok, exit_failed, exit_usage, exit_refused});
-    take->callback([&] { chosen = [&] { return command_import(options.foreign); }; });
+    take->callback([&] { chosen = [&] { return command_import(options.foreign, options.json); }; });
 
     auto* judge = app.add_subcommand(
         "judge", "Does a report that somebody published follow from its own readings?");

@@ -118,11 +118,13 @@ private:
         for (int n = 0; n < 3; ++n)
             between(("Mat temp " + std::to_string(n + 1) + " ").c_str(),
                     channel(ChannelKind::temperature, Medium::material, n), 1, " 0");
+        if (run_.imported) return; // nothing of it is known
         const std::string alpha = fixed_point(run_.material.coefficient.si() * ppm, 6);
         line("Exp coeff  : " + alpha + " " + alpha + " 0");
     }
 
     [[nodiscard]] std::string date() const {
+        if (run_.imported) return run_.imported->measured;
         std::string text = certificate_.started_utc.substr(0, 19);
         std::ranges::replace(text, 'T', ' ');
         return text;
@@ -178,13 +180,13 @@ std::string readings_csv(const Certificate& certificate) {
                                certificate.set_aside.end();
         const auto k = static_cast<std::size_t>(point - run.points.begin());
         const double factor = rotary ? 3600 : 1000;
-        append_csv_line(csv,
-                        {std::to_string(planned.approach + 1),
-                         planned.direction == Direction::positive ? "+" : "-",
-                         csv_number(certificate.planned_targets.at(
-                             static_cast<std::size_t>(planned.target_index))),
-                         there ? csv_number(certificate.compensation.after.at(k) * factor) : "",
-                         there ? iso8601_utc(tie.utc_ns_at(point->window_end)) : ""});
+        append_csv_line(
+            csv, {std::to_string(planned.approach + 1),
+                  planned.direction == Direction::positive ? "+" : "-",
+                  csv_number(certificate.planned_targets.at(
+                      static_cast<std::size_t>(planned.target_index))),
+                  there ? csv_number(certificate.compensation.after.at(k) * factor) : "",
+                  there && !run.imported ? iso8601_utc(tie.utc_ns_at(point->window_end)) : ""});
     }
     return csv;
 }

@@ -21,7 +21,8 @@ as_case(std::string form, Result<LaserReadings> read, const std::optional<Import
     LaserReadings& readings = *read;
     AXISCAL_TRY(auto document, case_of_readings(readings));
     if (map && !map->axis.empty()) document["axis"]["name"] = map->axis;
-    return ImportedFile{std::move(form), std::move(document), std::move(readings.remarks)};
+    return ImportedFile{std::move(form), std::move(document), readings.only_backward,
+                        std::move(readings.remarks)};
 }
 
 /// What says itself which column is which.
@@ -41,7 +42,7 @@ Result<ImportedFile> own_table(const std::string& text, TableKind kind) {
             "is a table of both measurements of a workpiece: axiscal analyze takes it as it is");
     AXISCAL_TRY(const CaseTable table, read_table_text(text));
     AXISCAL_TRY(auto document, case_of_table(table, kind));
-    return ImportedFile{"table", std::move(document), {}};
+    return ImportedFile{"table", std::move(document), false, {}};
 }
 
 tl::unexpected<Error> refuse_unknown(const std::string& text) {

@@ -15,6 +15,7 @@ namespace axiscal {
 struct ImportedFile {
     std::string form; ///< "Laser10 text (.rtl, .rta)", "raw stream", "table"
     nlohmann::json document;
+    bool only_backward = false;       ///< a test from the far side
     std::vector<std::string> remarks; ///< what was taken although it is unusual
 };
 

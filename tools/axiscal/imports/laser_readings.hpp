@@ -26,6 +26,7 @@ struct LaserReadings {
     bool positions = false;                      ///< where the axis was; else deviations
     std::vector<double> targets;
     std::vector<LaserPass> passes;
+    bool only_backward = false;        ///< as case_of_readings() found it
     bool order_tells = true;           ///< passes are listed in the order in which they were driven
     bool says_both_directions = false; ///< the file's own flag, believed where no order tells
     /// What the file says of machine, place and air: "Machine" and so on, in its order.

@@ -127,6 +127,7 @@ Result<Json> case_of_readings(LaserReadings& readings) {
              {"targets", readings.targets}};
     out["forward"] = rows_of(readings, forward, up > 0);
     if (up > 0 && down > 0) out["backward"] = rows_of(readings, forward, false);
+    readings.only_backward = up == 0;
     if (up == 0)
         readings.remarks.emplace_back(
             "All runs go backward; they are taken as those of one direction.");
