@@ -14,6 +14,7 @@
 #include "drivers/gauge/ascii_gauge.hpp"
 #include "drivers/laser/laser_counter.hpp"
 #include "drivers/laser/laser_ids.hpp"
+#include "drivers/laser/laser_lasertex.hpp"
 #include "drivers/laser/laser_umd.hpp"
 
 #include <algorithm>
@@ -36,6 +37,8 @@ constexpr std::array drivers{
                      make_dracal_vcp, &dracal_vcp_appearance},
     InstrumentDriver{"ids3010", "attocube IDS3010 interferometer, JSON-RPC over TCP", make_ids,
                      &ids_appearance},
+    InstrumentDriver{"lasertex", "Lasertex HPI-3D / Status Pro uLine-f1 laser, serial frames",
+                     make_lasertex, &lasertex_appearance},
     InstrumentDriver{"counter", "laser or scale with A-quad-B on a counter of the Linux kernel",
                      make_counter, &counter_appearance},
     InstrumentDriver{"ds18b20", "DS18B20 contact thermometers, 1-Wire by the Linux kernel",

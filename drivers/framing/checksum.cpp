@@ -22,4 +22,14 @@ std::uint16_t crc16_modbus(std::span<const std::uint8_t> bytes) {
     return static_cast<std::uint16_t>(crc);
 }
 
+std::uint8_t crc8_nrsc5(std::span<const std::byte> bytes) {
+    unsigned crc = 0xFFu;
+    for (const std::byte byte : bytes) {
+        crc ^= std::to_integer<unsigned>(byte);
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 0x80u) != 0 ? (crc << 1) ^ 0x131u : crc << 1;
+    }
+    return static_cast<std::uint8_t>(crc);
+}
+
 } // namespace axiscal

@@ -159,7 +159,8 @@ void read_errors(Fields& f, ErrorScenario& errors) {
 }
 
 void read_laser(Fields& f, LaserScenario& laser) {
-    f.one_of("kind", laser.kind, {"umd0", "umd1", "umd2-homodyne", "umd2-heterodyne", "ids3010"});
+    f.one_of("kind", laser.kind,
+             {"umd0", "umd1", "umd2-homodyne", "umd2-heterodyne", "ids3010", "hpi-3d"});
     const bool homodyne = laser.kind == "umd0" || laser.kind == "umd2-homodyne";
     laser.counts_per_cycle = homodyne ? 4 : 1;
     laser.phase_bits = laser.kind == "umd1" ? 8 : 16;
@@ -181,8 +182,8 @@ void read_laser(Fields& f, LaserScenario& laser) {
     f.read("beam_radius_mm", laser.beam_radius_mm);
     if (laser.beam_radius_mm && !(*laser.beam_radius_mm > 0))
         f.refuse("beam_radius_mm", "must be above 0");
-    if (laser.beam_radius_mm && laser.kind != "ids3010")
-        f.refuse("beam_radius_mm", "needs ids3010: the other kinds tell no strength");
+    if (laser.beam_radius_mm && laser.kind != "ids3010" && laser.kind != "hpi-3d")
+        f.refuse("beam_radius_mm", "needs ids3010 or hpi-3d: the other kinds tell no strength");
     f.read("resolution_um", laser.resolution_um);
     f.read("scale_expansion_um_per_m_k", laser.scale_expansion_um_per_m_k);
     if (laser.resolution_um && !(*laser.resolution_um > 0))
@@ -233,7 +234,7 @@ void refuse_blind_autocollimator(Fields& f, const Scenario& s) {
     for (const SensorScenario& sensor : s.sensors) {
         if (sensor.kind != "elcomat") continue;
         if (!s.polygon) f.refuse("polygon", "is missing: \"elcomat\" has nothing to look at");
-        if (s.laser.path.empty() || s.laser.kind == "ids3010")
+        if (s.laser.path.empty() || s.laser.kind == "ids3010" || s.laser.kind == "hpi-3d")
             f.refuse("laser.path", "is missing: \"elcomat\" looks at the axis of a uMD's face");
     }
 }

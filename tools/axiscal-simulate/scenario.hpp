@@ -57,7 +57,8 @@ struct AirScenario {
 };
 
 struct LaserScenario {
-    std::string kind = "umd2-homodyne"; ///< umd0, umd1, umd2-homodyne, umd2-heterodyne, ids3010
+    std::string kind =
+        "umd2-homodyne"; ///< umd0, umd1, umd2-homodyne, umd2-heterodyne, ids3010, hpi-3d
     std::string path;
     double wavelength_nm = 632.991354;
     int fold = 2, counts_per_cycle = 4, phase_bits = 16, fields = 8;
@@ -66,10 +67,11 @@ struct LaserScenario {
     std::optional<double> rate_hz;
     bool partial_first_line = false;
     int port = 0;                 ///< ids3010: where it listens; 0 chooses
-    bool device_corrects = false; ///< ids3010: divides by the index of its environment unit
+    bool device_corrects = false; ///< ids3010, hpi-3d: divides by the index of its own sensors
     double beam_tilt_mrad = 0;    ///< how the beam is left at the start; `steer` turns it
-    double contrast_percent = 85; ///< ids3010: of the signal where the beam comes back upon itself
-    /// ids3010: 1/e^2 of the intensity; a beam that comes back beside itself has less contrast.
+    /// ids3010, hpi-3d: of the signal where the beam comes back upon itself
+    double contrast_percent = 85;
+    /// The same: 1/e^2 of the intensity; a beam that comes back beside itself has less contrast.
     /// Absent: it has not.
     std::optional<double> beam_radius_mm;
     /// A linear scale in its place, of a homodyne kind: one count; with it there is no beam.

@@ -44,6 +44,11 @@ Result<void> Simulator::open_faces() {
         AXISCAL_TRY(auto face, SimulatedIds::open(scenario_, clock_, drive));
         ids_ = face.get();
         sensors_.push_back(std::move(face));
+    } else if (scenario_.laser.kind == "hpi-3d") {
+        AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
+        auto face = std::make_unique<SimulatedHpi>(scenario_, std::move(pty), clock_, drive);
+        hpi_ = face.get();
+        sensors_.push_back(std::move(face));
     } else if (!scenario_.laser.path.empty()) {
         AXISCAL_TRY(Pty pty, Pty::open(scenario_.laser.path));
         const auto table = [this](double seconds) { return table_.position_mm(seconds); };
@@ -168,12 +173,19 @@ nlohmann::json Simulator::status() const {
     return status;
 }
 
+Result<void> Simulator::obey_hpi(const std::string& word, const std::string& state) {
+    if (word == "beam") return hpi_->set_beam(state == "on"), Result<void>{};
+    if (word == "restart-counter") return hpi_->restart(), Result<void>{};
+    return fail(Fault::bad_request, "an HPI-3D has no \"" + word + "\"");
+}
+
 Result<void> Simulator::obey_laser(const std::string& word, std::istream& arguments) {
-    if (!laser_) return fail(Fault::not_found, "this scenario has no laser");
+    if (!laser_ && hpi_ == nullptr) return fail(Fault::not_found, "this scenario has no laser");
     std::string state;
     if (word == "beam") arguments >> state;
     if (word == "beam" && state != "on" && state != "off")
         return fail(Fault::bad_request, "the beam is on or off");
+    if (hpi_ != nullptr) return obey_hpi(word, state);
     if (word == "beam") return laser_->set_beam(state == "on"), Result<void>{};
     if (word == "restart-counter") return laser_->restart_counter(), Result<void>{};
     int number = 0;
@@ -186,11 +198,13 @@ Result<void> Simulator::obey_laser(const std::string& word, std::istream& argume
 }
 
 Result<void> Simulator::obey_steer(std::istream& arguments) {
-    if (!laser_ && ids_ == nullptr) return fail(Fault::not_found, "this scenario has no laser");
+    if (!laser_ && ids_ == nullptr && hpi_ == nullptr)
+        return fail(Fault::not_found, "this scenario has no laser");
     double milliradians = 0;
     if (!(arguments >> milliradians)) return fail(Fault::bad_request, "steer needs milliradians");
     if (laser_) laser_->steer(milliradians * 1e-3);
     if (ids_ != nullptr) ids_->steer(milliradians * 1e-3);
+    if (hpi_ != nullptr) hpi_->steer(milliradians * 1e-3);
     return {};
 }
 

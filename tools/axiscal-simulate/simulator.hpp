@@ -5,6 +5,7 @@
 #include "cnc/cnc_runner.hpp"
 #include "wire/serial_cable.hpp"
 #include "wire/simulated_bar.hpp"
+#include "wire/simulated_hpi.hpp"
 #include "wire/simulated_ids.hpp"
 #include "wire/simulated_laser.hpp"
 
@@ -55,6 +56,7 @@ private:
     void feed_faces(const std::vector<double>& values, StreamFields fields);
     void feed_table(double position);
     Result<nlohmann::json> obey(const std::string& word, std::istream& arguments);
+    Result<void> obey_hpi(const std::string& word, const std::string& state);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
     Result<void> obey_steer(std::istream& arguments);
     Result<void> obey_bar(std::istream& arguments);
@@ -71,6 +73,7 @@ private:
     std::vector<std::unique_ptr<SimulatedDevice>> sensors_;
     SimulatedBar* bar_ = nullptr;        ///< one of them
     SimulatedIds* ids_ = nullptr;        ///< one of them: the laser in laser_'s place
+    SimulatedHpi* hpi_ = nullptr;        ///< the same
     std::unique_ptr<SerialCable> cable_; ///< RTU: between the daemon's port and the CNC's
     std::unique_ptr<CncExchange> exchange_;
     CncClient* client_ = nullptr; ///< exchange_, where it is a client

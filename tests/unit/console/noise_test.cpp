@@ -121,6 +121,10 @@ INSTANTIATE_TEST_SUITE_P(
              "link = \"tcp:127.0.0.1:9090\"\nfastest = \"1 m/s\"\nwavelength = \"1530 nm\"\nair = "
              "\"corrected here\"\n",
              {"{\"jsonrpc\":\"2.0\",\"id\":0,"}},
+        Wire{"lasertex",
+             "lasertex",
+             "link = \"serial:/dev/null\"\nposition = \"compensated\"\n",
+             {"\xAA\xB0\x15", "\xAA\xB0\x32"}},
         Wire{"vaisala",
              "vaisala",
              "link = \"serial:/dev/null\"\nmodel = \"ptu300\"\n",

@@ -142,6 +142,9 @@ INSTANTIATE_TEST_SUITE_P(
         Polled{"temper-serial", "temper-serial", serial, 110, 40 / root_3},
         // sends by itself every 500 ms
         Polled{"dracal-vcp-pth450", "dracal-vcp", serial, 500, 500 / root_3},
+        // sends by itself every 40 ms, and a USB frame
+        Polled{"lasertex-hpi-3d", "lasertex", serial + "position = \"compensated\"\n", 175,
+               41 / root_3},
         // 0 and 40 ms, less 18 characters of 11 bits at 9600 baud: up to 19.375 ms older
         Polled{"gauge-nd-28x", "ascii-gauge", serial + "model = \"nd-28x\"\n", 19.375,
                19.375 / root_3},

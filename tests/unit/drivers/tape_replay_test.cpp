@@ -113,6 +113,8 @@ const std::string line_keys = "link = \"serial:/dev/null\"\n";
 const std::string ids_keys = "link = \"tcp:192.168.1.1:9090\"\nair = \"corrected here\"\n"
                              "wavelength = \"1530 nm\"\nfastest = \"0.5 m/s\"\n"
                              "poll_period = \"100 ms\"\n";
+const std::string lasertex_keys =
+    line_keys + "position = \"raw\"\nwavelength = \"632.991354 nm\"\nfastest = \"0.5 m/s\"\n";
 /// Its value follows.
 const std::string model_keys = "link = \"serial:/dev/null\"\nmodel = ";
 
@@ -133,6 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
                       TapeCase{"gauge-elcomat", "ascii-gauge", model_keys + "\"elcomat-x\"\n"},
                       TapeCase{"ids3010", "ids3010", ids_keys},
                       TapeCase{"ids3010-corrects-twice", "ids3010", ids_keys},
+                      TapeCase{"lasertex-hpi-3d", "lasertex", lasertex_keys},
                       TapeCase{"vaisala-ptu300", "vaisala", model_keys + "\"ptu300\"\n"},
                       TapeCase{"vaisala-ptb330-poll", "vaisala",
                                model_keys + "\"ptb330\"\naddress = 1\n"
