@@ -2,6 +2,7 @@
 
 import bench
 from bench import expect, sentence
+from truth import compare, expect_found
 
 
 def by_hpi(b):
@@ -45,6 +46,21 @@ def hpi_fails(b):
         bench.wait_until("the laser is given up", lambda: b.instrument("laser")["state"] != "available", 30)
         b.sim("sensor laser on")
         bench.wait_until("the laser is back", b.channels_are_good, bench.START_S)
+
+
+@sentence("AxisByAnHpiLaserIsTheTruth")
+def hpi_run(b):
+    """It tells 25 positions a second: a still window is longer, and a gap of 80 ms about the end of an overrun
+    hides 0.05 mm of it."""
+    by_hpi(b)
+    b.station["capture"]["window"] = "1 s"
+    b.station["cycle"]["dwell"] = "1.2 s"
+    b.scenario["axis"]["acceleration_mm_per_s2"] = 60.0
+    b.scenario["truth"]["window_s"] = 1.0
+    b.begin_run()
+    certificate = b.finish()
+    expect(b.run()["step"] == 20, f"{b.run()}")
+    expect_found(compare(b.truth(), certificate))
 
 
 if __name__ == "__main__":
