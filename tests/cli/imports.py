@@ -4,12 +4,14 @@
 imports.py BIN_FOLDER SOURCE_FOLDER [SUITE]   writes only into scratch folders of its own
 """
 import hashlib
+import io
 import json
 import os
 import random
 import statistics
 import sys
 import unittest
+import zipfile
 
 import run_files
 from axiscal_cli import RUN, SOURCE, Scratch
@@ -118,6 +120,95 @@ backward = 2
 """
 
 
+COUNTS_PER_MM = 100_000
+
+
+def whole_counts(rows):
+    return {way: [[round(um, 2) for um in row] for row in found] for way, found in rows.items()}
+
+
+def umd_log(rows):
+    """200 Hz; the axis rests 1 s at each target, and passes the last one and the first one by 3 mm where it turns."""
+    lines, at_mm, number = ["", "Sample Frequency = 200.00 Hz", ""], -6.0, 4_000_000_000
+
+    def sample(position_mm):
+        nonlocal number
+        lines.append(f"D:{round((position_mm + 6) * COUNTS_PER_MM) + 123_456_789} N:{number}")
+        number = (number + 1) % 2**32
+
+    def go(to_mm):
+        nonlocal at_mm
+        while abs(to_mm - at_mm) > 0.4:
+            at_mm += 0.4 if to_mm > at_mm else -0.4
+            sample(at_mm)
+        at_mm = to_mm
+
+    def stand(samples):
+        for _ in range(samples):
+            sample(at_mm)
+
+    stand(200)
+    last = None
+    for run, target, way, um in passes(rows):
+        if run != last:
+            go(TARGETS[0] - 3 if way == "up" else TARGETS[-1] + 3)
+            last = run
+        go(TARGETS[target - 1] + um * 1e-3)
+        stand(200)
+    go(-6)
+    return "\r\n".join(lines) + "\r\n"
+
+
+UMD_MAP = """kind = "umd"
+axis = "X"
+[counts]
+wavelength = "640 nm"
+per_wavelength = 64
+index = 1
+[standstill]
+targets = [%s]
+cycle = "standard"
+approaches = 5
+bidirectional = true
+overrun = "2 mm"
+datum = "-6 mm"
+window = "0.5 s"
+spread_limit = "1 um"
+""" % ", ".join(f'"{target} mm"' for target in TARGETS)
+
+
+def workbook(rows, comma=False, **sheets):
+    """An .xlsx: the table of table(), numbers as numbers, deviations as texts with commas where they are wanted."""
+    relations = "http://schemas.openxmlformats.org/officeDocument/2006/relationships/"
+    texts = ["Lauf", "Soll", "Fehler", "Richtung", "up", "down"]
+
+    def cell(place, value):
+        if isinstance(value, str) and value in texts:
+            return f'<c r="{place}" t="s"><v>{texts.index(value)}</v></c>'
+        if isinstance(value, str):
+            return f'<c r="{place}" t="inlineStr"><is><t>{value}</t></is></c>'
+        return f'<c r="{place}"><f>{value}+0</f><v>{value!r}</v></c>'
+
+    table_rows = [("Maschine", "BAZ 4"), (), tuple(texts[:4])]
+    for run, target, way, um in passes(rows):
+        table_rows.append(((run + 1) // 2, TARGETS[target - 1], f"{um:.3f}".replace(".", ",") if comma else um, way))
+    inside = "".join(f'<row r="{i}">{"".join(cell("ABCD"[k] + str(i), v) for k, v in enumerate(row))}</row>'
+                     for i, row in enumerate(table_rows, 1))
+    parts = {"first": "<worksheet><sheetData>" + inside + "</sheetData></worksheet>", **sheets}
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as out:
+        out.writestr("_rels/.rels", f'<Relationships><Relationship Id="w" Type="{relations}officeDocument" Target="xl/workbook.xml"/></Relationships>')
+        out.writestr("xl/workbook.xml", '<workbook xmlns:r="r"><sheets>' + "".join(
+            f'<sheet name="{name}" sheetId="{i}" r:id="r{i}"/>' for i, name in enumerate(parts, 1)) + "</sheets></workbook>")
+        out.writestr("xl/_rels/workbook.xml.rels", "<Relationships>" + "".join(
+            f'<Relationship Id="r{i}" Type="{relations}worksheet" Target="worksheets/{i}.xml"/>' for i in range(1, len(parts) + 1))
+            + f'<Relationship Id="t" Type="{relations}sharedStrings" Target="sharedStrings.xml"/></Relationships>')
+        out.writestr("xl/sharedStrings.xml", "<sst>" + "".join(f"<si><t>{text}</t></si>" for text in texts) + "</sst>")
+        for i, xml in enumerate(parts.values(), 1):
+            out.writestr(f"xl/worksheets/{i}.xml", xml)
+    return data.getvalue()
+
+
 class Import(Scratch):
     def raw(self, name, data):
         path = os.path.join(self.folder, name)
@@ -162,12 +253,63 @@ class Import(Scratch):
         rows = deviations(3)
         self.check(self.file("x.log", stream(rows)), rows, 1000, "--map", self.file("map.toml", STREAM_MAP))
 
+    def test_a_log_of_the_umd(self):
+        rows = whole_counts(deviations(10))
+        log = self.file("x.log", umd_log(rows))
+        case = self.check(log, rows, 1000, "--map", self.file("map.toml", UMD_MAP))
+        self.assertEqual(case["targets"], TARGETS)
+        self.assertIn('a map of kind "umd"', self.expect(3, "import", log).stderr)
+        short = self.file("short.toml", UMD_MAP.replace('window = "0.5 s"', 'window = "2 s"'))
+        self.assertIn("does not stand where the file begins", self.expect(3, "import", log, "--map", short).stderr)
+        other = self.expect(3, "import", log, "--map", self.file("four.toml", UMD_MAP.replace("approaches = 5", "approaches = 4"))).stderr
+        self.assertRegex(other, r"line \d+\] the axis stands at target 1 \(0 mm\) after the last point of the plan")
+
+    def test_a_stream_without_triggers(self):
+        rows, lines, clock = whole_counts(deviations(11)), [], 0
+        for line in umd_log(rows).splitlines():
+            if line.startswith("D:"):
+                count = int(line.split()[0][2:]) - 123_456_789
+                lines.append(f"LASER 2026-04-06 10:{clock // 60_000_000:02d}:{clock // 1_000_000 % 60:02d}.{clock % 1_000_000:06d} {count}")
+                clock += 5000
+        standstill = UMD_MAP[UMD_MAP.index("[standstill]"):].replace('datum = "-6 mm"\n', "")
+        text = f'kind = "stream"\nunit = "mm"\n[reading]\nsignal = "LASER"\nscale = {1 / COUNTS_PER_MM}\noffset = -6\n{standstill}'
+        self.check(self.file("x.log", "\n".join(lines) + "\n"), rows, 1000, "--map", self.file("map.toml", text))
+
+    def test_a_workbook_gives_the_figures_of_its_table(self):
+        rows, map_file = deviations(12), self.file("map.toml", TABLE_MAP)
+        for name, comma in (("numbers", False), ("texts", True)):
+            with self.subTest(name):
+                book = self.raw(f"{name}.xlsx", workbook(rows, comma))
+                case = self.check(book, rows, 1, "--map", map_file)
+                os.remove(os.path.join(self.folder, "case.json"))
+                text = json.loads(self.expect(0, "import", self.file(f"{name}.csv", table(rows)), "--map", map_file).stdout)
+                for key in ("targets", "forward", "backward"):
+                    self.assertEqual(case[key], text[key])
+        book = self.raw("two.xlsx", workbook(rows, other="<worksheet><sheetData/></worksheet>"))
+        for sheet, words in (("other", "no cell with a value"), ("none", 'no sheet "none". It has: first, other')):
+            named = self.file(f"{sheet}.toml", f'sheet = "{sheet}"\n' + TABLE_MAP)
+            self.assertIn(words, self.expect(3, "import", book, "--map", named).stderr)
+        self.assertIn("--map", self.expect(3, "import", book).stderr)
+        self.assertIn("is a workbook", self.expect(3, "import", book, "--map", self.file("s.toml", STREAM_MAP)).stderr)
+
+    def test_a_workbook_that_cannot_be_read_says_what_can(self):
+        rows, map_file = deviations(13), self.file("map.toml", TABLE_MAP)
+        whole, old = workbook(rows), bytes.fromhex("d0cf11e0a1b11ae1") + bytes(512)
+        flood = workbook(rows, first="<worksheet>" + " " * (40 << 20) + "</worksheet>")
+        self.assertLess(len(flood), 1 << 20)
+        for name, data, words in (("old.xls", old, "save it as .xlsx or CSV"), ("flood.xlsx", flood, "unpacks to more than 32 MiB"),
+                                  ("secret.xlsx", old + "EncryptedPackage".encode("utf-16-le"), "without a password"),
+                                  ("half.xlsx", whole[:len(whole) // 2], "damaged ZIP")):
+            with self.subTest(name):
+                self.assertIn(words, self.expect(3, "import", self.raw(name, data), "--map", map_file).stderr)
+
     def test_each_kind_of_file_becomes_a_certificate_in_one_command(self):
-        rows, unit = deviations(9), {"mm": 1000, "deg": 3600}
+        rows, unit = whole_counts(deviations(9)), {"mm": 1000, "deg": 3600}
         averages = "Position   \tForward Directional Avg Error\n" + "".join(f"{t}\t{r[0] / 1000}\n" for t, r in zip(TARGETS, rows["forward"]))
         averages += "Position   \tReverse Directional Avg Error\n" + "".join(f"{t}\t{r[0] / 1000}\n" for t, r in zip(TARGETS, rows["backward"]))
         for name, text, more in (("a.rtl", rtl(rows), []), ("b.csv", table(rows), ["--map", self.file("t.toml", TABLE_MAP)]),
-                                 ("c.log", stream(rows), ["--map", self.file("s.toml", STREAM_MAP)]), ("d.pos", averages, [])):
+                                 ("c.log", stream(rows), ["--map", self.file("s.toml", STREAM_MAP)]), ("d.pos", averages, []),
+                                 ("e.umd", umd_log(rows), ["--map", self.file("u.toml", UMD_MAP)])):
             with self.subTest(name):
                 path, papers = self.file(name, text), os.path.join(self.folder, name + "-papers")
                 told = json.loads(self.expect(0, "import", path, *more, "--certificate", papers, "--json").stdout)

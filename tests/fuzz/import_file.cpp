@@ -39,6 +39,38 @@ forward = ["auf"]
 backward = ["ab"]
 )";
 
+/// 100 counts a millimetre.
+constexpr const char* umd_map_text = R"(kind = "umd"
+[counts]
+per_metre = 100_000
+rate_Hz = 10
+[standstill]
+targets = ["0 mm", "5 mm"]
+cycle = "standard"
+approaches = 1
+bidirectional = true
+overrun = "1 mm"
+datum = "-2 mm"
+window = "0.5 s"
+spread_limit = "20 um"
+minimum_samples = 3
+)";
+
+constexpr const char* standing_map = R"(kind = "stream"
+unit = "mm"
+[reading]
+signal = "R"
+[standstill]
+targets = ["0 mm", "5 mm"]
+cycle = "standard"
+approaches = 1
+bidirectional = false
+overrun = "1 mm"
+window = "0.5 s"
+spread_limit = "20 um"
+minimum_samples = 3
+)";
+
 void judge(std::string_view bytes, const std::optional<ImportMap>& map) {
     const auto file = import_file(bytes, map);
     if (!file) return fuzz::require(!file.error().detail.empty(), "a refusal has a reason");
@@ -51,9 +83,10 @@ void judge(std::string_view bytes, const std::optional<ImportMap>& map) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const std::array<std::optional<ImportMap>, 3> maps{
+    static const std::array<std::optional<ImportMap>, 5> maps{
         std::nullopt, import_map(stream_map, "stream.toml").value(),
-        import_map(table_map, "table.toml").value()};
+        import_map(table_map, "table.toml").value(), import_map(umd_map_text, "umd.toml").value(),
+        import_map(standing_map, "standing.toml").value()};
     const std::string_view bytes = fuzz::as_text(data, size);
     for (const auto& map : maps)
         judge(bytes, map);

@@ -20,7 +20,8 @@ constexpr const char* import_footer = R"(Examples:
   axiscal import X-axis.rtl --out x.json
   axiscal import log.txt --map rig.toml --out x.json
   axiscal analyze x.json
-Laser10 text (.rtl, .rta), API .pos, raw streams and tables; the last two by a map. See docs/import.md.)";
+Laser10 text (.rtl, .rta), API .pos; by a map raw streams, logs of the uMD, tables as text or .xlsx. See
+docs/import.md.)";
 
 constexpr const char* judge_footer = R"(Example:
   axiscal judge x.json report.json

@@ -8,6 +8,8 @@
 #include "tools/axiscal/imports/rtl_file.hpp"
 #include "tools/axiscal/imports/stream_file.hpp"
 #include "tools/axiscal/imports/table_file.hpp"
+#include "tools/axiscal/imports/umd_file.hpp"
+#include "tools/axiscal/imports/workbook.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -55,9 +57,47 @@ tl::unexpected<Error> refuse_unknown(const std::string& text) {
                       columns);
 }
 
+/// By the same rules as a table of text.
+Result<ImportedFile> import_workbook(std::string_view bytes, const std::optional<ImportMap>& map) {
+    const TableMap* const table = map ? std::get_if<TableMap>(&map->of) : nullptr;
+    if (map && table == nullptr)
+        return refuse(Fault::bad_case, "file",
+                      "is a workbook: a map of kind \"table\" says what its columns are (--map, "
+                      "docs/import.md)");
+    AXISCAL_TRY(const std::string text, sheet_text(bytes, table ? table->sheet : std::string{}));
+    if (map) return as_case("sheet of a workbook (.xlsx)", read_table(text, *map), map);
+    if (const auto kind = kind_of_table(text)) return own_table(text, *kind);
+    return refuse_unknown(text);
+}
+
+/// What only a map makes readings of.
+Result<ImportedFile> import_record(const std::string& text, const std::optional<ImportMap>& map) {
+    const bool stream = map && std::holds_alternative<StreamMap>(map->of);
+    const UmdMap* const umd = map ? std::get_if<UmdMap>(&map->of) : nullptr;
+    if (umd != nullptr && is_umd(text)) return as_case("uMD log", read_umd(text, *umd), map);
+    if (is_umd(text))
+        return refuse(Fault::bad_case, "file",
+                      "is a log of the uMD: a map of kind \"umd\" says what a count is, and where "
+                      "the axis was to stand (--map, docs/import.md)");
+    if (umd != nullptr)
+        return refuse(Fault::bad_case, "file",
+                      "is no log of the uMD, as the map says: it begins with \"Sample Frequency\", "
+                      "or with \"D:<count> N:<number>\"");
+    if (stream) return as_case("raw stream", read_stream(text, *map), map);
+    return refuse(Fault::bad_case, "file",
+                  "is a raw stream: a map of kind \"stream\" says which name is what (--map, "
+                  "docs/import.md)");
+}
+
+bool is_record(const std::string& text, const std::optional<ImportMap>& map) {
+    const bool by_map = map && !std::holds_alternative<TableMap>(map->of);
+    return by_map || is_stream(text) || is_umd(text);
+}
+
 } // namespace
 
 Result<ImportedFile> import_file(std::string_view bytes, const std::optional<ImportMap>& map) {
+    if (is_workbook(bytes)) return import_workbook(bytes, map);
     AXISCAL_TRY(const ForeignText read, foreign_text(bytes));
     const std::string& text = read.utf8;
     const auto begin = text.find_first_not_of(" \t\r\n");
@@ -66,12 +106,7 @@ Result<ImportedFile> import_file(std::string_view bytes, const std::optional<Imp
         return refuse(Fault::bad_case, "file", "is JSON: axiscal analyze takes a case as it is");
     if (is_rtl(text)) return known_form("Laser10 text (.rtl, .rta)", read_rtl(text), map);
     if (is_pos(text)) return known_form("API .pos", read_pos(text), map);
-    const bool stream = map && std::holds_alternative<StreamMap>(map->of);
-    if (is_stream(text) && !stream)
-        return refuse(Fault::bad_case, "file",
-                      "is a raw stream: a map of kind \"stream\" says which name is what (--map, "
-                      "docs/import.md)");
-    if (stream) return as_case("raw stream", read_stream(text, *map), map);
+    if (is_record(text, map)) return import_record(text, map);
     if (map) return as_case("table", read_table(text, *map), map);
     if (const auto kind = kind_of_table(text)) return own_table(text, *kind);
     return refuse_unknown(text);

@@ -1,8 +1,10 @@
 #include "tools/axiscal/imports/import_map.hpp"
 
 #include "config/settings.hpp"
+#include "tools/axiscal/imports/standstill_map.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace axiscal {
@@ -18,6 +20,7 @@ std::string name_in(Settings& table, const char* key) {
 
 TableMap table_map(Settings root) {
     TableMap map;
+    map.sheet = root.text("sheet", "");
     Settings columns = root.table("columns");
     map.target = name_in(columns, "target");
     if (columns.has("forward")) {
@@ -42,13 +45,6 @@ void read_window(Settings& reading, StreamMap& map) {
     constexpr Duration longest = std::chrono::hours{1};
     map.before = reading.duration("before", Duration{}, longest);
     map.after = reading.duration("after", Duration{}, longest, Duration{});
-}
-
-/// Millimetres, or degrees, of one unit of the targets.
-double millimetres_in(const std::string& unit) {
-    if (unit == "um") return 1e-3;
-    if (unit == "m") return 1e3;
-    return unit == "arcsec" ? 1.0 / 3600 : 1;
 }
 
 void read_targets(Settings target, AxisKind kind, const std::string& unit, StreamMap& map) {
@@ -88,36 +84,67 @@ StreamMap stream_map(Settings root) {
     map.scale = reading.number("scale", -largest, largest, 1.0);
     map.offset = reading.number("offset", -largest, largest, 0.0);
     if (map.scale == 0) reading.refuse("scale", "must not be 0");
-    read_window(reading, map);
+    if (!root.has("standstill")) read_window(reading, map); // which has a window of its own
     return map;
 }
 
+enum class MapKind : std::uint8_t { table, stream, umd };
+
+MapKind kind_in(Settings& root) {
+    const std::string word = root.choice("kind", {"table", "stream", "umd"});
+    if (word == "umd") return MapKind::umd;
+    return word == "stream" ? MapKind::stream : MapKind::table;
+}
+
+/// Captures by a number that changes, or where the axis stands.
+StreamMap whole_stream_map(Settings root, AxisKind kind, const std::string& unit) {
+    StreamMap map = stream_map(root);
+    if (root.has("standstill")) {
+        map.stops = standstill_map(root.table("standstill"), kind);
+        return map;
+    }
+    read_targets(root.table("target"), kind, unit, map);
+    read_capture(root.table("capture"), map);
+    return map;
+}
+
+/// What readings and targets are measured in.
+void read_units(Settings& root, MapKind kind, ImportMap& map) {
+    const bool linear = map.kind == AxisKind::linear;
+    const std::vector<std::string> units = linear ? std::vector<std::string>{"mm", "um", "m"}
+                                                  : std::vector<std::string>{"deg", "arcsec"};
+    map.unit = root.choice("unit", units);
+    map.positions = kind == MapKind::stream ||
+                    root.choice("readings", {"positions", "deviations"}) == "positions";
+    map.target_unit = root.choice("target_unit", units, map.unit);
+    if (map.positions && map.target_unit != map.unit)
+        root.refuse("target_unit", "is not that of the readings, which are positions");
+}
+
 } // namespace
+
+double millimetres_in(const std::string& unit) {
+    if (unit == "um") return 1e-3;
+    if (unit == "m") return 1e3;
+    return unit == "arcsec" ? 1.0 / 3600 : 1;
+}
 
 Result<ImportMap> import_map(std::string text, std::string name) {
     AXISCAL_TRY(SettingsDocument document,
                 SettingsDocument::parse(std::move(text), std::move(name)));
     Settings root = document.root();
     ImportMap map;
-    const bool stream = root.choice("kind", {"table", "stream"}) == "stream";
+    const MapKind kind = kind_in(root);
     map.axis = root.text("axis", "");
     const bool linear = root.choice("axis_kind", {"linear", "rotary"}, "linear") == "linear";
     map.kind = linear ? AxisKind::linear : AxisKind::rotary;
-    const std::vector<std::string> units = linear ? std::vector<std::string>{"mm", "um", "m"}
-                                                  : std::vector<std::string>{"deg", "arcsec"};
-    map.unit = root.choice("unit", units);
-    map.positions = stream || root.choice("readings", {"positions", "deviations"}) == "positions";
-    map.target_unit = root.choice("target_unit", units, map.unit);
-    if (map.positions && map.target_unit != map.unit)
-        root.refuse("target_unit", "is not that of the readings, which are positions");
-    if (stream) {
-        StreamMap of = stream_map(root);
-        read_targets(root.table("target"), map.kind, map.unit, of);
-        read_capture(root.table("capture"), of);
-        map.of = std::move(of);
-    } else {
+    if (kind != MapKind::umd) read_units(root, kind, map); // counts have none
+    if (kind == MapKind::umd)
+        map.of = umd_map(root, map.kind);
+    else if (kind == MapKind::stream)
+        map.of = whole_stream_map(root, map.kind, map.unit);
+    else
         map.of = table_map(root);
-    }
     const auto refusals = document.finish();
     if (!refusals.empty()) return fail(Fault::bad_configuration, refusals.front().describe());
     return map;

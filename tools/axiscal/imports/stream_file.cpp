@@ -3,6 +3,7 @@
 #include "analysis/quantity/counted.hpp"
 #include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/imports/passes.hpp"
+#include "tools/axiscal/imports/standstills.hpp"
 #include "tools/axiscal/imports/text_lines.hpp"
 
 #include <algorithm>
@@ -258,6 +259,41 @@ private:
     std::map<int, double> target_of_position_;
 };
 
+/// The axis as its instrument saw it; times count from the first value.
+Result<std::vector<AxisSample>> axis_samples(const std::vector<Value>& values,
+                                             const ImportMap& map) {
+    const StreamMap& of = std::get<StreamMap>(map.of);
+    constexpr std::int64_t longest_us = std::int64_t{100} * 86'400 * 1'000'000; // no test lasts so
+    const std::int64_t first_us = values.front().at_us;
+    if (values.back().at_us - first_us > longest_us)
+        return refuse(Fault::bad_case, "file",
+                      "has values of " + of.reading + " over more than 100 days: cut out the test");
+    const double millimetres = millimetres_in(map.unit);
+    std::vector<AxisSample> samples;
+    samples.reserve(values.size());
+    for (const Value& value : values)
+        samples.push_back({monotonic_from_ns((value.at_us - first_us) * 1000),
+                           mm((of.scale * value.value + of.offset) * millimetres).si(), 0,
+                           value.line});
+    return samples;
+}
+
+Result<LaserReadings> readings_at_captures(const Signals& signals, const ImportMap& map) {
+    AXISCAL_TRY(const auto captures, Stream(signals, std::get<StreamMap>(map.of)).captures());
+    LaserReadings out;
+    out.kind = map.kind;
+    out.unit = out.target_unit = map.unit;
+    out.positions = true;
+    AXISCAL_CHECK(add_passes(captures, out));
+    return out;
+}
+
+Result<LaserReadings> readings_where_it_stands(const Signals& signals, const ImportMap& map) {
+    const StreamMap& of = std::get<StreamMap>(map.of);
+    AXISCAL_TRY(const auto samples, axis_samples(signals.of.find(of.reading)->second, map));
+    return readings_of_standstills(samples, *of.stops);
+}
+
 } // namespace
 
 bool is_stream(std::string_view utf8) {
@@ -267,12 +303,8 @@ bool is_stream(std::string_view utf8) {
 Result<LaserReadings> read_stream(std::string_view utf8, const ImportMap& map) {
     const StreamMap& of = std::get<StreamMap>(map.of);
     AXISCAL_TRY(const Signals signals, signals_of(utf8, of));
-    AXISCAL_TRY(const auto captures, Stream(signals, of).captures());
-    LaserReadings out;
-    out.kind = map.kind;
-    out.unit = out.target_unit = map.unit;
-    out.positions = true;
-    AXISCAL_CHECK(add_passes(captures, out));
+    AXISCAL_TRY(LaserReadings out, of.stops ? readings_where_it_stands(signals, map)
+                                            : readings_at_captures(signals, map));
     if (signals.alarms > 0)
         out.remarks.push_back(counted(signals.alarms, "value") +
                               " of the stream had an alarm and were taken all the same.");

@@ -17,7 +17,8 @@ bool is_stream(std::string_view utf8);
 /// over. Each change of the capture's number to another one than 0 is a capture: the last value
 /// before it, or the mean of the values within the window about it. Captures of one direction and
 /// cycle are a pass; where the number does not tell, a pass ends where the targets turn or come
-/// again.
+/// again. Where the map has no capture but standstills, the readings are found where the axis
+/// stands (standstills.hpp).
 /// @errors Fault::bad_case with "line N": what is no such line, a number of a capture that does not
 /// fit the digits of the map, two targets for one position, a value that is not valid (severity
 /// INVALID), a target twice in a pass, a capture without a value; "file": a name that is not there.
