@@ -217,6 +217,7 @@ void Station::on_trigger(const TriggerEvent& event) {
         return;
     }
     if (machine_) return feed_with_air(event);
+    if (repeats_last_of_circles(event)) return publish_done(event.sequence, false);
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
     // that ended with the last daemon: then it is told why.

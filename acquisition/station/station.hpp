@@ -221,6 +221,8 @@ private:
     Task<void>
     commit_circle(TriggerEvent event, std::uint16_t sequence, std::string sentence, bool last);
     void end_circular(Close close);
+    /// The answer to its last request was lost, and the test is closed by now.
+    [[nodiscard]] bool repeats_last_of_circles(const TriggerEvent& event) const;
     [[nodiscard]] RunStatus circular_status() const;
 
     // station_circular_resume.cpp: a test that was open when the last daemon ended

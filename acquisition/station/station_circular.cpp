@@ -221,6 +221,11 @@ void Station::end_circular(Close close) {
     perform(std::move(close));
 }
 
+bool Station::repeats_last_of_circles(const TriggerEvent& event) const {
+    return circular_ && run_ && run_->outcome && run_->outcome->complete && last_receipt_ &&
+           event.command == TriggerCommand::capture && last_receipt_->sequence() == event.sequence;
+}
+
 std::optional<StreamView> Station::stream(std::size_t most) const {
     if (!circular_ || !run_ || !roles_.ballbar) return std::nullopt;
     const StationChannel& bar = channel_of(*roles_.ballbar);

@@ -44,6 +44,11 @@ Task<Result<RunSummary>> Station::newest_closed_run() {
                        "the last run, " + newest.run_id + ", was " +
                            (newest.closed ? "closed as incomplete" : "left open") +
                            ": arm a new one");
+    if (newest.kind == TestKind::drift)
+        co_return fail(Fault::no_run_armed,
+                       "the last test, " + newest.run_id +
+                           ", is a drift test of an earlier start: a run before it cannot be added "
+                           "to, arm a new one");
     if (newest.kind == TestKind::circular)
         co_return fail(Fault::no_run_armed,
                        "the last run, " + newest.run_id +

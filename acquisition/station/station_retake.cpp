@@ -12,6 +12,9 @@
 
 namespace axiscal {
 Result<void> Station::run_may_be_revised() const {
+    if (run_ && circular_)
+        return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
+                                         "again");
     if (!run_ || !machine_) return fail(Fault::no_run_armed, "there is no run to add to");
     if (waiting_for_disk_)
         return fail(Fault::not_durable, "the disk cannot store the records of the run yet; "
@@ -22,9 +25,6 @@ Result<void> Station::run_may_be_revised() const {
                     "tell what it holds of it: 'axiscal verify " +
                         run_->path + "' says why");
     if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
-    if (circular_)
-        return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
-                                         "again");
     if (drift_open()) return fail(Fault::busy, "a drift test is going on; let it end");
     if (run_->closing) return fail(Fault::busy, "the run is being closed; ask again");
     return {};

@@ -66,8 +66,8 @@ constexpr std::array rows{
     FaultRow{Fault::stale, no_own_code, "stale", "The value is older than its limit."},
     FaultRow{
         Fault::environment_outside, 4, "environment_outside",
-        "Air or machine is outside the limits of the station file: wait until it is back, or mend "
-        "what drives it."},
+        "Air or machine is outside the limits of the station file: wait until each value is within "
+        "its limits again, or remove the cause."},
     FaultRow{Fault::bad_configuration, no_own_code, "bad_configuration",
              "The configuration is refused."},
     FaultRow{Fault::bad_request, no_own_code, "bad_request", "The request is refused."},
@@ -75,8 +75,8 @@ constexpr std::array rows{
     FaultRow{Fault::bad_run_file, no_own_code, "bad_run_file", "The run file cannot be read."},
     FaultRow{Fault::incomplete_run, no_own_code, "incomplete_run", "The run is not complete."},
     FaultRow{Fault::sequence_lost, 11, "sequence_lost",
-             "After a restart the CNC stands at another request than the run: the run is closed as "
-             "incomplete."},
+             "The CNC stands at another request than the test expects: one was missed, came late, "
+             "or was lost in a restart."},
     FaultRow{Fault::busy, no_own_code, "busy", "The station is busy with another run."},
     FaultRow{Fault::refused, no_own_code, "refused", "This is not allowed here."},
     FaultRow{Fault::not_found, no_own_code, "not_found", "Not found."},
