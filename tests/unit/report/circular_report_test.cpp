@@ -4,6 +4,7 @@
 #include "acquisition/documents/circular/circular_wording.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_circular.hpp"
+#include "upper_third.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,6 +92,21 @@ TEST_F(CircularReport, HoldsEveryFigureWithItsU) {
     EXPECT_EQ(occurrences(page, "PRELIMINARY"), 0);
     EXPECT_THAT(page, HasSubstr(std::string(64, 'a')));
     EXPECT_THAT(page, HasSubstr("Calibration certificate"));
+}
+
+TEST_F(CircularReport, AnswersInTheUpperThirdOfPageOne) {
+    CircularRun run = circular_run();
+    run.tolerances = ToleranceRecord{"acceptance",          "order 17", "um",
+                                     DecisionRule::guard_U, false,      {{"G_b", {}, 0.1}}};
+    const CircularCertificate certificate = circular_certificate(std::move(run));
+    const auto lines = figure_lines(certificate);
+    const auto line = std::ranges::find(lines, "G_b", &CircularFigureLine::key);
+    ASSERT_NE(line, lines.end());
+    const std::string value = micrometres(line->value_mm, deviation_decimals(certificate));
+    EXPECT_THAT(test::missing_above(render(certificate), folder_,
+                                    {"Plane XY", certificate.measured.run.statements.machine,
+                                     "2026-01-01", "FAIL", value}),
+                IsEmpty());
 }
 
 TEST_F(CircularReport, StatesTheMagnificationOfEveryPlot) {

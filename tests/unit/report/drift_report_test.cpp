@@ -5,6 +5,7 @@
 #include "analysis/air/air_refraction.hpp"
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
+#include "upper_third.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -145,6 +146,17 @@ TEST_F(DriftReport, PrintsTheCreepThatWasPutInAndWhoMeasuredWhat) {
     EXPECT_THAT(text, HasSubstr(std::string(64, 'a')));
     EXPECT_THAT(text, HasSubstr(std::string(64, 'd')));
     EXPECT_THAT(text, Not(HasSubstr("PRELIMINARY")));
+}
+
+TEST_F(DriftReport, AnswersInTheUpperThirdOfPageOne) {
+    DriftResult document = document_of(creeping(steady_creep_um));
+    const ToleranceRecord agreed{"acceptance",         "order 17", "um",
+                                 DecisionRule::simple, false,      {{"E_VE", {}, 5}}};
+    document.conformity = conformity_of(agreed, {{"E_VE", document.drift.eve.range, {}, 2}}, "um");
+    EXPECT_THAT(test::missing_above(render(document), folder_,
+                                    {"axis X", "Machining centre MC-800", "2026-01-01",
+                                     "FAIL: E_VE", "E_VE = 6.00"}),
+                IsEmpty());
 }
 
 TEST_F(DriftReport, ShowsEveryChannelWithItsRangeInTheUnitOfPaper) {

@@ -6,6 +6,7 @@
 #include "pdf_tools.hpp"
 #include "synthetic_certificate.hpp"
 #include "tests/unit/documents/probed_block.hpp"
+#include "upper_third.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -107,6 +108,19 @@ TEST_F(ProbingReport, PrintsEachFigureOfTheDelaysThatArePutIn) {
     for (const char* symbol : {"E_TD,X", "E_TD,Y", "E_TD,Z"}) // table, saw-tooth, plot
         EXPECT_EQ(occurrences(text, symbol), symbol == std::string{"E_TD,Y"} ? 4 : 3)
             << symbol << "; the largest also below the title";
+}
+
+TEST_F(ProbingReport, AnswersInTheUpperThirdOfPageOne) {
+    ProbingResult document = document_of(test::probed_block());
+    const ToleranceRecord agreed{"acceptance",         "order 17", "um",
+                                 DecisionRule::simple, false,      {{"E_TD,X", {}, 1000}}};
+    const auto x = std::ranges::find(document.results, "E_TD,X", &ProbingDelay::symbol);
+    ASSERT_NE(x, document.results.end());
+    document.conformity = conformity_of(agreed, {{"E_TD,X", x->variation_mm, {}, 2}}, "mm");
+    EXPECT_THAT(test::missing_above(
+                    render(document), folder_,
+                    {"Probe", "Machining centre MC-800", "2026-01-01", "PASS", "E_TD,Y = 40.00"}),
+                IsEmpty());
 }
 
 TEST_F(ProbingReport, TellsTheServoTickAndTheSawToothThatItMakes) {

@@ -5,6 +5,7 @@
 #include "tests/unit/analysis/linear_scale_run.hpp"
 #include "tests/unit/analysis/rotary_truth.hpp"
 #include "tests/unit/analysis/stated_uncertainty.hpp"
+#include "upper_third.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,6 +137,16 @@ protected:
     }
     ScratchFolder folder_;
 };
+
+TEST_F(Report, OfImportedReadingsClaimsNoTraceability) {
+    RunRecord run = test::synthetic_run();
+    run.instruments.clear();
+    run.imported = ImportedReadings{"x.rtl", "Laser10 text", std::string(64, 'a'), "", ""};
+    const std::string text = close_set(test::text_of(render(run)));
+    EXPECT_THAT(text, HasSubstr("Instruments: not stated"));
+    EXPECT_THAT(text, HasSubstr("Traceability: not stated"));
+    EXPECT_THAT(text, Not(HasSubstr("instruments named above")));
+}
 
 TEST_F(Report, OfALinearScaleNamesItAndSaysNothingOfAir) {
     RunRecord run = test::run_by_scale({});
@@ -349,6 +360,19 @@ RunRecord rotary_run() {
     run.instruments = test::synthetic_instruments();
     run.instruments.push_back({"indexing table", "none", "", "1440", "T-7", "", "W-12", "", ""});
     return run;
+}
+
+TEST_F(Report, OfARotaryAxisAnswersInTheUpperThirdOfPageOne) {
+    RunRecord run = rotary_run();
+    run.tolerances = ToleranceRecord{"acceptance",         "order 17", "arcsec",
+                                     DecisionRule::simple, false,      {{"A", {}, 0.01}}};
+    const Certificate certificate = test::certificate_of(run);
+    const std::string value =
+        paper_units_of(certificate).of_deviation(certificate.result.parameters.A);
+    EXPECT_THAT(test::missing_above(render(run), folder_,
+                                    {"Axis C", "Machining centre MC-800", certificate.issued_on,
+                                     "FAIL: A", "A = " + value}),
+                IsEmpty());
 }
 
 TEST_F(Report, OfARotaryAxisIsInDegreesAndSecondsOfArc) {
