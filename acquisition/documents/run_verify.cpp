@@ -33,6 +33,7 @@ constexpr std::array repeated_places{"/standard",
                                      "/run/bar",
                                      "/run/config_sha256",
                                      "/run/datums",
+                                     "/run/imported",
                                      "/run/result_digest",
                                      "/run/run_file_sha256"};
 
@@ -170,6 +171,8 @@ Result<VerifyReport> verify_run(const std::string& run_file, const VerifyAgainst
         report.no_figures = state_text(report.chain);
     } else if (auto made = evaluate_run_file(run_file)) {
         right = *std::move(made);
+        if (const auto* positioning = std::get_if<Certificate>(&*right))
+            report.imported = positioning->run.imported;
         report.result_digest = digest_of(*right);
     } else if (const auto stored = read_stored_result(run_file)) {
         report.wrong_result = describe(made.error());
@@ -199,6 +202,7 @@ nlohmann::ordered_json to_json(const VerifyReport& report) {
     document["result_digest"] = report.result_digest.empty() ? Json{} : Json(report.result_digest);
     document["no_figures"] = report.no_figures ? Json(*report.no_figures) : Json{};
     document["wrong_result"] = report.wrong_result ? Json(*report.wrong_result) : Json{};
+    document["imported"] = report.imported.has_value();
     document["certificate"] = report.certificate.empty() ? Json{} : Json(report.certificate);
     document["certificate_findings"] = Json::array();
     for (const auto& [place, sentence] : report.certificate_findings)
@@ -240,6 +244,9 @@ std::string to_text(const VerifyReport& report) {
         line(report.certificate + " does NOT say what the run file gives.");
     line(report.run_file + ": " + std::to_string(report.chain.links) +
          " rows, each as it was written; " + state_text(report.chain) + ".");
+    if (report.imported)
+        line("  imported, readings by others: " + report.imported->file + ", SHA-256 " +
+             report.imported->sha256 + "; no station measured them");
     line("  chain   " + report.chain.chain_head);
     line("  file    " + report.file_sha256);
     line(report.result_digest.empty() ? "  figures none: " + report.no_figures.value_or("")

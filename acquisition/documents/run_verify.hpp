@@ -4,6 +4,7 @@
 
 #include "acquisition/runfile/run_file_verify.hpp"
 #include "acquisition/runfile/run_signature.hpp"
+#include "analysis/record/imported_readings.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,7 @@ struct VerifyReport {
     std::string result_digest;               ///< computed now; empty where there are no figures
     std::optional<std::string> no_figures;   ///< why none could be computed
     std::optional<std::string> wrong_result; ///< the stored result is not what is computed now
+    std::optional<ImportedReadings> imported; ///< where its figures come from, if not from here
     std::string certificate;                 ///< path; empty: none was held against the run
     std::vector<CertificateFinding> certificate_findings;
     SignatureReport signature;

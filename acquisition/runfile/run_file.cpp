@@ -111,7 +111,8 @@ Result<RunFileWriter> RunFileWriter::create(const std::string& path,
                                             const RunRecord& header,
                                             const RunAttachments& attachments) {
     const std::string unfinished = path + ".new";
-    if (std::filesystem::exists(path))
+    std::error_code cannot_look; // then it cannot be written either, which tells why
+    if (std::filesystem::exists(path, cannot_look))
         return fail(Fault::refused, path + " exists already: a run file is never overwritten");
     if (auto made = write_synced(unfinished, ""); !made)
         return tl::unexpected<Error>(as_not_durable(made.error()));

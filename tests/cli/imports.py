@@ -8,13 +8,16 @@ import io
 import json
 import os
 import random
+import resource
+import signal
 import statistics
+import subprocess
 import sys
 import unittest
 import zipfile
 
 import run_files
-from axiscal_cli import RUN, SOURCE, Scratch
+from axiscal_cli import BIN, RUN, SOURCE, Scratch
 
 TARGETS = [0.0, 47.5, 101.25, 150.0, 204.75]
 CYCLES = 5
@@ -322,13 +325,21 @@ class Import(Scratch):
                 else:
                     for figure, um in figures(rows["forward"], rows["backward"]).items():
                         self.assertAlmostEqual(document["parameters"][figure]["value"] * unit[document["unit"]], um, delta=1e-9, msg=figure)
+                if more:
+                    with open(more[1], "rb") as data:
+                        self.assertIn(f"by the map {os.path.basename(more[1])}, SHA-256 {hashlib.sha256(data.read()).hexdigest()}.",
+                                      document["run"]["remarks"][0])
                 self.assertNotIn("expanded_uncertainty", document["parameters"]["E"])
                 with open(path, "rb") as data:
                     self.assertEqual(document["run"]["imported"]["sha256"], hashlib.sha256(data.read()).hexdigest())
                 self.assertIn("Imported, readings by others", document["run"]["remarks"][0])
                 [run] = [f for f in os.listdir(papers) if f.endswith(".axiscal")]
                 self.assertTrue(run.startswith("imported-"))
-                self.expect(0, "verify", os.path.join(papers, run))
+                self.assertIn("imported, readings by others", self.expect(0, "verify", os.path.join(papers, run)).stdout)
+                self.assertTrue(json.loads(self.expect(0, "verify", os.path.join(papers, run), "--json").stdout)["imported"])
+                del document["run"]["imported"]
+                own = self.file(name + "-own.json", json.dumps(document))
+                self.assertIn("/run/imported says null", self.expect(8, "verify", os.path.join(papers, run), "--certificate", own).stdout)
                 self.assertIn("exists already", self.expect(3, "import", path, *more, "--certificate", papers).stderr)
 
     def test_a_map_for_what_needs_one_and_no_file_is_overwritten(self):
@@ -341,6 +352,27 @@ class Import(Scratch):
         self.expect(1, "import", os.path.join(self.folder, "none.rtl"))
         broken = self.expect(3, "import", self.file("b.rtl", rtl(deviations(5))[:200])).stderr
         self.assertIn("has no section", broken)
+
+    def test_a_run_file_that_does_not_fit_on_the_disk_is_not_left_half_written(self):
+        """A file may not grow beyond a limit: in steps of a page from below the header to beyond the whole run file."""
+        source, whole = self.file("x.rtl", rtl(deviations(14))), os.path.join(self.folder, "whole")
+        self.expect(0, "import", source, "--certificate", whole)
+        [run] = [f for f in os.listdir(whole) if f.endswith(".axiscal")]
+        size, failed = os.path.getsize(os.path.join(whole, run)), 0
+        for limit in (4096, *range(size - 10 * 4096, size + 1, 2048)):
+            papers = os.path.join(self.folder, str(limit))
+
+            def small_files(limit=limit):
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+            told = subprocess.run([os.path.join(BIN, "axiscal"), "import", source, "--certificate", papers], capture_output=True,
+                                  text=True, timeout=60, check=False, preexec_fn=small_files)
+            if told.returncode != 0 and "The readings lie in" not in told.stderr:
+                failed += 1
+                self.assertEqual(told.returncode, 1, told.stderr)
+                self.assertEqual(os.listdir(papers), [], (limit, told.stderr))
+        self.assertGreater(failed, 1)
 
     def test_two_files_are_two_cases(self):
         one, two = self.file("a.rtl", rtl(deviations(6))), self.file("b.rtl", rtl(deviations(7)))

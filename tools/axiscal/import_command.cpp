@@ -22,11 +22,20 @@ namespace {
 
 using ImportedJson = nlohmann::json;
 
-Result<std::optional<ImportMap>> map_in(const std::string& path) {
-    if (path.empty()) return std::optional<ImportMap>{};
+/// What the map says, and by what it can be found again: figures follow from file and map.
+struct ReadMap {
+    std::optional<ImportMap> map;
+    std::string words; ///< "by the map rig.toml, SHA-256 ..."; empty: there is none
+};
+
+Result<ReadMap> map_in(const std::string& path) {
+    if (path.empty()) return ReadMap{};
     AXISCAL_TRY(std::string text, whole_file(path));
-    AXISCAL_TRY(ImportMap map, import_map(std::move(text), path));
-    return std::optional{std::move(map)};
+    ReadMap read;
+    read.words = "by the map " + valid_text(std::filesystem::path{path}.filename().string()) +
+                 ", SHA-256 " + sha256_hex(text);
+    AXISCAL_TRY(read.map, import_map(std::move(text), path));
+    return read;
 }
 
 /// A file, and by what it can be found again.
@@ -35,9 +44,9 @@ struct ReadImport {
     ImportedReadings from;
 };
 
-Result<ReadImport> read_import(const std::string& path, const std::optional<ImportMap>& map) {
+Result<ReadImport> read_import(const std::string& path, const ReadMap& by) {
     AXISCAL_TRY(const std::string bytes, whole_file(path));
-    auto file = import_file(bytes, map);
+    auto file = import_file(bytes, by.map);
     if (!file) {
         Error error = file.error();
         error.field = path + (error.field.empty() ? "" : ", " + error.field);
@@ -49,6 +58,10 @@ Result<ReadImport> read_import(const std::string& path, const std::optional<Impo
     read.from.sha256 = sha256_hex(bytes);
     read.file.document["source"] =
         read.from.file + ", " + read.from.form + ", SHA-256 " + read.from.sha256;
+    if (by.words.empty()) return read;
+    read.file.document["source"] =
+        read.file.document["source"].get<std::string>() + ", " + by.words;
+    read.from.remark = "They were read " + by.words + ".";
     return read;
 }
 

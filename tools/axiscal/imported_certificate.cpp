@@ -21,13 +21,29 @@ ClockTie tie_of_now() {
 }
 
 /// The datum and every point in one transaction.
+Result<void> fill_imported_run(RunFileWriter writer, const RunBatch& all, const RunRecord& run) {
+    AXISCAL_CHECK(writer.write(all));
+    return writer.close(true, run.closing_reason, run.closed);
+}
+
+/// What could not be written whole goes: its name would be taken, and a station would resume it.
+void remove_unfinished(const std::string& path) {
+    std::error_code ignored;
+    for (const char* more : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"})
+        std::filesystem::remove(path + more, ignored);
+}
+
 Result<void> write_imported_run(const std::string& path, RunRecord run) {
     RunBatch all;
     all.datum = std::exchange(run.datums, {}).front();
     all.imported = std::exchange(run.points, {});
-    AXISCAL_TRY(auto writer, RunFileWriter::create(path, run));
-    AXISCAL_CHECK(writer.write(all));
-    return writer.close(true, run.closing_reason, run.closed);
+    auto writer = RunFileWriter::create(path, run);
+    if (!writer && writer.error().fault == Fault::refused) // of somebody else
+        return tl::unexpected<Error>(writer.error());
+    auto written = writer ? fill_imported_run(*std::move(writer), all, run)
+                          : Result<void>{tl::unexpected<Error>(writer.error())};
+    if (!written && written.error().fault != Fault::busy) remove_unfinished(path);
+    return written;
 }
 
 /// No machine waits for this disk.

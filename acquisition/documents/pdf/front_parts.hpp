@@ -49,6 +49,9 @@ void draw_front_instruments(Sheet& sheet,
 
 inline constexpr const char* traced_by_instruments =
     "Traceability: through the certificates of the instruments named above.";
+/// Of readings by others.
+inline constexpr const char* traced_by_nobody =
+    "Traceability: not stated. The readings are imported; no instrument is known here.";
 
 /// At the end of the page: operator and approver, then four lines of evidence and one of
 /// traceability.

@@ -224,12 +224,13 @@ void draw_cycle(Sheet& sheet, const Certificate& certificate) {
 
 void draw_import(Sheet& sheet, const ImportedReadings& imported) {
     sheet.heading("Imported, readings by others");
-    sheet.fields({{"File", imported.file},
-                  {"Form", imported.form},
-                  {"SHA-256 of the file", imported.sha256},
-                  {"Measured", stated(imported.measured)},
-                  {"Compensation", "as the other program made it; nothing was applied here"}},
-                 1);
+    sheet.fields(
+        {{"File", imported.file},
+         {"Form", imported.form},
+         {"SHA-256 of the file", imported.sha256},
+         {"Measured", stated(imported.measured)},
+         {"Compensation", "as the other program made it, or the map of the import states it"}},
+        1);
 }
 
 } // namespace

@@ -213,7 +213,8 @@ std::vector<StatedField> draw_front_page(Sheet& sheet, const Certificate& certif
                     {{"Run", stated(certificate.run.run_id)},
                      {"Run file SHA-256", stated(certificate.run_file_sha256)},
                      {"Result SHA-256", stated(certificate.result_digest)},
-                     {"Software", "axiscal, version " + stated(certificate.run.software_version)}});
+                     {"Software", "axiscal, version " + stated(certificate.run.software_version)}},
+                    certificate.run.imported ? traced_by_nobody : traced_by_instruments);
     return shortened;
 }
 

@@ -48,6 +48,10 @@ const std::string german_map = map_text("target = \"Soll\"\nreading = \"Fehler\"
                                         "direction = \"Richtung\"\n",
                                         "[direction]\nforward = [\"auf\"]\nbackward = [\"ab\"]\n");
 
+TEST(TableFile, BelowALineOfASampleFrequencyIsATableAllTheSame) {
+    expect_both_ways(case_of("Sample Frequency;100\n" + german, german_map));
+}
+
 TEST(TableFile, OfAnotherProgramBecomesACaseByItsMap) {
     expect_both_ways(case_of(german, german_map));
 }
@@ -56,6 +60,22 @@ TEST(TableFile, WithoutDirectionsGoesByTheOrderOfTheTargets) {
     expect_both_ways(case_of(german, map_text("target = \"Soll\"\nreading = \"Fehler\"\n")));
     expect_both_ways(
         case_of(german, map_text("target = \"Soll\"\nreading = \"Fehler\"\nrun = \"Lauf\"\n")));
+}
+
+/// Where the axis was in place of where it was to be: each row another target, and most a turn.
+TEST(TableFile, WhoseTargetsAreNoneIsRefusedBeforeMemoryEnds) {
+    const std::string map = map_text("target = \"Soll\"\nreading = \"Fehler\"\n");
+    std::string targets = "Soll;Fehler\n", runs = targets;
+    for (int i = 0; i < 20'000; ++i)
+        targets += std::to_string((i * 7919) % 20'011) + ";1\n";
+    for (int i = 0; i < 20'000; ++i)
+        runs += std::to_string(i % 2) + ";1\n" + std::to_string(i % 2) + ";1\n";
+    for (const auto& [text, words] :
+         {std::pair{targets, "more than 10000 targets"}, std::pair{runs, "more than 2000 runs"}}) {
+        const auto file = imported(text, map);
+        ASSERT_FALSE(file);
+        EXPECT_NE(describe(file.error()).find(words), std::string::npos) << describe(file.error());
+    }
 }
 
 TEST(TableFile, WithoutHeadingsGoesByTheNumbersOfItsColumns) {

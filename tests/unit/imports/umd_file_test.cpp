@@ -210,6 +210,12 @@ TEST(UmdFile, WithLostSamplesIsRefusedWithinAWindowAndToldOutside) {
     UmdLog within;
     within.go(-3).go(0).stand(80).lose(2).stand(20);
     expect_words(refusal_of(within.text(), map_text), "2 samples are lost before this line");
+    std::string datum = whole_log().text();
+    for (const std::string number : {"N:50220\r\n", "N:50221\r\n"}) {
+        const auto at = datum.find(number), begin = datum.rfind('\n', at) + 1;
+        datum.erase(begin, at + number.size() - begin);
+    }
+    expect_words(refusal_of(datum, map_text), "the datum: 2 samples are lost before this line");
     UmdLog outside;
     outside.go(-3).go(0.001).stand(20).lose(2).stand(100).stop(20, 2).stop(40, 3).go(43);
     outside.stop(40, 2.5).stop(20, 1.5).stop(0, 0.5).go(-4);

@@ -116,6 +116,20 @@ TEST(Workbook, TakesTheValueThatAFormulaKeptAndNoDateForANumber) {
         "2\tformula without a value\t5\tdate 46143\tdate 1\n");
 }
 
+TEST(Workbook, ShowsTheSameTargetWhetherItWasTypedOrComputed) {
+    EXPECT_EQ(text_of(workbook_of("<row><c><f>0.1+0.2</f><v>0.30000000000000004</v></c>"
+                                  "<c><v>0.3</v></c><c><v>-1.2300000000000002E-3</v></c>"
+                                  "<c><v>123456.789</v></c></row>")),
+              "0.3\t0.3\t-0.00123\t123456.789\n");
+}
+
+TEST(Workbook, KeepsABlankThatIsARunOfItsOwn) {
+    EXPECT_EQ(text_of(workbook_of("<row><c t=\"inlineStr\"><is><r><t>Pos</t></r><r><t "
+                                  "xml:space=\"preserve\"> </t></r><r><t>soll</t></r></is></c>"
+                                  "<c r=\"XFD1\" t=\"inlineStr\"><is><t> </t></is></c></row>")),
+              "Pos soll\n");
+}
+
 TEST(Workbook, FillsMergedCellsAndPassesOverEmptyOnesFarOut) {
     EXPECT_EQ(text_of(workbook_of("<row r=\"1\"><c r=\"A1\"><v>7</v></c><c r=\"B1\"><v>1</v></c>"
                                   "<c r=\"XFD1\" s=\"1\"/></row><row r=\"2\"><c r=\"A2\"/>"
@@ -158,6 +172,23 @@ TEST(Workbook, ThatUnpacksWithoutEndIsRefused) {
     Parts parts = workbook_of("");
     parts["xl/worksheets/s2.xml"] = std::string(largest_part_bytes + 1, ' ');
     expect_words(refusal_of(zipped(parts)), "unpacks to more than 32 MiB");
+}
+
+/// Each part is small: what a cell refers to is not.
+TEST(Workbook, WhoseCellsRepeatALongTextIsRefused) {
+    std::string rows;
+    for (int i = 0; i < 100; ++i)
+        rows += "<row><c t=\"s\"><v>0</v></c></row>";
+    Parts parts = workbook_of(rows);
+    parts["xl/sharedStrings.xml"] =
+        "<sst><si><t>" + std::string(std::size_t{1} << 20, 'x') + "</t></si></sst>";
+    expect_words(refusal_of(zipped(parts)), "more than 64 MiB of text");
+    const std::string once = "<row><c t=\"inlineStr\"><is><t>" +
+                             std::string(std::size_t{1} << 20, 'x') +
+                             "</t></is></c></row><row r=\"100\"><c r=\"B100\"><v>1</v></c></row>";
+    expect_words(refusal_of(zipped(
+                     workbook_of(once, "<mergeCells><mergeCell ref=\"A1:A100\"/></mergeCells>"))),
+                 "more than 64 MiB of text");
 }
 
 TEST(Workbook, IsATableByTheSameMapAsText) {

@@ -90,8 +90,9 @@ Result<ImportedFile> import_record(const std::string& text, const std::optional<
 }
 
 bool is_record(const std::string& text, const std::optional<ImportMap>& map) {
-    const bool by_map = map && !std::holds_alternative<TableMap>(map->of);
-    return by_map || is_stream(text) || is_umd(text);
+    // "Sample Frequency" and "Gap" may stand above a table, too.
+    if (map && std::holds_alternative<TableMap>(map->of)) return is_stream(text);
+    return map.has_value() || is_stream(text) || is_umd(text);
 }
 
 } // namespace

@@ -24,6 +24,16 @@ bool goes_on(const LaserPass& pass, std::size_t target) {
     return (pass.order[n - 1] > pass.order[n - 2]) == (target > pass.order[n - 1]);
 }
 
+/// Beyond them a column of the map is not that of the targets, or of the runs; memory grows with
+/// the product of both.
+constexpr std::size_t most_targets_of_passes = 10'000, most_passes = 2000;
+
+tl::unexpected<Error> refuse_many(std::size_t most, const char* what, const char* column) {
+    return refuse(Fault::bad_case, "file",
+                  "has more than " + std::to_string(most) + " " + what +
+                      ": does the map name the right column or signal of the " + column + "?");
+}
+
 class Passes {
 public:
     explicit Passes(LaserReadings& out)
@@ -60,11 +70,14 @@ private:
 
 Result<void> add_passes(std::span<const Captured> captured, LaserReadings& out) {
     out.targets = sorted_targets(captured);
+    if (out.targets.size() > most_targets_of_passes)
+        return refuse_many(most_targets_of_passes, "targets", "targets");
     Passes passes{out};
     for (const Captured& one : captured) {
         const auto at = std::ranges::lower_bound(out.targets, one.target);
         const auto target = static_cast<std::size_t>(at - out.targets.begin());
         LaserPass& pass = passes.pass_of(one, target);
+        if (out.passes.size() > most_passes) return refuse_many(most_passes, "runs", "runs");
         if (pass.readings[target])
             return refuse(Fault::bad_case, "line " + std::to_string(one.line),
                           pass.name + " has target " + std::to_string(target + 1) + " twice");

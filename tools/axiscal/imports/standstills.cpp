@@ -103,6 +103,25 @@ Rest last_rest_in(std::span<const AxisSample> stay, const CaptureConfig& config)
     return rest;
 }
 
+/// @param place  of the window, for the refusal
+Result<void> check_numbers(std::span<const AxisSample> samples,
+                           MonotonicTime begin,
+                           MonotonicTime end,
+                           const std::string& place) {
+    const AxisSample* last = nullptr;
+    for (const AxisSample& sample : samples) {
+        if (sample.at < begin || sample.at > end) continue;
+        if (last != nullptr && sample.number > last->number + 1)
+            return refuse_line(sample.line,
+                               place + ": " +
+                                   counted(static_cast<long>(sample.number - last->number - 1),
+                                           "sample is", "samples are") +
+                                   " lost before this line, within the window that counts");
+        last = &sample;
+    }
+    return {};
+}
+
 /// The claim is that of the plan; the positions prove it.
 class StandstillSearch {
 public:
@@ -151,7 +170,8 @@ private:
             return {};
         }
         AXISCAL_CHECK(check_planned(stay));
-        AXISCAL_CHECK(check_samples(stay, *rest.window));
+        AXISCAL_CHECK(check_numbers(of(stay.begin, stay.end), rest.window->begin, rest.window->end,
+                                    place(awaited())));
         AXISCAL_CHECK(check_approach(stay, *rest.window));
         add(stay, *rest.window);
         return {};
@@ -180,21 +200,6 @@ private:
                                "from its target than " +
                                in_axis_unit(map_.plan.axis_kind, map_.plan.near_tolerance) +
                                ", or the map states another cycle." + seen_without_stop());
-    }
-
-    [[nodiscard]] Result<void> check_samples(const Stay& stay, const StillWindow& window) const {
-        const AxisSample* last = nullptr;
-        for (const AxisSample& sample : of(stay.begin, stay.end)) {
-            if (sample.at < window.begin || sample.at > window.end) continue;
-            if (last != nullptr && sample.number > last->number + 1)
-                return refuse_line(sample.line,
-                                   place(awaited()) + ": " +
-                                       counted(static_cast<long>(sample.number - last->number - 1),
-                                               "sample is", "samples are") +
-                                       " lost before this line, within the window that counts");
-            last = &sample;
-        }
-        return {};
     }
 
     [[nodiscard]] Result<void> check_approach(const Stay& stay, const StillWindow& window) const {
@@ -247,6 +252,7 @@ Result<void> tie_datum(std::vector<AxisSample>& samples, const StandstillMap& ma
                            "the axis does not stand where the file begins, at the datum " +
                                in_axis_unit(map.plan.axis_kind, map.plan.datum) +
                                " of the map: " + verdict.reason);
+    AXISCAL_CHECK(check_numbers({samples.begin(), after}, begin, end, "the datum"));
     const double shift_m = map.plan.datum.si() - verdict.statistics.mean.si();
     for (AxisSample& sample : samples)
         sample.position_m += shift_m;

@@ -21,7 +21,8 @@ struct AxisSample {
 };
 
 /// Adds to all positions what makes the first window the datum of the plan.
-/// @errors Fault::bad_case, "line N": the axis does not stand where the file begins.
+/// @errors Fault::bad_case, "line N": the axis does not stand where the file begins, or samples are
+/// lost there.
 Result<void> tie_datum(std::vector<AxisSample>& samples, const StandstillMap& map);
 
 /// The mean of the last still window before the axis leaves, of each planned point, in mm or

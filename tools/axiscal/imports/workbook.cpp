@@ -1,9 +1,11 @@
 #include "tools/axiscal/imports/workbook.hpp"
 
 #include "analysis/quantity/text_encoding.hpp"
+#include "tools/axiscal/case_text.hpp"
 #include "tools/axiscal/imports/workbook_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +46,20 @@ std::optional<CellPlace> cell_place(std::string_view name) {
     return CellPlace{place.row - 1, place.column - 1};
 }
 
+/// With the 15 digits that spreadsheets show: 0.1 + 0.2 lies in the file as 0.30000000000000004,
+/// and is the same target as 0.3.
+std::string as_shown(std::string value) {
+    constexpr int digits = 15;
+    double number = 0;
+    const char* const end = value.data() + value.size();
+    const auto [stop, fault] = std::from_chars(value.data(), end, number);
+    if (std::ssize(value) <= digits || fault != std::errc{} || stop != end) return value;
+    std::array<char, 32> text{};
+    const auto written = std::to_chars(text.data(), text.data() + text.size(), number,
+                                       std::chars_format::general, digits);
+    return {text.data(), written.ptr};
+}
+
 /// What a number without a value, or with the format of a date, is shown as: a word, so that it is
 /// no reading.
 SheetCell number_cell(const pugi::xml_node& cell, const WorkbookParts& parts, std::string value) {
@@ -51,7 +67,7 @@ SheetCell number_cell(const pugi::xml_node& cell, const WorkbookParts& parts, st
     const auto style = cell.attribute("s").as_ullong();
     if (!value.empty() && style < parts.dates.size() && parts.dates[style])
         return {"date " + value, false};
-    return {std::move(value), true};
+    return {as_shown(std::move(value)), true};
 }
 
 SheetCell cell_in(const pugi::xml_node& cell, const WorkbookParts& parts) {
@@ -69,6 +85,12 @@ SheetCell cell_in(const pugi::xml_node& cell, const WorkbookParts& parts) {
 
 tl::unexpected<Error> refuse_sheet(std::string reason) {
     return refuse(Fault::bad_case, "sheet", std::move(reason));
+}
+
+/// One shared text, or one merged cell, may stand a million times.
+tl::unexpected<Error> refuse_long_texts() {
+    return refuse_sheet("holds more than " + std::to_string(largest_case_bytes >> 20) +
+                        " MiB of text: copy the table into a sheet of its own");
 }
 
 Result<void> put_cell(SheetGrid& grid, std::size_t& width, CellPlace place, SheetCell cell) {
@@ -89,7 +111,7 @@ Result<void> put_cell(SheetGrid& grid, std::size_t& width, CellPlace place, Shee
 /// far out, do not count.
 Result<SheetGrid> grid_of(const pugi::xml_node& sheet, const WorkbookParts& parts) {
     SheetGrid grid;
-    std::size_t width = 0, next_row = 0;
+    std::size_t width = 0, next_row = 0, bytes = 0;
     for (const pugi::xml_node& row : child_named(sheet, "sheetData").children()) {
         const std::size_t number = row.attribute("r").as_ullong(next_row + 1);
         if (number < 1 || number > most_rows)
@@ -104,7 +126,10 @@ Result<SheetGrid> grid_of(const pugi::xml_node& sheet, const WorkbookParts& part
                 place = *named;
             }
             SheetCell found = cell_in(cell, parts);
-            if (!found.text.empty()) AXISCAL_CHECK(put_cell(grid, width, place, std::move(found)));
+            bytes += found.text.size();
+            if (bytes > largest_case_bytes) return refuse_long_texts();
+            const bool blank = found.text.find_first_not_of(" \t\r\n") == std::string::npos;
+            if (!blank) AXISCAL_CHECK(put_cell(grid, width, place, std::move(found)));
             ++place.column;
         }
     }
@@ -123,7 +148,7 @@ void fill_merged(SheetGrid& grid, CellPlace first, CellPlace last) {
 }
 
 Result<void> fill_merged_cells(const pugi::xml_node& sheet, SheetGrid& grid) {
-    std::size_t filled = 0;
+    std::size_t filled = 0, bytes = 0;
     for (const pugi::xml_node& one : child_named(sheet, "mergeCells").children()) {
         const std::string range = attribute_named(one, "ref");
         const auto colon = std::min(range.find(':'), range.size());
@@ -131,10 +156,14 @@ Result<void> fill_merged_cells(const pugi::xml_node& sheet, SheetGrid& grid) {
         const auto last =
             cell_place(std::string_view{range}.substr(std::min(colon + 1, range.size())));
         if (!first || !last || last->row < first->row || last->column < first->column) continue;
-        filled += std::min(last->row - first->row + 1, grid.size()) *
-                  std::min(last->column - first->column + 1, most_columns);
+        if (first->row >= grid.size() || first->column >= grid.front().size()) continue;
+        const std::size_t cells = (std::min(last->row + 1, grid.size()) - first->row) *
+                                  (std::min(last->column + 1, grid.front().size()) - first->column);
+        filled += cells;
         if (filled > 16 * largest_grid)
             return refuse_sheet("is damaged: its merged cells lie over each other");
+        bytes += cells * grid[first->row][first->column].text.size();
+        if (bytes > largest_case_bytes) return refuse_long_texts();
         fill_merged(grid, *first, *last);
     }
     return {};

@@ -157,7 +157,9 @@ std::string text_of_runs(const pugi::xml_node& text) {
 
 Result<pugi::xml_document> parsed_part(const std::string& xml, const std::string& what) {
     Result<pugi::xml_document> document;
-    if (!document->load_buffer(xml.data(), xml.size()))
+    // A run may be one blank: "Pos", " ", "soll".
+    constexpr unsigned how = pugi::parse_default | pugi::parse_ws_pcdata_single;
+    if (!document->load_buffer(xml.data(), xml.size(), how))
         return refuse(Fault::bad_case, "file",
                       "is damaged: its part " + valid_text(what) +
                           " is no whole XML. Save the workbook again as .xlsx or CSV");
