@@ -1,14 +1,15 @@
 """Serial instruments that answer text, each by an FTDI adapter on the kernel's ftdi_sio, beside a counter and two
-sensors that must not notice. A plain guest with udev, no systemd.
+sensors that must not notice; at last an HPI-3D in the counter's place. A plain guest with udev, no systemd.
 
-The checks run in their order on one station that never ends: what one of them breaks, it mends.
+The checks run in their order on one station that never ends: what one of them breaks, it mends. The last one has a
+station of its own.
 """
 
 import sys
 from pathlib import Path
 
 from guest import check, expect, load_modules, run_checks, start_udev, wait_until
-from line_station import GONE, TEXT, LineStation, spoilt, suffers, unplugged
+from line_station import GONE, SENSORS, TEXT, LineStation, spoilt, suffers, unplugged
 from usb_station import LINKS
 
 EIGHT_BIT, SEVEN_BIT = ("ptu", "gauge"), ("readout", "caliper")  # which bit no character of theirs has
@@ -97,6 +98,37 @@ def text_garbled(station):
     wait_until("the stick's damaged lines are counted", lambda: station.instrument("stick")["bad_frames"] >= before + 3)
     station.usb("fault stick none")
     station.wait_until_good("stick")
+
+
+class HpiStation(LineStation):
+    """Its laser is an HPI-3D behind an adapter of its own."""
+
+    SERIAL = "A620AXIS"
+
+    def __init__(self):
+        super().__init__()
+        counter = self.scenario["laser"]
+        self.scenario["laser"] = {"kind": "hpi-3d", **{key: counter[key] for key in (
+            "path", "wavelength_nm", "dead_path_mm", "zero_mm")}, "fold": 2}
+        self.rewire("laser", "ftdi", {"called": "laser", "serial": self.SERIAL}, f"/dev/axiscal/ftdi-{self.SERIAL}-00")
+        laser = next(one for one in self.station["instrument"] if one["name"] == "laser")
+        link = laser["link"]
+        laser.clear()
+        laser.update({"name": "laser", "driver": "lasertex", "link": link, "position": "raw",
+                      "wavelength": f"{counter['wavelength_nm']} nm", "fastest": "40 m/min"})
+
+
+@check("HpiLaserUnpluggedMuteAndStalledIsGivenUpAndComesBack")
+def hpi(station):
+    for program in ("axiscald", "usb", "axiscal-simulate"):
+        station.end(program)
+    with HpiStation() as other:
+        other.start()
+        other.wait_until_good(*LINKS, limit_s=30)
+        unplugged(other, ["laser"], SENSORS)
+        spoilt(other, ["laser"], "mute", SENSORS)
+        spoilt(other, ["laser"], "stall", SENSORS)
+        spoilt(other, ["laser"], "cut 3", SENSORS)
 
 
 def main():
