@@ -13,8 +13,8 @@ struct BootId {
 };
 
 /// True only where both are known: times of the two may then be compared.
-inline bool is_same_boot(const BootId& one, const BootId& other) {
-    return one.known() && other.known() && one.text == other.text;
+inline bool is_same_boot(const BootId& first, const BootId& other) {
+    return first.known() && other.known() && first.text == other.text;
 }
 
 } // namespace axiscal

@@ -241,8 +241,8 @@ void simulate_run(RunUncertainty& known,
     if (!known.budget || known.budget->parameters.empty()) return;
     SessionErrors errors = session_errors(*known.budget, budget_units_per(result.unit));
     if (run.scale) // it reads short or long, by how it is mounted
-        for (SessionErrors::Common& one : errors.common)
-            one.one_sided = false;
+        for (SessionErrors::Common& common : errors.common)
+            common.one_sided = false;
     const auto without_budget = [&](const auto& figure) {
         return known.budget->find(figure.key) == nullptr;
     };

@@ -138,8 +138,8 @@ bool ModbusTcpPort::is_stranger(const tcp::socket& socket, MonotonicTime now) {
 void ModbusTcpPort::make_room(const asio::ip::address& newcomer) {
     std::erase_if(clients_, [](const auto& client) { return client.expired(); });
     if (std::ssize(clients_) < config_.client_limit) return;
-    const auto first_to_go = [&](const auto& one, const auto& other) {
-        const auto a = one.lock(), b = other.lock();
+    const auto first_to_go = [&](const auto& client, const auto& other) {
+        const auto a = client.lock(), b = other.lock();
         const bool a_own = a->from == newcomer, b_own = b->from == newcomer;
         return a_own != b_own ? a_own : a->heard < b->heard;
     };
