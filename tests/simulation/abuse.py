@@ -19,8 +19,8 @@ REQUESTS = int(os.environ.get("AXISCAL_ABUSE_REQUESTS", "1000000" if os.environ.
 LONGEST_CALLBACK_MS = float(os.environ.get("AXISCAL_LONGEST_CALLBACK_MS", "2"))
 RSS_GROWTH_KIB = int(os.environ["AXISCAL_RESIDENT_GROWTH_KIB"])
 CLIENTS = 50
-# Each round sends the same. What holds the loop holds it in each; what the kernel or a hypervisor does in the
-# meantime (its time counts as the thread's own) does not fall into each.
+# Each round sends the same. What holds the loop holds it in each, and what grows with the abuse in the later ones;
+# what the kernel or a hypervisor does in the meantime (its time counts as the thread's own) falls into one at most.
 ROUNDS = 3
 TCP_REPAIR = 19  # of tcp(7): a socket that is closed in this state tells its peer nothing
 
@@ -231,8 +231,8 @@ def door(b):
           f"open files {before}")
     # One callback answers what one read brought: at most 21 requests of 12 bytes in its 260.
     expect(spans > REQUESTS / 21, "the meter has seen the callbacks of all requests")
-    expect(min(longest_of_round_ns) < LONGEST_CALLBACK_MS * 1e6,
-           f"the loop was held in each round, for {longest_of_round_ns} ns of CPU")
+    too_long = [ns for ns in longest_of_round_ns if ns >= LONGEST_CALLBACK_MS * 1e6]
+    expect(len(too_long) <= 1, f"the loop was held in {len(too_long)} rounds: {longest_of_round_ns} ns of CPU")
     expect(grown_kib < RSS_GROWTH_KIB, f"resident memory grew by {grown_kib} KiB")
     expect(told["requests"] >= 0.9 * REQUESTS, f"{told}")
     illegal = sum(one.answered for one in crowd if one.kind == "illegal")
