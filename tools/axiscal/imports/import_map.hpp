@@ -60,7 +60,7 @@ struct ImportMap {
     std::variant<TableMap, StreamMap, UmdMap> of;
 };
 
-/// Millimetres, or degrees, of one unit of the targets.
+/// Millimetres, or degrees, of one unit of a case or a map.
 double millimetres_in(const std::string& unit);
 
 /// @param name  of the file, for refusals

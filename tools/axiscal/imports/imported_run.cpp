@@ -2,6 +2,7 @@
 
 #include "analysis/quantity/valid_text.hpp"
 #include "config/version.hpp"
+#include "tools/axiscal/imports/import_map.hpp"
 
 #include <algorithm>
 #include <string>
@@ -13,13 +14,6 @@ namespace {
 using CaseJson = nlohmann::json;
 
 constexpr const char* datum_id = "imported";
-
-/// Millimetres, or degrees, of one unit of a case.
-double millimetres_of(const std::string& unit) {
-    if (unit == "um") return 1e-3;
-    if (unit == "m") return 1e3;
-    return unit == "arcsec" ? 1.0 / 3600 : 1;
-}
 
 struct Cell {
     int target = 0, approach = 0;
@@ -52,7 +46,7 @@ RunPlan plan_of(const CaseJson& document, const std::vector<Cell>& cells) {
                                  ? document.at("target_unit").get<std::string>()
                                  : document.at("unit").get<std::string>();
     for (const CaseJson& target : document.at("targets"))
-        plan.targets.push_back(mm(target.get<double>() * millimetres_of(unit)));
+        plan.targets.push_back(mm(target.get<double>() * millimetres_in(unit)));
     plan.approaches = static_cast<int>(document.at("forward").at(0).size());
     plan.bidirectional = document.contains("backward");
     int step = 0;
@@ -78,7 +72,7 @@ double deviation_in(const CaseJson& document, const Cell& cell) {
         document.at(cell.direction == Direction::positive ? "forward" : "backward");
     const auto i = static_cast<std::size_t>(cell.target);
     const double reading = rows.at(i).at(static_cast<std::size_t>(cell.approach)).get<double>();
-    const double scale = millimetres_of(document.at("unit").get<std::string>());
+    const double scale = millimetres_in(document.at("unit").get<std::string>());
     if (document.at("readings") == "deviations") return reading * scale;
     return (reading - document.at("targets").at(i).get<double>()) * scale;
 }
