@@ -72,7 +72,7 @@ inline constexpr Unit<AngleDimension> radian{1.0}, degree{3.14159265358979323846
     arcsec{3.14159265358979323846 / 648000.0};
 inline constexpr Unit<SpeedDimension> metre_per_second{1.0}, mm_per_minute{1e-3 / 60.0};
 inline constexpr Unit<PressureDimension> pascal{1.0}, hectopascal{100.0};
-inline constexpr Unit<RatioDimension> one{1.0}, percent{1e-2}, ppm{1e-6};
+inline constexpr Unit<RatioDimension> unity{1.0}, percent{1e-2}, ppm{1e-6};
 inline constexpr Unit<TemperatureDifferenceDimension> kelvin{1.0};
 inline constexpr Unit<ExpansionDimension> per_kelvin{1.0}, um_per_m_kelvin{1e-6};
 

@@ -76,7 +76,7 @@ TEST(AirIndex, GivesTheBitsThatARunGets) {
     std::mt19937_64 random{7};
     std::uniform_real_distribution<double> t{0, 40}, p{6e4, 1.2e5}, humidity{0, 1};
     for (int trial = 0; trial < 1000; ++trial) {
-        AirState state{Temperature::celsius(t(random)), pascal(p(random)), one(humidity(random)),
+        AirState state{Temperature::celsius(t(random)), pascal(p(random)), unity(humidity(random)),
                        nm(632.9908), 450};
         AirConditions air = with_vapour(state.temperature.in_celsius(), state.pressure.si(),
                                         state.relative_humidity.si() *

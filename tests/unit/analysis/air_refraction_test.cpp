@@ -30,7 +30,7 @@ std::optional<Row> row_from(const std::string& line) {
     row.air.pressure = pascal(std::stod(cell[3]));
     row.air.relative_humidity =
         cell[4].empty()
-            ? one(std::stod(cell[5]) / saturation_vapour_pressure(row.air.temperature).in(pascal))
+            ? unity(std::stod(cell[5]) / saturation_vapour_pressure(row.air.temperature).in(pascal))
             : percent(std::stod(cell[4]));
     row.air.co2_ppm = std::stod(cell[6]);
     return row;

@@ -66,8 +66,8 @@ TEST(Settings, ReadsEveryOtherDimension) {
     EXPECT_DOUBLE_EQ(root.temperature_difference("change", kelvin(-1), kelvin(1)).si(), -0.2);
     EXPECT_DOUBLE_EQ(root.pressure("air", {}, pascal(2e5)).si(), 101325);
     EXPECT_DOUBLE_EQ(root.pressure("low", {}, pascal(2e5)).si(), 98000);
-    EXPECT_DOUBLE_EQ(root.ratio("humid", {}, one(1)).si(), 0.5);
-    EXPECT_DOUBLE_EQ(root.ratio("co2", {}, one(1)).si(), 450e-6);
+    EXPECT_DOUBLE_EQ(root.ratio("humid", {}, unity(1)).si(), 0.5);
+    EXPECT_DOUBLE_EQ(root.ratio("co2", {}, unity(1)).si(), 450e-6);
     EXPECT_DOUBLE_EQ(root.expansion("steel", {}, per_kelvin(1)).si(), 11.5e-6);
     EXPECT_DOUBLE_EQ(root.expansion("glass", {}, per_kelvin(1)).si(), 8e-6);
     EXPECT_DOUBLE_EQ(root.expansion("scale", {}, per_kelvin(1)).si(), 10.4e-6);
