@@ -1,12 +1,13 @@
 #include "acquisition/publish/outbox.hpp"
 
 #include "acquisition/runfile/digest.hpp"
-#include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/publish/folder_destination.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <fcntl.h>
 #include <filesystem>
+#include <sys/file.h>
 
 namespace axiscal {
 namespace {
@@ -187,10 +188,25 @@ Result<void> empty_folder(const std::string& folder) {
 
 } // namespace
 
+Result<FileHandle> hold_outbox(const std::string& outbox) {
+    std::error_code error;
+    fs::create_directories(outbox, error);
+    if (error) return fail_io("cannot make", outbox, error.value());
+    FileHandle folder{::open(outbox.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    if (!folder) return fail_io("cannot open", outbox);
+    while (::flock(folder.get(), LOCK_EX) != 0 && errno == EINTR) {
+    }
+    return folder;
+}
+
 Result<std::string> begin_entry(const std::string& outbox, const std::string& run_id) {
     AXISCAL_CHECK(check_run_id(run_id));
     const auto staging = staging_folder(outbox, run_id);
     std::error_code error;
+    if (const auto entry = outbox + "/" + run_id; fs::exists(entry, error)) {
+        fs::remove_all(staging, error); // a station that starts would try this again each time
+        return fail(Fault::refused, entry + " exists already and is never overwritten");
+    }
     fs::create_directories(staging, error);
     if (error) return fail_io("cannot make", staging, error.value());
     AXISCAL_CHECK(empty_folder(staging));

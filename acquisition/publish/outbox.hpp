@@ -5,6 +5,7 @@
 
 #include "acquisition/publish/destination.hpp"
 #include "acquisition/publish/mount_points.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 #include "analysis/quantity/result.hpp"
 
 #include <string>
@@ -22,9 +23,14 @@ struct OutboxEntry {
     bool has_receipt = false;
 };
 
+/// Waits until nobody else fills this folder, and holds it until the handle goes, also by the end
+/// of the process: two programs on one run would each find the other's half. The folder is made
+/// where it is missing. A share that locks no folders is not held. @errors Fault::io.
+Result<FileHandle> hold_outbox(const std::string& outbox);
 /// Makes an empty folder of a temporary name (also anew after a crash) to be filled by the caller,
 /// perhaps in another process. The outbox itself is made where it is missing.
-/// @errors Fault::bad_request for a run id that is no plain file name; Fault::io.
+/// @errors Fault::bad_request for a run id that is no plain file name; Fault::refused when an entry
+/// of that name waits already; Fault::io.
 Result<std::string> begin_entry(const std::string& outbox, const std::string& run_id);
 /// Syncs every file and the folder and gives it its name; returns the entry's folder.
 /// @errors Fault::refused when an entry of that name waits already; Fault::io.

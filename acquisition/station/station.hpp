@@ -264,6 +264,7 @@ private:
     void open_port();
     void keep_hold_of_broken_off(const StoredRuns& stored);
     /// Certificates of complete runs that the last daemon could not finish.
+    [[nodiscard]] bool is_of_this_daemon(const std::string& path) const;
     Task<void> certify_left_over(StoredRuns stored);
     [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
     [[nodiscard]] Result<RunPlan> plan_for(const ArmRequest& request) const;

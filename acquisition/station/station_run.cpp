@@ -256,19 +256,24 @@ bool Station::lacks_certificate(const RunSummary& run) const {
                 config_.state_directory + "/outbox/." + certificate_name(run) + ".staging", error));
 }
 
+/// What this daemon measures, or takes over, it certifies by itself when it closes it.
+bool Station::is_of_this_daemon(const std::string& path) const {
+    return (run_ && run_->path == path) || (drift_ && drift_->path == path);
+}
+
 /// The closed ones are looked into one by one and late: beside the loop, and behind whoever waited
-/// for the station. What this daemon measures, or takes over meanwhile, it certifies by itself.
+/// for the station.
 Task<void> Station::certify_left_over(StoredRuns stored) {
     co_await wait_for_readers();
     for (const RunSummary& run : stored.looked_into)
-        if (lacks_certificate(run)) co_await certify(run.run_id, run.path);
+        if (!is_of_this_daemon(run.path) && lacks_certificate(run))
+            co_await certify(run.run_id, run.path);
     co_await scheduler_.sleep_for(after_the_start);
     for (const std::string& path : stored.folded) {
         if (stopping_) co_return;
         const auto run = co_await journal_.summarize(path);
-        const bool of_this_daemon =
-            (run_ && run_->path == path) || (drift_ && drift_->path == path);
-        if (run && !of_this_daemon && lacks_certificate(*run)) co_await certify(run->run_id, path);
+        if (run && !is_of_this_daemon(path) && lacks_certificate(*run))
+            co_await certify(run->run_id, path);
     }
     stored = {};
     ::malloc_trim(0); // a thousand runs leave half a megabyte that an idle station has no use for

@@ -87,18 +87,37 @@ Result<Said> draw(const Options& options, const std::string& folder) {
     return said_of(result);
 }
 
+bool is_refusal(Fault fault) {
+    switch (fault) {
+    case Fault::io:
+    case Fault::internal:
+    case Fault::not_durable: return false;
+    default: return true;
+    }
+}
+
+/// A station that starts tries again what failed for the disk: it finds the folder by which it
+/// knows that. What was refused would be refused again.
+void clear_away(const Options& options, const Error& why, const std::string& name) {
+    const std::string& folder = options.to.empty() ? options.outbox : options.to;
+    const auto emptied = begin_entry(folder, name);
+    if (!emptied || (options.to.empty() && !is_refusal(why.fault))) return;
+    std::error_code ignored; // the first error is the one to tell
+    std::filesystem::remove(*emptied, ignored);
+}
+
 /// The entry appears in the outbox only with all its content. Its folder is there before the result
 /// is stored: a station that finds it after a power cut knows that this was not finished.
 Result<Staged> stage(const Options& options) {
     AXISCAL_TRY(const RunSummary run, summarize_run_file(options.run_file));
     const std::string& folder = options.to.empty() ? options.outbox : options.to;
     const std::string name = certificate_name(run);
+    AXISCAL_TRY(const FileHandle held, hold_outbox(folder));
     AXISCAL_TRY(const std::string temporary, begin_entry(folder, name));
     AXISCAL_CHECK(sync_folder(folder));
     auto drawn = draw(options, temporary);
     if (!drawn) {
-        std::error_code ignored; // the first error is the one to tell
-        std::filesystem::remove_all(temporary, ignored);
+        clear_away(options, drawn.error(), name);
         return tl::unexpected<Error>(std::move(drawn).error());
     }
     AXISCAL_TRY(std::string entry, finish_entry(folder, name));
@@ -111,11 +130,11 @@ Result<Staged> stage_case(const Options& options) {
         return fail(Fault::refused, "is no run file: a case goes into a folder by --to");
     AXISCAL_TRY(CircularCertificate certificate, circular_certificate_of_case(options.run_file));
     const std::string name = certificate.measured.run.run_id;
+    AXISCAL_TRY(const FileHandle held, hold_outbox(options.to));
     AXISCAL_TRY(const std::string temporary, begin_entry(options.to, name));
     const TestResult result{std::move(certificate)};
     if (auto written = write_certificate_files(result, options.run_file, temporary); !written) {
-        std::error_code ignored; // the first error is the one to tell
-        std::filesystem::remove_all(temporary, ignored);
+        clear_away(options, written.error(), name);
         return tl::unexpected<Error>(std::move(written).error());
     }
     AXISCAL_TRY(std::string entry, finish_entry(options.to, name));
@@ -146,15 +165,6 @@ std::string paths_line(const Staged& staged, const std::string& run_file, bool o
         entry + "/" + std::filesystem::path(run_file).filename().string();
     if (!staged.said.setup_findings.empty()) line["setup"] = staged.said.setup_findings;
     return one_line(line);
-}
-
-bool is_refusal(Fault fault) {
-    switch (fault) {
-    case Fault::io:
-    case Fault::internal:
-    case Fault::not_durable: return false;
-    default: return true;
-    }
 }
 
 int report(const Options& options) {

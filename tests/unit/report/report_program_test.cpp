@@ -93,6 +93,37 @@ TEST_F(ReportProgram, StagesTheFourFilesOfAProbingTest) {
     EXPECT_TRUE(read_stored_result(run)) << "the first evaluation is kept in the run file";
 }
 
+TEST_F(ReportProgram, OfTwoAtOnceOnOneRunOneStagesItAndTheOtherSaysSo) {
+    const std::string run = write_run(test::synthetic_run());
+    const std::string outbox = folder_.file("outbox");
+    const std::string one = "'" AXISCAL_REPORT_PROGRAM "' '" + run + "' --outbox '" + outbox + "'";
+    const std::string said = folder_.file("said");
+    for (const char* again : {"first", "second"}) {
+        const std::string both = one + " >>'" + said + "' 2>&1 & other=$!; " + one + " >>'" + said +
+                                 "' 2>&1; a=$?; wait $other; exit $((a + $?))";
+        const int code = WEXITSTATUS(std::system(both.c_str()));
+        EXPECT_EQ(code, again == std::string{"first"} ? 3 : 6) << read_bytes(said);
+    }
+    EXPECT_NE(read_bytes(said).find("exists already"), std::string::npos);
+    const std::string place = outbox + "/20260101T000000Z-X";
+    const auto document = nlohmann::json::parse(read_bytes(place + "/certificate.json"));
+    EXPECT_EQ(document.at("run").at("run_file_sha256"),
+              sha256_of_file(place + "/20260101T000000Z-X.axiscal").value());
+    const auto entries = std::filesystem::directory_iterator{outbox};
+    EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+}
+
+TEST_F(ReportProgram, LeavesTheMarkOfAnUnfinishedCertificateWhereTheDiskFailed) {
+    const std::string run = write_run(test::synthetic_run());
+    const std::string staging = folder_.file("outbox/.20260101T000000Z-X.staging");
+    const std::string full = "ulimit -f 1; exec '" AXISCAL_REPORT_PROGRAM "' '" + run +
+                             "' --outbox '" + folder_.file("outbox") + "' 2>/dev/null";
+    EXPECT_NE(std::system(full.c_str()), 0);
+    EXPECT_TRUE(std::filesystem::is_empty(staging));
+    ASSERT_EQ(start(run + " --outbox " + folder_.file("outbox")), 0) << err_;
+    EXPECT_FALSE(std::filesystem::exists(staging));
+}
+
 TEST_F(ReportProgram, RefusesAnIncompleteRunWithASentence) {
     RunRecord run = test::synthetic_run();
     run.points.resize(7);
@@ -100,7 +131,7 @@ TEST_F(ReportProgram, RefusesAnIncompleteRunWithASentence) {
     EXPECT_EQ(start(path + " --outbox " + folder_.file("outbox")), 3);
     EXPECT_EQ(out_, "");
     EXPECT_NE(err_.find("aborted by the operator"), std::string::npos) << err_;
-    EXPECT_FALSE(std::filesystem::exists(folder_.file("outbox/20260101T000000Z-X")));
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.file("outbox")));
 }
 
 TEST_F(ReportProgram, RefusesWhatIsNoRunFileAndAWrongCommandLine) {

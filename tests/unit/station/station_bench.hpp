@@ -270,6 +270,7 @@ struct Shop {
     BootId boot_id{"boot-1"};
     StationKey key;                                          ///< none: nothing is signed
     std::int64_t utc_at_zero_ns = 1'795'255'200'000'000'000; ///< 2026-11-21T10:00:00Z
+    JournalThread journal_thread = JournalThread::caller;    ///< its own takes real time
     bool port_broken = false;
     Duration port_looks_every = 100ms;
     bool linked = false; ///< each instrument opens a link of Life::links
@@ -521,7 +522,7 @@ private:
         made.boot_id = shop.boot_id;
         made.key = shop.key;
         made.report_program = report;
-        made.journal_thread = JournalThread::caller;
+        made.journal_thread = shop.journal_thread;
         std::vector<Channel> of_light{shop.first_channel};
         if (shop.laser_strength) of_light.push_back({"contrast", ChannelKind::strength});
         for (int axis = 0; axis < shop.further_axes; ++axis)

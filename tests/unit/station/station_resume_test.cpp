@@ -2,6 +2,7 @@
 #include "acquisition/station/run_header.hpp"
 #include "config/version.hpp"
 #include "tests/support/full_disk.hpp"
+#include "tests/unit/station/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 namespace axiscal::testing::station_resume_test {
@@ -46,6 +47,33 @@ TEST_F(StationResumes, DoneIsPublishedAgainBeforeThePortOpensAndTheRunGoesOn) {
     EXPECT_TRUE(run.complete);
     EXPECT_TRUE(check_complete(run));
     EXPECT_EQ(std::ranges::count(run.events, EventKind::resumed, &EventRecord::kind), 1);
+}
+
+/// The last daemon died between its last point and the closing row.
+TEST_F(StationResumes, ARunWithAllItsPointsIsClosedAndCertifiedOnce) {
+    die_after(9);
+    {
+        auto writer = RunFileWriter::reopen(shop.run_files().at(0)).value();
+        PointRecord last = only_run().points.back();
+        last.step = 9;
+        last.sequence = 10;
+        last.planned = shop.plan().points.at(9);
+        RunBatch batch;
+        batch.point = last;
+        ASSERT_TRUE(writer.write(batch));
+    }
+    shop.journal_thread = JournalThread::own; // closes the run beside the start
+    const std::string calls = shop.scratch.file("calls");
+    Life life{shop, report_script(shop.scratch, "echo x >>'" + calls + "'; sleep 0.3\n" +
+                                                    R"(echo "{\"entry\": \"$3/e\"}")")};
+    for (int i = 0; i < 400 && life.notes_with("Certificate written") == 0; ++i) {
+        life.run(200ms); // the run is closed within each step of the start
+        life.scheduler.loop().restart();
+        life.scheduler.loop().run_one_for(20ms);
+    }
+    life.run(5s); // past the second look for runs without certificate
+    EXPECT_EQ(read_bytes(calls), "x\n");
+    EXPECT_TRUE(only_run().complete);
 }
 
 TEST_F(StationResumes, TheInterruptionNamesTheVersionThatGoesOn) {
