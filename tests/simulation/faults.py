@@ -1,5 +1,7 @@
 """What goes wrong with requests is recognised, named and never acknowledged."""
 
+import json
+
 import bench
 from bench import expect, sentence
 
@@ -140,6 +142,22 @@ def first_targets_tell(b, motion_fault, words):
     print(f"{motion_fault}: {run['fault']}: {run['sentence']}")
     expect(run["step"] <= 1, f"{run['step']} points were taken")
     expect(words in run["sentence"], f"'{words}' is not said: {run['sentence']}")
+
+
+@sentence("OpticThatMovedIsNamedWithTheCertificate")
+def moved_optic(b):
+    """By 3 um, between two points of the first cycle: too little to be refused. The station names it, on the certificate
+    and to whoever asks for the status."""
+    b.begin_run(hold_after=8)
+    b.wait_for_points(8)
+    b.sim("move-optic 3")
+    b.sim("go")
+    found = finishes_with_each_point_once(b)["setup_findings"]
+    expect([one["error"] for one in found] == ["moved_optic"], f"{found}")
+    print(f"{found[0]['seen']}: {found[0]['value']} {found[0]['unit']}")
+    expect(abs(found[0]["value"] - 3) < 0.5, f"{found}")
+    said = " ".join(json.loads(b.axiscal("status", "--json"))["notes"])
+    expect(found[0]["probably"] in said, f"'{found[0]['probably']}' is not in {said}")
 
 
 @sentence("SwappedSignIsToldAtTheFirstTargets")

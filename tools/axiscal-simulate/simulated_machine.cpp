@@ -134,7 +134,7 @@ double SimulatedMachine::slide_mm(double drive_mm, double seconds, std::uint64_t
 
 double SimulatedMachine::cycles(double slide_mm, double seconds) {
     const LaserScenario& laser = scenario_.laser;
-    const double way_mm = laser.sign * (slide_mm - laser.zero_mm);
+    const double way_mm = laser.sign * (slide_mm - laser.zero_mm) + moved_mm_;
     if (laser.resolution_um) return cycles_of_scale(way_mm, seconds);
     return cycles_of_path(laser.dead_path_mm + way_mm * std::cos(beam_angle_rad_), seconds);
 }

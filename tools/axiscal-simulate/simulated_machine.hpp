@@ -80,6 +80,8 @@ public:
     /// The beam turns about the interferometer by this angle to the motion: of the way from the
     /// near end, where the axis stands at zero_mm, it sees the cosine.
     void steer(double angle_rad) { beam_angle_rad_ = angle_rad; }
+    /// An optic creeps on its magnet, or the scale slips: from now on the path is so much longer.
+    void move_optic(double by_mm) { moved_mm_ += by_mm; }
     /// Contrast of the signal, %. On the way D from the near end the return spot walks off by
     /// e = 2 D tan(angle), since a retroreflector doubles it. Two equal Gaussian beams of radius w
     /// that are e apart overlap by exp(-e^2 / (2 w^2)), and so falls their contrast.
@@ -98,7 +100,7 @@ private:
     Play play_;
     bool moving_ = false, started_ = false, zeroed_ = false;
     double last_drive_mm_ = 0, last_seconds_ = 0, approach_mm_ = 0, approach_goal_mm_ = 0,
-           optical_zero_mm_ = 0, beam_angle_rad_ = 0;
+           optical_zero_mm_ = 0, beam_angle_rad_ = 0, moved_mm_ = 0;
     std::map<std::int64_t, std::uint64_t> visits_; ///< stops at each place, um
 };
 

@@ -208,6 +208,13 @@ Result<void> Simulator::obey_steer(std::istream& arguments) {
     return {};
 }
 
+Result<void> Simulator::obey_move(std::istream& arguments) {
+    if (!laser_) return fail(Fault::not_found, "move-optic is of a laser that a µMD counts");
+    double by_um = 0;
+    if (!(arguments >> by_um)) return fail(Fault::bad_request, "move-optic needs micrometres");
+    return laser_->move_optic(by_um * 1e-3), Result<void>{};
+}
+
 Result<void> Simulator::obey_bar(std::istream& arguments) {
     std::uint64_t records = 0;
     if (bar_ == nullptr) return fail(Fault::not_found, "this scenario has no ballbar");
@@ -258,6 +265,7 @@ Result<nlohmann::json> Simulator::obey(const std::string& word, std::istream& ar
         word == "error-mask")
         return done(obey_laser(word, arguments));
     if (word == "steer") return done(obey_steer(arguments));
+    if (word == "move-optic") return done(obey_move(arguments));
     if (word == "skip-bar") return done(obey_bar(arguments));
     if (word == "run" || word == "stop" || word == "motion-fault" || word == "connect" ||
         word == "hold" || word == "go")

@@ -44,8 +44,8 @@ public:
 
     /// One line of the control channel; the answer is one JSON object:
     /// run [FILE], stop, beam off|on, restart-counter, skip N, fields 8|16, error-mask N, steer
-    /// MRAD, sensor NAME off|on|garbage|flood, motion-fault KIND|none, connect HOST PORT, hold N,
-    /// go, status, truth FILE, quit.
+    /// MRAD, move-optic UM, sensor NAME off|on|garbage|flood, motion-fault KIND|none, connect HOST
+    /// PORT, hold N, go, status, truth FILE, quit.
     nlohmann::json command(const std::string& line);
     [[nodiscard]] nlohmann::json places() const;
     [[nodiscard]] bool ended() const { return ended_; }
@@ -59,6 +59,7 @@ private:
     Result<void> obey_hpi(const std::string& word, const std::string& state);
     Result<void> obey_laser(const std::string& word, std::istream& arguments);
     Result<void> obey_steer(std::istream& arguments);
+    Result<void> obey_move(std::istream& arguments);
     Result<void> obey_bar(std::istream& arguments);
     Result<void> obey_cnc(const std::string& word, std::istream& arguments);
     [[nodiscard]] nlohmann::json status() const;

@@ -120,6 +120,11 @@ void SimulatedLaser::steer(double angle_rad) {
     machine_.steer(angle_rad);
 }
 
+void SimulatedLaser::move_optic(double by_mm) {
+    const std::lock_guard lock{mutex_};
+    machine_.move_optic(by_mm);
+}
+
 void SimulatedLaser::set_error_mask(int mask) {
     const std::lock_guard lock{mutex_};
     counter_.set_error_mask(mask);

@@ -39,6 +39,7 @@ public:
     void set_fields(int fields);
     void set_error_mask(int mask);
     void steer(double angle_rad);
+    void move_optic(double by_mm);
 
 private:
     void step(double drive_mm);
