@@ -49,8 +49,8 @@ void read_targets(Settings target, UncertaintySetup& setup) {
     }
 }
 
-/// Annex B knows device and environment alone: temperature, expansion and alignment are in the
-/// device. One millimetre stands for one degree.
+/// The budget of a rotary axis has device and environment alone: temperature, expansion and
+/// alignment are in the device. One millimetre stands for one degree.
 void read_angle_terms(Settings& table, UncertaintySetup& setup) {
     constexpr double least_k = 1, largest_k = 5;
     const auto angle = [&table](const char* key) {

@@ -42,7 +42,7 @@ ordered_json parameter_json(const UncertaintyBudget& budget,
 
 ordered_json budget_json(const UncertaintyBudget& budget, const std::string& unit, double divisor) {
     ordered_json object;
-    object["source"] = budget.axis_kind == AxisKind::rotary ? "ISO 230-2 annex B, rotary axis"
+    object["source"] = budget.axis_kind == AxisKind::rotary ? "after ISO 230-2 annex A, rotary axis"
                                                             : "ISO 230-2 annex A, linear axis";
     object["unit"] = unit;
     object["n"] = budget.approaches;

@@ -8,8 +8,8 @@
 
 namespace axiscal {
 
-/// In the order of the budget's terms; of a rotary axis those of annex B. What the readings of the
-/// run show beside what was stated:
+/// In the order of the budget's terms; of a rotary axis those of device and environment. What the
+/// readings of the run show beside what was stated:
 /// - width of the material's temperature: the largest difference of two material sensors at one
 ///   time, corrections included, readings of each taken linearly between. One sensor shows none;
 /// - misalignment: gamma L of the cosine error that aligning the beam left (cosine_error.hpp);

@@ -1,6 +1,9 @@
 #pragma once
-// Uncertainty budget of ISO 230-2, annex A (linear) and annex B (rotary). Pure.
+// Uncertainty budget of ISO 230-2, annex A. Pure.
 //
+// The annex is written for linear axes. A rotary axis has device and environment alone, combined in
+// the same way, as a Chinese calibration specification after ISO 230-2:2006 and ISO/TR 230-9:2005
+// does in an annex B of its own; annex B of ISO 230-2 is the step cycle.
 // Lengths are micrometres; on a rotary axis the same fields are seconds of arc. Every `width` is
 // the FULL width of a rectangular distribution, u = width / (2 sqrt 3). Marks: S stands in a source
 // document, R is reconstructed from its structure (the printed tables are lost).

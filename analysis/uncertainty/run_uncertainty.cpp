@@ -75,7 +75,7 @@ std::optional<double> expansion_width_of(const RunRecord& run, std::vector<std::
     return width;
 }
 
-/// Annex B: the device holds interferometer, artefact, optics and set-up; lengths stand for
+/// Of a rotary axis the device holds interferometer, artefact, optics and set-up; lengths stand for
 /// degrees.
 UncertaintyStatement statement_of_angle(const UncertaintySetup& setup) {
     UncertaintyStatement s;

@@ -97,12 +97,13 @@ Result<void> check_angle(const UncertaintyStatement& s) {
     return {};
 }
 
-/// Annex B has no temperature, no expansion and no misalignment of its own: they are in the device.
+/// A rotary axis has no temperature, expansion or misalignment of its own: they are in the device.
 Result<void> check_rotary(const Fields& fields) {
     for (const Field& field : fields)
         if (field.linear_only && field.value)
             return refuse(Fault::bad_case, field.key,
-                          "belongs to a linear axis; annex B holds device and environment alone");
+                          "belongs to a linear axis; the budget of a rotary axis has device and "
+                          "environment alone");
     return {};
 }
 

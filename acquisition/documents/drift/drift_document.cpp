@@ -230,7 +230,7 @@ std::string drift_standards(const RunDrift& drift) {
 
 std::string drift_budget_by(const DriftResult& document) {
     if (document.drift.of_bar) return "ISO/TR 230-9";
-    return document.run.rotary ? "ISO 230-2 annex B" : "ISO 230-2 annex A";
+    return document.run.rotary ? "after ISO 230-2 annex A" : "ISO 230-2 annex A";
 }
 
 Json drift_to_json(const DriftResult& document) {

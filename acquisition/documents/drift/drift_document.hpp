@@ -33,7 +33,7 @@ nlohmann::ordered_json drift_figures(const RunDrift& drift);
 
 /// "ISO 230-2 E_VE, ISO 230-3 ETVE"; E_VE of a ballbar is that of ISO/TR 230-9.
 std::string drift_standards(const RunDrift& drift);
-/// By which paper a later budget takes E_VE: "ISO 230-2 annex A", of a rotary axis "annex B", of a
+/// By which paper a later budget takes E_VE: "ISO 230-2 annex A", of a rotary axis "after" it, of a
 /// ballbar "ISO/TR 230-9".
 std::string drift_budget_by(const DriftResult& document);
 

@@ -50,7 +50,7 @@ std::string unit_of(const Certificate& certificate) {
     return certificate.run.rotary ? "″" : "µm";
 }
 
-/// Annex B: what a rotary axis has.
+/// What a rotary axis has in the place of U of a length.
 std::string angle_device_text(const UncertaintySetup& setup) {
     if (setup.device_U.fixed)
         return "U_cal = " + as_stated(arcsec_of(*setup.device_U.fixed)) +
@@ -268,12 +268,14 @@ void draw_uncertainty(Sheet& sheet, const Certificate& certificate) {
         sheet.text("Not evaluated: the budget lacks " + missing + ".", {7.5});
         return;
     }
+    // Annex A is written for linear axes; annex B is the step cycle.
     const std::string source =
-        certificate.run.rotary ? std::string{"annex B"}
-                               : "annex A, over the span of the targets L = " +
-                                     fixed(known.statement.length_m.value_or(0) * 1e3, 3) + " mm";
-    sheet.text("Budget of ISO 230-2, " + source +
-                   "; n = " + std::to_string(known.budget->approaches) +
+        certificate.run.rotary
+            ? std::string{"Budget of a rotary axis, device and environment, after ISO 230-2, "
+                          "annex A"}
+            : "Budget of ISO 230-2, annex A, over the span of the targets L = " +
+                  fixed(known.statement.length_m.value_or(0) * 1e3, 3) + " mm";
+    sheet.text(source + "; n = " + std::to_string(known.budget->approaches) +
                    ", m = " + std::to_string(certificate.deviations.targets().size()) +
                    " targets; u_EVE counts in a mean of n readings by the model \"" +
                    std::string{name_of(known.budget->eve_model)} + "\".",

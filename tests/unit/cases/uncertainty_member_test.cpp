@@ -93,7 +93,7 @@ TEST(UncertaintyMember, RotaryAxisIsStatedInArcsecondsAndAnsweredInDegrees) {
     // the reference's rotary entry
     EXPECT_NEAR(expanded(answer, "A") * 3600, 1.2974333637352378, 1e-13);
     EXPECT_NEAR(expanded(answer, "R") * 3600, 0.6055300708194984, 1e-13);
-    EXPECT_EQ(answer.at("budget").at("source"), "ISO 230-2 annex B, rotary axis");
+    EXPECT_EQ(answer.at("budget").at("source"), "after ISO 230-2 annex A, rotary axis");
     EXPECT_TRUE(answer.at("budget").at("not_stated").empty());
 }
 

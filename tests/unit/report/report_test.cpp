@@ -423,8 +423,9 @@ TEST_F(Report, OfARotaryAxisPrintsTheBudgetOfAnnexB) {
     stated.targets = {{"E", mm(0.5 / 3600)}};
     const std::string text = test::text_of(render(run));
     EXPECT_EQ(count(text, "PRELIMINARY"), 0);
-    for (const char* words : {"annex B", "U_cal = 1.2″, k = 2", "E_VE = 0.6″",
-                              "U is above its stated target U_T for E", "The true figures lie"})
+    for (const char* words :
+         {"device and environment, after ISO 230-2, annex A", "U_cal = 1.2″, k = 2", "E_VE = 0.6″",
+          "U is above its stated target U_T for E", "The true figures lie"})
         EXPECT_THAT(text, HasSubstr(words));
     EXPECT_THAT(text, Not(HasSubstr("A beam off the axis")));
 }
