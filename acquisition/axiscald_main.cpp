@@ -1,10 +1,10 @@
 // The daemon: configuration refused before any device opens; loop, doors, watchdog, orderly end.
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_server.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/folder_owner.hpp"
 #include "acquisition/runfile/signing_key.hpp"
-#include "acquisition/station/certificate_writer.hpp"
 #include "acquisition/station/station.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "config/standard_streams.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The station's structs as the JSON of docs/api.md, and back. Pure.
 
-#include "acquisition/station/station_interface.hpp"
+#include "acquisition/live/station_interface.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 // The order of a drift test, from the JSON of docs/api.md. Pure.
 
-#include "acquisition/station/station_interface.hpp"
+#include "acquisition/live/station_interface.hpp"
 
 #include <string>
 

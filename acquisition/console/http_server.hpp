@@ -2,7 +2,7 @@
 // HTTP/JSON for people and the command line (docs/api.md). Reading is free on every door; what
 // changes state needs the Unix socket or the bearer token. Loop-bound.
 
-#include "acquisition/station/station_interface.hpp"
+#include "acquisition/live/station_interface.hpp"
 #include "config/station_config.hpp"
 
 #include <memory>

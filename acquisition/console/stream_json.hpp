@@ -1,7 +1,7 @@
 #pragma once
 // The stream of a circular test, thinned for viewing, as the JSON of docs/api.md. Pure.
 
-#include "acquisition/station/station_interface.hpp"
+#include "acquisition/live/station_interface.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -3,7 +3,7 @@
 // program of systemd that comes with it: libsystemd would stay in an idle daemon's memory
 // (drivers/loop/service_manager.hpp). Loop-bound; nothing here waits.
 
-#include "acquisition/station/child_process.hpp"
+#include "drivers/loop/child_process.hpp"
 #include "drivers/loop/scheduler.hpp"
 
 #include <string>

@@ -2,6 +2,8 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/resume.hpp"
@@ -9,8 +11,6 @@
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/run_header.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "analysis/record/run_clock.hpp"
 #include "drivers/loop/spawn.hpp"
 

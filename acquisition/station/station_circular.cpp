@@ -2,11 +2,11 @@
 // request of the CNC becomes durable before it is answered.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/runfile/certificate_numbers.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/run_header.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/runfile/stream_packing.hpp"
-#include "acquisition/station/run_header.hpp"
-#include "acquisition/station/time_limits.hpp"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/run/resume.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "analysis/record/run_clock.hpp"
 
 #include <utility>

@@ -2,11 +2,11 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/live_position.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/run_header.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>

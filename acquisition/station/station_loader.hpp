@@ -1,7 +1,7 @@
 #pragma once
 // The station file with everything that can be said about it before a device is opened.
 
-#include "acquisition/station/roles.hpp"
+#include "acquisition/live/roles.hpp"
 #include "config/station_config.hpp"
 #include "drivers/instrument.hpp"
 #include "drivers/recording/tape_link.hpp"

@@ -5,7 +5,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/station/time_limits.hpp"
+#include "acquisition/live/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <utility>

@@ -3,8 +3,8 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
 #include "acquisition/station/held.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <algorithm>

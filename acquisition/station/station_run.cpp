@@ -3,8 +3,8 @@
 
 #include "acquisition/capture/capture.hpp"
 #include "acquisition/capture/stillness.hpp"
-#include "acquisition/station/certificate_writer.hpp"
-#include "acquisition/station/time_limits.hpp"
+#include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <filesystem>

@@ -3,8 +3,8 @@
 
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/live/time_limits.hpp"
 #include "acquisition/run/live_position.hpp"
-#include "acquisition/station/time_limits.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "config/version.hpp"
 

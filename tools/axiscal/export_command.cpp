@@ -1,8 +1,8 @@
 // `axiscal export`: the report program draws, this one says where the papers lie.
 #include "acquisition/documents/evaluate.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
-#include "acquisition/station/certificate_writer.hpp"
 #include "config/json_text.hpp"
 #include "tools/axiscal/complaint.hpp"
 #include "tools/axiscal/exit_code.hpp"

@@ -1,10 +1,10 @@
 #include "tools/axiscal/probing_command.hpp"
 
 #include "acquisition/documents/evaluate.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
-#include "acquisition/station/run_header.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "analysis/probing/probing_case.hpp"
 #include "analysis/quantity/valid_text.hpp"

@@ -1,6 +1,6 @@
 // Bytes that are no text, through every driver of a wire that speaks text, up to the status.
 #include "acquisition/console/api_json.hpp"
-#include "acquisition/station/supervisor.hpp"
+#include "acquisition/live/supervisor.hpp"
 #include "tests/support/made_instrument.hpp"
 #include "tests/support/virtual_scheduler.hpp"
 

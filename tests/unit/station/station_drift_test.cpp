@@ -1,6 +1,6 @@
 // The drift test from its order to its file, and what it does to later runs.
 #include "analysis/drift/run_drift.hpp"
-#include "tests/unit/station/report_script.hpp"
+#include "tests/support/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 namespace axiscal::testing::station_drift_test {

@@ -1,8 +1,8 @@
 // A second daemon on the state folder of the first.
-#include "acquisition/station/run_header.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "config/version.hpp"
 #include "tests/support/full_disk.hpp"
-#include "tests/unit/station/report_script.hpp"
+#include "tests/support/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 namespace axiscal::testing::station_resume_test {

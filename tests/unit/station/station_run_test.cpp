@@ -1,8 +1,8 @@
 // The station from arming to the certificate, and what goes wrong on the way.
 #include "tests/support/full_disk.hpp"
-#include "tests/unit/station/report_script.hpp"
-#include "tests/unit/station/station_bench.hpp"
+#include "tests/support/report_script.hpp"
 #include "tests/unit/runfile/one_row.hpp"
+#include "tests/unit/station/station_bench.hpp"
 
 namespace axiscal::testing::station_run_test {
 namespace {

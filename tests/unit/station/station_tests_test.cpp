@@ -1,5 +1,5 @@
 // What one test leaves to the next, of whatever kind.
-#include "tests/unit/station/report_script.hpp"
+#include "tests/support/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 
 #include "acquisition/publish/folder_destination.hpp"
 #include "acquisition/publish/publisher.hpp"
-#include "tests/unit/station/report_script.hpp"
+#include "tests/support/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
 #include <array>

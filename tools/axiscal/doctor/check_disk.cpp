@@ -1,6 +1,6 @@
 // The state directory and the place where certificates go.
+#include "acquisition/live/outbox_watch.hpp"
 #include "acquisition/publish/mount_points.hpp"
-#include "acquisition/station/outbox_watch.hpp"
 #include "config/share_address.hpp"
 #include "tools/axiscal/doctor/doctor.hpp"
 #include "tools/axiscal/selftest/selftest.hpp"

@@ -1,6 +1,6 @@
 // Clock, kernel modules, font and programs.
 // Sources: adjtimex(2); Documentation/ABI/testing/sysfs-devices-system-clocksource; depmod(8).
-#include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 #include "tools/axiscal/doctor/doctor.hpp"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // What the station shows and takes: the only thing the console knows of it.
 
 #include "acquisition/capture/min_max_pyramid.hpp"
+#include "acquisition/live/outbox_watch.hpp"
+#include "acquisition/live/supervisor.hpp"
 #include "acquisition/run/run_events.hpp"
-#include "acquisition/station/outbox_watch.hpp"
-#include "acquisition/station/supervisor.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"

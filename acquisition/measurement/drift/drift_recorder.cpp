@@ -1,4 +1,4 @@
-#include "acquisition/station/drift_recorder.hpp"
+#include "acquisition/measurement/drift/drift_recorder.hpp"
 
 #include <algorithm>
 

@@ -6,9 +6,9 @@
 #include "acquisition/capture/sample_history.hpp"
 #include "acquisition/capture/sample_rate.hpp"
 #include "acquisition/capture/sensor_log.hpp"
+#include "acquisition/live/roles.hpp"
+#include "acquisition/live/supervisor.hpp"
 #include "acquisition/preflight/preflight.hpp"
-#include "acquisition/station/roles.hpp"
-#include "acquisition/station/supervisor.hpp"
 #include "config/station_config.hpp"
 #include "drivers/sample.hpp"
 

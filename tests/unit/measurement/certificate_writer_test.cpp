@@ -1,7 +1,7 @@
-#include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 
 #include "drivers/loop/asio_scheduler.hpp"
-#include "tests/unit/station/report_script.hpp"
+#include "tests/support/report_script.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/io_context.hpp>

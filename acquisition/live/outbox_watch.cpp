@@ -1,4 +1,4 @@
-#include "acquisition/station/outbox_watch.hpp"
+#include "acquisition/live/outbox_watch.hpp"
 
 #include <nlohmann/json.hpp>
 

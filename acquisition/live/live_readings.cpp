@@ -1,4 +1,4 @@
-#include "acquisition/station/live_readings.hpp"
+#include "acquisition/live/live_readings.hpp"
 
 #include "acquisition/preflight/environment_limits.hpp"
 #include "analysis/air/air_refraction.hpp"

@@ -1,4 +1,4 @@
-#include "acquisition/station/supervisor.hpp"
+#include "acquisition/live/supervisor.hpp"
 
 #include "analysis/quantity/valid_text.hpp"
 #include "analysis/record/channel_correction.hpp"

@@ -1,4 +1,4 @@
-#include "acquisition/station/run_header.hpp"
+#include "acquisition/measurement/run_header.hpp"
 
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/run_store.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Which channel plays which part: names of the station file resolved against the instruments. Pure.
 
-#include "acquisition/station/supervisor.hpp"
+#include "acquisition/live/supervisor.hpp"
 #include "config/station_config.hpp"
 
 #include <optional>

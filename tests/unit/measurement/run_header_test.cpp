@@ -1,5 +1,5 @@
 // A run's id, which is a file, a folder and a share's name, of whatever people call their things.
-#include "acquisition/station/run_header.hpp"
+#include "acquisition/measurement/run_header.hpp"
 
 #include "acquisition/runfile/run_store.hpp"
 #include "analysis/quantity/valid_text.hpp"

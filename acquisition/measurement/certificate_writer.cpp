@@ -1,7 +1,7 @@
-#include "acquisition/station/certificate_writer.hpp"
+#include "acquisition/measurement/certificate_writer.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/station/child_process.hpp"
+#include "drivers/loop/child_process.hpp"
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>

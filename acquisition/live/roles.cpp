@@ -1,4 +1,4 @@
-#include "acquisition/station/roles.hpp"
+#include "acquisition/live/roles.hpp"
 
 #include <algorithm>
 

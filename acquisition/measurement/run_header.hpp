@@ -2,8 +2,8 @@
 // What a run file says before its first point: plan, set-up, statements, who measures. Pure but for
 // the run's id, which looks at what is stored.
 
-#include "acquisition/station/roles.hpp"
-#include "acquisition/station/station_interface.hpp"
+#include "acquisition/live/roles.hpp"
+#include "acquisition/live/station_interface.hpp"
 #include "config/station_config.hpp"
 
 namespace axiscal {

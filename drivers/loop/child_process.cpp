@@ -1,4 +1,4 @@
-#include "acquisition/station/child_process.hpp"
+#include "drivers/loop/child_process.hpp"
 
 #include <array>
 #include <cerrno>

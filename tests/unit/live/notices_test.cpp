@@ -1,4 +1,4 @@
-#include "acquisition/station/notices.hpp"
+#include "acquisition/live/notices.hpp"
 
 #include "drivers/loop/virtual_scheduler.hpp"
 
