@@ -222,4 +222,16 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     return run;
 }
 
+Result<RunRecord> make_header_without_axis(RunHeaderParts parts,
+                                           const std::string& name,
+                                           const ArmRequest& request) {
+    parts.plan = {};
+    parts.plan.approaches = 0;
+    parts.plan.bidirectional = false;
+    AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
+    header.run_id = free_run_id(parts.config, name, parts.opened.utc_ns);
+    header.uncertainty.reset(); // it speaks of the linear axis
+    return header;
+}
+
 } // namespace axiscal

@@ -44,4 +44,12 @@ std::vector<ChannelCalibration> calibrations_of(const Supervisor& supervisor,
 /// @errors Fault::bad_request for a statement that does not exist.
 Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest& request);
 
+/// Of a test that positions nothing: no targets, and no uncertainty of the axis. `parts.plan` says
+/// nothing.
+/// @param name  of what is measured, in the run's id
+/// @errors as make_run_header.
+Result<RunRecord> make_header_without_axis(RunHeaderParts parts,
+                                           const std::string& name,
+                                           const ArmRequest& request);
+
 } // namespace axiscal

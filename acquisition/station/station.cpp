@@ -60,7 +60,6 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , roles_{std::move(parts.roles)}
     , config_hash_{std::move(parts.config_hash)}
     , boot_id_{std::move(parts.boot_id)}
-    , report_program_{std::move(parts.report_program)}
     , slept_{scheduler.asleep()}
     , sleep_lock_{scheduler, std::move(parts.inhibit_program)}
     , supervisor_{scheduler, links, *this}
@@ -75,6 +74,9 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , stale_after_{age_that_matters(config_)}
     , bell_{scheduler.executor()}
     , notices_{scheduler, bell_}
+    , files_{scheduler, journal_, notices_, stopping_}
+    , certificates_{scheduler, notices_, std::move(parts.report_program),
+                    config_.state_directory + "/outbox"}
     , set_up_{reference_word()} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
@@ -156,6 +158,7 @@ void Station::on_sample(const Sample& sample) {
     readings_.take(sample);
     time_counts_until_ = sample.at + stale_after_;
     if (asleep_) bell_.ring();
+    if (resting_) resting_->on_sample(sample);
     if (sample.channel == roles_.laser) return take_reading(sample);
     if (sample.channel == roles_.autocollimator) return take_face(sample);
     if (sample.channel == roles_.ballbar) return take_bar(sample);

@@ -6,7 +6,6 @@
 
 #include "acquisition/capture/beam_alignment.hpp"
 #include "acquisition/capture/min_max_pyramid.hpp"
-#include "acquisition/capture/sample_history.hpp"
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
@@ -16,7 +15,13 @@
 #include "acquisition/live/roles.hpp"
 #include "acquisition/live/station_interface.hpp"
 #include "acquisition/live/supervisor.hpp"
-#include "acquisition/measurement/drift/drift_recorder.hpp"
+#include "acquisition/measurement/certificates.hpp"
+#include "acquisition/measurement/drift/drift_measurement.hpp"
+#include "acquisition/measurement/drift/environmental_variation.hpp"
+#include "acquisition/measurement/drift/resting_test.hpp"
+#include "acquisition/measurement/measurement.hpp"
+#include "acquisition/measurement/run_file_closer.hpp"
+#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/run/circle_order.hpp"
 #include "acquisition/run/circle_resume.hpp"
@@ -110,17 +115,6 @@ private:
         MonotonicTime first_taken, last_taken;
     };
 
-    /// The drift test that is open, or the last one.
-    struct CurrentDrift {
-        std::string run_id, path;
-        DriftRecorder recorder;
-        std::optional<SampleHistory> bar; ///< of a test of the ballbar: its last readings
-        bool closing = false, closed = false, complete = false;
-        std::string reason, certificate;
-        std::optional<Error> no_certificate;
-        std::optional<Error> closing_error; ///< why its file could not be closed
-    };
-
     // SupervisorListener, TriggerSink
     void on_sample(const Sample& sample) override;
     void on_instrument_state(const InstrumentView& view) override;
@@ -206,10 +200,6 @@ private:
     /// It did so within the last two seconds; in its range or not.
     [[nodiscard]] Result<void> ballbar_speaks() const;
     [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
-    /// Of a run that positions nothing: no targets, and no uncertainty of the axis.
-    /// @param name  of what is measured, in the run's id
-    [[nodiscard]] Result<RunRecord>
-    header_without_axis(TestKind kind, const std::string& name, const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
     Task<void> bar_is_read_until(MonotonicTime at);
@@ -242,7 +232,6 @@ private:
     Task<void> take_over_when_disk_is_back(std::string message);
     /// Why no file may grow where the runs are, if so.
     Task<std::optional<Error>> disk_trouble();
-    Task<Result<void>> close_file(bool complete, std::string reason);
     Task<Result<void>> close_file_for_now(bool complete, std::string reason);
     Task<void> wait_for_readers();
     DiskBack disk_back(RunFileContents contents);
@@ -252,7 +241,9 @@ private:
     Task<Result<void>> close_after_disk();
     Task<Result<void>> finish_after_disk();
     /// What failed and what to do, without the fault's own sentence.
-    [[nodiscard]] std::string disk_text(const Error& error) const;
+    [[nodiscard]] std::string disk_text(const Error& error) const {
+        return axiscal::disk_text(error, config_.state_directory);
+    }
 
     // station_arm.cpp: opening and resuming
     Task<Result<std::string>> open_and_tie(ArmRequest request);
@@ -274,8 +265,6 @@ private:
     /// Neither run nor drift test is open, and nobody opens one. @errors Fault::busy
     [[nodiscard]] Result<void> nothing_goes_on() const;
     Task<Result<RunEnding>> await_closing(std::string path);
-    /// Why a file is not closed yet: a record on its way to the disk, or a reader.
-    [[nodiscard]] tl::unexpected<Error> not_closed_yet() const;
 
     // station_preflight.cpp
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
@@ -311,6 +300,8 @@ private:
     Task<void> certify_once_unread(std::string run_id, std::string path);
 
     [[nodiscard]] RunSetup setup_of(const RunRecord& header) const;
+    /// Of a test that is opened now. @param plan  of the axis; of other tests empty
+    [[nodiscard]] RunHeaderParts header_parts(TestKind kind, RunPlan plan) const;
     Task<Result<void>> await_datum();
     [[nodiscard]] bool instruments_returned() const;
     Task<Result<void>> resume_or_close(std::string path);
@@ -331,44 +322,16 @@ private:
     [[nodiscard]] const StationChannel& channel_of(int id) const;
     [[nodiscard]] std::string shown_name_of(int id) const; ///< "gauge/axis 1", as in a run file
 
-    // station_drift.cpp
-    /// What a drift test begins with; its calibrations come later.
-    struct RestingTest {
-        RunRecord header;
-        DriftSetup setup;
-        int watched = 0; ///< channel of the laser, scale or ballbar
-    };
+    // station_drift.cpp: a drift test is ordered; DriftMeasurement is the test itself
     [[nodiscard]] bool drift_is_of_bar(const DriftRequest& request) const;
     [[nodiscard]] Result<void> ready_for_drift(bool of_bar) const;
-    [[nodiscard]] Result<void> check_spans(const DriftRequest& request) const;
-    [[nodiscard]] Result<void> check_rate_of_bar() const;
     [[nodiscard]] Result<RestingTest> drift_of_axis(const DriftRequest& request) const;
     [[nodiscard]] Result<RestingTest> drift_of_bar(const DriftRequest& request) const;
     Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
-    [[nodiscard]] Result<DriftSetup> drift_setup_of(const DriftRequest& request,
-                                                    const RunPlan& plan) const;
     [[nodiscard]] Result<void> rests_at(Length place) const;
-    [[nodiscard]] std::vector<ChannelRecord>
-    every_channel(int watched, const std::vector<int>& environment) const;
-    /// Ends with the test of this id: another one may begin at once.
-    Task<void> record_drift(std::string run_id);
-    void note_drift();
-    Task<Result<void>> close_drift(bool complete, std::string reason);
-    Task<void> abort_drift(std::string reason);
-    Task<Result<RunEnding>> await_drift_closing(std::string run_id);
-    [[nodiscard]] bool drift_open() const { return drift_ && !drift_->closed; }
-    [[nodiscard]] DriftView drift_view() const;
+    [[nodiscard]] bool drift_open() const { return resting_ && resting_->is_open(); }
 
     // station_eve.cpp
-    struct FoundEve {
-        Length eve; ///< one millimetre for one degree of a rotary axis
-        std::string run_id;
-        Duration lasted{};
-        Length rest; ///< where the axis stood
-    };
-    /// @errors those of find_drift(); Fault::refused for a test that left readings out;
-    /// Fault::bad_run_file for one of the other kind.
-    Task<Result<FoundEve>> find_eve(WantedDrift wanted, AxisKind kind);
     /// E_VE of the drift test that the station file points to, if it does: of the bar for circles,
     /// else of the axis.
     Task<Result<std::optional<FoundEve>>> eve_for(bool circles);
@@ -444,7 +407,6 @@ private:
     StationRoles roles_;
     std::string config_hash_;
     BootId boot_id_;
-    std::string report_program_;
     Duration slept_{}; ///< of the computer, as last told
     SleepLock sleep_lock_;
     Supervisor supervisor_;
@@ -459,6 +421,9 @@ private:
     bool asleep_ = false;               ///< tick() waits for the bell
     Doorbell bell_;
     Notices notices_;
+    bool stopping_ = false; ///< the daemon is about to end
+    RunFileCloser files_;
+    Certificates certificates_;
     std::optional<RunMachine> machine_; ///< of a linear or rotary run, else:
     std::optional<Circles> circular_;
     std::optional<CurrentRun> run_;
@@ -478,15 +443,14 @@ private:
     std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
     std::optional<DatumRecord> datum_;
     std::uint32_t datum_epoch_ = 0; ///< of the laser's counter under which the datum holds
-    std::optional<CurrentDrift> drift_;
+    std::shared_ptr<DriftMeasurement> resting_; ///< the drift test that is open, or the last one
     std::string newest_run_; ///< id of the stored one that was opened latest; empty: none
     std::int64_t newest_run_utc_ns_ = 0;
     BeamAlignment beam_;
     boost::asio::cancellation_signal end_port_;
-    std::string reader_;            ///< who reads the file that is being closed, in words
     bool waiting_for_disk_ = false; ///< the run file could not be written
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
-    bool arming_ = false, cnc_silent_ = false, stopping_ = false, datum_lost_told_ = false;
+    bool arming_ = false, cnc_silent_ = false, datum_lost_told_ = false;
     bool revising_ = false;         ///< a retake, an exclusion or an answer is being kept
     bool revision_unknown_ = false; ///< one could not be kept: the file may hold it all the same
 };

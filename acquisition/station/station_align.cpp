@@ -59,7 +59,7 @@ Result<void> Station::align(AlignmentOrder order) {
                                          " is open: a beam that is steered now spoils it; finish "
                                          "it or 'axiscal abort' it first");
         if (drift_open())
-            return fail(Fault::busy, "drift test " + drift_->run_id +
+            return fail(Fault::busy, "drift test " + resting_->run().run_id +
                                          " is going on: a beam that is steered now spoils it");
         beam_.begin(config_.cycle.travel_high - config_.cycle.travel_low,
                     config_.capture.spread_limit, scheduler_.clock_tie());

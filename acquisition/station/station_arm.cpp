@@ -65,7 +65,7 @@ Result<void> Station::nothing_goes_on() const {
         return fail(Fault::busy, "run " + run_->header.run_id +
                                      " is open; finish it or 'axiscal abort' it first");
     if (drift_open())
-        return fail(Fault::busy, "drift test " + drift_->run_id +
+        return fail(Fault::busy, "drift test " + resting_->run().run_id +
                                      " is going on; let it end or 'axiscal abort' it first");
     return {};
 }
@@ -103,6 +103,11 @@ RunSetup Station::setup_of(const RunRecord& header) const {
     return {header.plan, header.laser, laser_serial(), config_.capture.timeout, {}, header.rotary};
 }
 
+RunHeaderParts Station::header_parts(TestKind kind, RunPlan plan) const {
+    return {config_,         supervisor_,            roles_,   kind,
+            std::move(plan), scheduler_.clock_tie(), boot_id_, config_hash_};
+}
+
 Task<Result<std::string>> Station::arm(ArmRequest request) {
     if (request.pass == circular_pass) co_return co_await arm_circular(std::move(request));
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
@@ -116,10 +121,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
     if (const std::string objections = open_objections(checks); !objections.empty())
         co_return refuse(Fault::refused, "preflight", objections);
-    const RunHeaderParts parts{config_,         supervisor_,
-                               roles_,          TestKind::positioning,
-                               std::move(plan), scheduler_.clock_tie(),
-                               boot_id_,        config_hash_};
+    const RunHeaderParts parts = header_parts(TestKind::positioning, std::move(plan));
     AXISCAL_CO_TRY(RunRecord header, make_run_header(parts, request));
     if (auto free =
             check_number_is_free(config_.state_directory, header.statements.certificate_number);
@@ -157,7 +159,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
 }
 
 OrderRecord Station::order_of(std::string kind, const Orderer& by, std::string about) const {
-    return {std::move(kind), std::move(about), scheduler_.now(), scheduler_.clock_tie().utc_ns, by};
+    return order_now(scheduler_, std::move(kind), by, std::move(about));
 }
 
 void Station::note_orders_of_arming(const Orderer& by, const std::vector<PreflightRecord>& checks) {
@@ -221,12 +223,8 @@ Result<void> Station::trigger() {
 
 Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
     if (drift_open()) {
-        if (drift_->closing) co_return fail(Fault::busy, "the drift test is being closed");
-        journal_.note(order_of("abort", by));
-        note("The drift test was aborted by " + name_of(by) + ".");
-        const std::string test = drift_->run_id;
-        spawn(scheduler_, abort_drift(std::move(reason)));
-        co_return co_await await_drift_closing(test);
+        const auto test = resting_; // the next one may take its place before this returns
+        co_return co_await test->abort(std::move(reason), std::move(by));
     }
     if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     journal_.note(order_of("abort", by));
@@ -236,15 +234,6 @@ Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
     else
         feed(Abort{std::move(reason), scheduler_.now()});
     co_return co_await await_closing(run_->path);
-}
-
-tl::unexpected<Error> Station::not_closed_yet() const {
-    if (!reader_.empty())
-        return fail(Fault::busy,
-                    "nothing more is taken and the closing is on disk, but " + reader_);
-    return fail(Fault::busy,
-                "nothing more is taken, but the file is not closed yet: a record is on its way to "
-                "the disk; it is closed as soon as the disk has answered");
 }
 
 /// What did not close is told to the one who asked: 200 would be a lie. So would "aborted" of a run
@@ -257,7 +246,7 @@ Task<Result<RunEnding>> Station::await_closing(std::string path) {
     if (!same()) co_return RunEnding{};
     if (run_->closed && run_->closing_row_durable)
         co_return RunEnding{run_->outcome->complete, run_->outcome->reason};
-    if (!run_->closed) co_return not_closed_yet();
+    if (!run_->closed) co_return files_.not_closed_yet();
     const Error& why = *run_->closing_error;
     co_return fail(Fault::not_durable,
                    "the run takes nothing more, but its file could not be closed: " +

@@ -42,25 +42,10 @@ CircularSetup Station::circular_setup() const {
     return setup;
 }
 
-Result<RunRecord> Station::header_without_axis(TestKind kind,
-                                               const std::string& name,
-                                               const ArmRequest& request) const {
-    RunPlan plan;
-    plan.approaches = 0;
-    plan.bidirectional = false;
-    const RunHeaderParts parts{config_,  supervisor_,     roles_,
-                               kind,     std::move(plan), scheduler_.clock_tie(),
-                               boot_id_, config_hash_};
-    AXISCAL_TRY(RunRecord header, make_run_header(parts, request));
-    header.run_id = free_run_id(config_, name, parts.opened.utc_ns);
-    header.uncertainty.reset(); // it speaks of the linear axis
-    return header;
-}
-
 Result<RunRecord> Station::circular_header(const ArmRequest& request) const {
     const std::string plane{name_of(config_.circular->setup.plan.plane)};
-    AXISCAL_TRY(RunRecord header,
-                header_without_axis(TestKind::circular, plane + "-circle", request));
+    AXISCAL_TRY(RunRecord header, make_header_without_axis(header_parts(TestKind::circular, {}),
+                                                           plane + "-circle", request));
     AXISCAL_CHECK(
         check_number_is_free(config_.state_directory, header.statements.certificate_number));
     header.plan.remark = "circular test; the table circular holds its plan";
@@ -129,7 +114,6 @@ void Station::begin_circular(RunRecord header, std::string path, const CircularS
 /// A reading of the bar, whatever is going on.
 void Station::take_bar(const Sample& sample) {
     readings_.take_bar(sample);
-    if (drift_open() && drift_->bar) drift_->bar->push(sample);
     readings_.log(sample);
     if (!circular_ || !recording()) return;
     if (const auto value = sample.value()) {

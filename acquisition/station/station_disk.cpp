@@ -2,7 +2,6 @@
 // a new daemon would find it: the file is opened, verified and synced anew.
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/run/resume.hpp"
-#include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/station/station.hpp"
 
 #include <utility>
@@ -21,12 +20,6 @@ int points_asked(const RunRevisions& orders) {
 
 } // namespace
 
-std::string Station::disk_text(const Error& error) const {
-    const std::string advice = way_out(error.cause, config_.state_directory);
-    const std::string cause = error.cause ? " (" + error.cause.message() + ")" : "";
-    return error.detail + cause + "." + (advice.empty() ? "" : " " + advice);
-}
-
 Task<void> Station::wait_for_disk() {
     const MonotonicTime since = scheduler_.now();
     const std::string path = run_->path;
@@ -38,20 +31,6 @@ Task<void> Station::wait_for_disk() {
         if (co_await try_disk(path, since)) break;
     }
     waiting_for_disk_ = false;
-}
-
-/// Whoever reads the file holds up the last step, by which it becomes one file: that is no fault of
-/// the disk, and is waited for. The closing row is durable from the first attempt on.
-Task<Result<void>> Station::close_file(bool complete, std::string reason) {
-    for (;;) {
-        Result<void> closed = co_await journal_.close(complete, reason);
-        const bool is_read = !closed && closed.error().fault == Fault::busy;
-        const bool reported = !reader_.empty();
-        reader_ = is_read ? closed.error().detail : "";
-        if (!is_read || stopping_) co_return closed;
-        if (!reported) note("The run is closed and safe. " + reader_ + ".");
-        co_await scheduler_.sleep_for(try_every);
-    }
 }
 
 /// At a start nobody waits for a reader: wait_for_readers() does what is left.
@@ -193,7 +172,7 @@ Task<Result<void>> Station::take_up_order(std::string path, RunFileContents cont
 Task<Result<void>> Station::close_after_disk() {
     const Close wanted =
         run_->outcome.value_or(Close{false, "The disk failed.", Fault::not_durable});
-    const auto closed = co_await close_file(wanted.complete, wanted.reason);
+    const auto closed = co_await files_.close(wanted.complete, wanted.reason);
     if (!closed) co_return closed;
     co_return co_await finish_after_disk();
 }

@@ -4,7 +4,6 @@
 #include "acquisition/capture/capture.hpp"
 #include "acquisition/capture/stillness.hpp"
 #include "acquisition/live/time_limits.hpp"
-#include "acquisition/measurement/certificate_writer.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <filesystem>
@@ -232,7 +231,7 @@ void Station::perform(Close action) {
 }
 
 Task<void> Station::close_run(Close action) {
-    const Result<void> closed = co_await close_file(action.complete, action.reason);
+    const Result<void> closed = co_await files_.close(action.complete, action.reason);
     if (!closed) note("The run file could not be closed: " + describe(closed.error()));
     note("Run " + run_->header.run_id +
          (action.complete ? " is complete." : " is closed as incomplete: " + action.reason));
@@ -258,7 +257,7 @@ bool Station::lacks_certificate(const RunSummary& run) const {
 
 /// What this daemon measures, or takes over, it certifies by itself when it closes it.
 bool Station::is_of_this_daemon(const std::string& path) const {
-    return (run_ && run_->path == path) || (drift_ && drift_->path == path);
+    return (run_ && run_->path == path) || (resting_ && resting_->run().path == path);
 }
 
 /// The closed ones are looked into one by one and late: beside the loop, and behind whoever waited
@@ -279,36 +278,14 @@ Task<void> Station::certify_left_over(StoredRuns stored) {
     ::malloc_trim(0); // a thousand runs leave half a megabyte that an idle station has no use for
 }
 
-namespace {
-
-std::string text_of(const WrittenCertificate& written) {
-    const std::string verdict =
-        written.verdict.empty() ? std::string{} : "Verdict on " + written.verdict + ". ";
-    return verdict + "Certificate written: " + written.entry;
-}
-
-} // namespace
-
 /// Meanwhile a new run may have been armed: the answer belongs to the run named here.
 Task<void> Station::certify(std::string run_id, std::string path) {
-    const auto written = co_await write_certificate(scheduler_, report_program_, path,
-                                                    config_.state_directory + "/outbox");
-    note(written ? text_of(*written)
-                 : "No certificate for run " + run_id + ": " + describe(written.error()) +
-                       " 'axiscal export " + path + "' tries again.");
-    if (written) std::ranges::for_each(written->setup_findings, [this](auto& one) { note(one); });
-    if (drift_ && drift_->run_id == run_id) {
-        if (written)
-            drift_->certificate = written->entry;
-        else
-            drift_->no_certificate = written.error();
-        co_return;
-    }
+    const auto entry = co_await certificates_.make(run_id, std::move(path));
     if (!run_ || run_->header.run_id != run_id) co_return;
-    if (written)
-        run_->certificate = written->entry;
+    if (entry)
+        run_->certificate = *entry;
     else
-        run_->no_certificate = written.error();
+        run_->no_certificate = entry.error();
 }
 
 } // namespace axiscal

@@ -195,7 +195,7 @@ StationStatus Station::status() const {
     status.cnc_silent = cnc_silent_;
     if (run_ && (machine_ || circular_)) status.run = run_status();
     status.run_open = run_open();
-    if (drift_) status.drift = drift_view();
+    if (resting_) status.drift = resting_->view();
     status.outbox = outbox_watch_.look(scheduler_.clock_tie());
     status.notes.assign(notices_.last().begin(), notices_.last().end());
     return status;

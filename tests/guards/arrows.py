@@ -116,6 +116,8 @@ def include_self_test(table):
         "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
         "acquisition/publish/z.cpp": '#include "acquisition/documents/pdf/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_run.hpp"\n',
         "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
+        "acquisition/live/x.cpp": '#include "acquisition/measurement/measurement.hpp"\n',
+        "acquisition/measurement/drift/x.cpp": '#include "acquisition/station/station.hpp"\n',
     }
     fine = {"drivers/z.cpp": '#include "analysis/record/run_record.hpp"\n#include <modbus.h>\n', "acquisition/documents/pdf/x.cpp": "#include <cairo.h>\n"}
     missed = [path for path, text in planted.items() if not list(table.include_complaints(path, text))]
@@ -130,7 +132,7 @@ def link_self_test(table, files):
         "target_link_libraries(axiscal_publish PRIVATE PkgConfig::pangocairo)": 1, "target_link_libraries(axiscal_simulated axiscal_drivers)": 1,
         "target_link_libraries(axiscal_config PUBLIC axiscal_analysis)": 1, "target_link_libraries(axiscal_attic PUBLIC axiscal_quantity)": 1,
         "target_link_libraries(axiscal_journal PUBLIC axiscal_drivers)": 1, "target_link_libraries(axiscal_run PRIVATE ${whatever})": 1,
-        "target_link_libraries(axiscald PRIVATE axiscal_smb)": 1,
+        "target_link_libraries(axiscald PRIVATE axiscal_smb)": 1, "target_link_libraries(axiscal_measurement PUBLIC axiscal_station)": 1,
         "target_link_libraries(axiscal_drivers PRIVATE axiscal_record) # axiscal_analysis": 0,
     }
     alone = len(list(cmake_complaints(table, files)))

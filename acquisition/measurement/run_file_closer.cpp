@@ -1,0 +1,50 @@
+#include "acquisition/measurement/run_file_closer.hpp"
+
+#include "acquisition/journal/journal.hpp"
+#include "acquisition/live/notices.hpp"
+#include "acquisition/runfile/durable_file.hpp"
+
+namespace axiscal {
+namespace {
+
+constexpr Duration ask_reader_every = std::chrono::seconds{1};
+
+} // namespace
+
+RunFileCloser::RunFileCloser(Scheduler& scheduler,
+                             Journal& journal,
+                             Notices& notices,
+                             const bool& stopping)
+    : scheduler_{scheduler}
+    , journal_{journal}
+    , notices_{notices}
+    , stopping_{stopping} {}
+
+Task<Result<void>> RunFileCloser::close(bool complete, std::string reason) {
+    for (;;) {
+        Result<void> closed = co_await journal_.close(complete, reason);
+        const bool is_read = !closed && closed.error().fault == Fault::busy;
+        const bool reported = !reader_.empty();
+        reader_ = is_read ? closed.error().detail : "";
+        if (!is_read || stopping_) co_return closed;
+        if (!reported) notices_.note("The run is closed and safe. " + reader_ + ".");
+        co_await scheduler_.sleep_for(ask_reader_every);
+    }
+}
+
+tl::unexpected<Error> RunFileCloser::not_closed_yet() const {
+    if (!reader_.empty())
+        return fail(Fault::busy,
+                    "nothing more is taken and the closing is on disk, but " + reader_);
+    return fail(Fault::busy,
+                "nothing more is taken, but the file is not closed yet: a record is on its way to "
+                "the disk; it is closed as soon as the disk has answered");
+}
+
+std::string disk_text(const Error& error, const std::string& folder) {
+    const std::string advice = way_out(error.cause, folder);
+    const std::string cause = error.cause ? " (" + error.cause.message() + ")" : "";
+    return error.detail + cause + "." + (advice.empty() ? "" : " " + advice);
+}
+
+} // namespace axiscal
