@@ -1,4 +1,4 @@
-#include "acquisition/run/circle_order.hpp"
+#include "acquisition/measurement/circular/circle_order.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // An open circular test after a restart: the stream's truth is the driven bar's, cut off where the
 // daemon died.
 
-#include "acquisition/run/circle_resume.hpp"
+#include "acquisition/measurement/circular/circle_resume.hpp"
 #include "tests/unit/analysis/driven_bar.hpp"
 
 #include <gtest/gtest.h>

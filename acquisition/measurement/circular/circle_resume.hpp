@@ -1,7 +1,7 @@
 #pragma once
 // May an open circular test go on after a restart of the daemon? Pure.
 
-#include "acquisition/run/circle_order.hpp"
+#include "acquisition/measurement/circular/circle_order.hpp"
 #include "acquisition/run/resume.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/stream_record.hpp"

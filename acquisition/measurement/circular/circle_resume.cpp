@@ -1,4 +1,4 @@
-#include "acquisition/run/circle_resume.hpp"
+#include "acquisition/measurement/circular/circle_resume.hpp"
 
 #include "analysis/circular/circle_cut.hpp"
 #include "analysis/record/run_clock.hpp"
