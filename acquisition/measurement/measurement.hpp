@@ -7,6 +7,7 @@
 #include "config/station_config.hpp"
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/sample.hpp"
+#include "drivers/trigger/trigger_port.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -41,10 +42,13 @@ struct RunState {
     std::string run_id, path;
     Stage stage = Stage::open;
     bool complete = false;              ///< closed with all that was planned
-    std::string reason;                 ///< why it was closed early, once it is closed
+    std::string reason;                 ///< why it was closed, once it is
+    Fault fault = Fault::none;          ///< of the reason, where something failed
     std::optional<Error> closing_error; ///< why its file could not be closed
     std::string certificate;            ///< folder, once it is made
     std::optional<Error> no_certificate;
+    /// Closed, and its closing row is on disk.
+    [[nodiscard]] bool is_written() const { return stage == Stage::closed && !closing_error; }
 };
 
 /// Loop-bound. The next test may take its place while its certificate is made, or while somebody
@@ -61,13 +65,21 @@ public:
     virtual void begin(const Orderer& by) = 0;
     /// Of every channel of the station.
     virtual void on_sample(const Sample& sample) = 0;
+    /// Of a CNC. @returns whether it is a request of this test, which answers it; of any other the
+    /// CNC is told that no run takes it. A test without a CNC has none.
+    virtual bool on_trigger(const TriggerEvent& event);
     /// Ends it early; returns when it is closed. Whoever waits for that holds the test meanwhile.
-    /// @errors as StationInterface::abort; Fault::busy also while it is being closed already.
+    /// @errors as StationInterface::abort; Fault::busy or no_run_armed where it is not open, or is
+    /// being closed already.
     virtual Task<Result<RunEnding>> abort(std::string reason, Orderer by) = 0;
 
     /// Its file is open, or on the way to being closed.
     [[nodiscard]] bool is_open() const { return run().stage != RunState::Stage::closed; }
 };
+
+inline bool Measurement::on_trigger(const TriggerEvent& /*event*/) {
+    return false;
+}
 
 /// An order of a person, given now. @param about  as OrderRecord::about
 inline OrderRecord order_now(const Scheduler& scheduler,

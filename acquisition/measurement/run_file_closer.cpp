@@ -1,8 +1,13 @@
 #include "acquisition/measurement/run_file_closer.hpp"
 
+#include "acquisition/capture/wording.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/live/notices.hpp"
 #include "acquisition/runfile/durable_file.hpp"
+#include "acquisition/runfile/run_file.hpp"
+#include "analysis/record/run_record.hpp"
+
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -41,10 +46,31 @@ tl::unexpected<Error> RunFileCloser::not_closed_yet() const {
                 "the disk; it is closed as soon as the disk has answered");
 }
 
+Task<Result<RunFileContents>> RunFileCloser::written_again(std::string path, MonotonicTime since) {
+    if (auto kept = co_await journal_.flush(); !kept) co_return tl::unexpected<Error>(kept.error());
+    const MonotonicTime now = scheduler_.now();
+    std::string away = "The disk took no records for " + in_seconds(now - since) +
+                       "; the file was verified and synced anew.";
+    journal_.note(EventRecord{EventKind::interrupted, now, scheduler_.clock_tie().utc_ns,
+                              std::move(away), Fault::not_durable, 0});
+    if (auto flushed = co_await journal_.flush(); !flushed)
+        co_return tl::unexpected<Error>(flushed.error());
+    auto contents = co_await journal_.contents(std::move(path));
+    if (contents) notices_.note("The run file is written again.");
+    co_return contents;
+}
+
 std::string disk_text(const Error& error, const std::string& folder) {
     const std::string advice = way_out(error.cause, folder);
     const std::string cause = error.cause ? " (" + error.cause.message() + ")" : "";
     return error.detail + cause + "." + (advice.empty() ? "" : " " + advice);
+}
+
+tl::unexpected<Error> file_not_closed(const Error& why, const std::string& folder) {
+    return fail(Fault::not_durable,
+                "the run takes nothing more, but its file could not be closed: " +
+                    disk_text(why, folder) + " The station closes it once the disk takes records",
+                why.cause);
 }
 
 } // namespace axiscal

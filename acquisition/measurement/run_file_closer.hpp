@@ -1,7 +1,8 @@
 #pragma once
-// Closes run files, and waits for whoever reads them.
+// Closes run files, and waits for whoever reads them; goes on with one after the disk failed.
 
 #include "analysis/quantity/result.hpp"
+#include "analysis/quantity/time.hpp"
 #include "drivers/loop/scheduler.hpp"
 
 #include <string>
@@ -10,6 +11,7 @@ namespace axiscal {
 
 class Journal;
 class Notices;
+struct RunFileContents;
 
 /// Loop-bound. One run file is open at a time.
 class RunFileCloser {
@@ -27,6 +29,12 @@ public:
     /// @returns Fault::busy
     [[nodiscard]] tl::unexpected<Error> not_closed_yet() const;
 
+    /// The disk takes records again, and the journal has the file open again: for how long it took
+    /// none is the first that is written.
+    /// @param since  when that was seen
+    /// @returns what the file holds, read and verified. @errors as Journal::flush and ::contents.
+    Task<Result<RunFileContents>> written_again(std::string path, MonotonicTime since);
+
 private:
     Scheduler& scheduler_;
     Journal& journal_;
@@ -37,5 +45,10 @@ private:
 
 /// What failed on the disk that carries `folder`, and what to do, without the fault's own sentence.
 std::string disk_text(const Error& error, const std::string& folder);
+
+/// For whoever waits for the end of a test whose file could not be closed; the station closes it
+/// later.
+/// @param why  of RunFileCloser::close. @returns Fault::not_durable
+tl::unexpected<Error> file_not_closed(const Error& why, const std::string& folder);
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/live/time_limits.hpp"
 #include "acquisition/run/live_position.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "drivers/loop/spawn.hpp"
@@ -12,8 +13,6 @@
 namespace axiscal {
 namespace {
 
-constexpr Duration log_every =
-    std::chrono::milliseconds{500}; // bounds the environment table of a long run
 constexpr Duration port_pause = std::chrono::seconds{1};
 constexpr Duration first_looks =
     std::chrono::seconds{2}; // the station is judged once after its start
@@ -136,9 +135,8 @@ Task<void> Station::stop() {
     stopping_ = true;
     sleep_lock_.want(false);
     end_port_.emit(boost::asio::cancellation_type::terminal);
-    if (recording() || drift_open()) {
-        if (circular_)
-            if (auto rest = circular_->chunker.finish()) keep_chunk(*std::move(rest));
+    if (takes_records() || drift_open()) {
+        if (circles_) circles_->keep_rest();
         record(EventKind::interrupted, "The daemon was stopped; the run stays open.");
         co_await journal_.flush();
     }
@@ -159,11 +157,14 @@ void Station::on_sample(const Sample& sample) {
     time_counts_until_ = sample.at + stale_after_;
     if (asleep_) bell_.ring();
     if (resting_) resting_->on_sample(sample);
+    if (circles_) circles_->on_sample(sample);
     if (sample.channel == roles_.laser) return take_reading(sample);
     if (sample.channel == roles_.autocollimator) return take_face(sample);
-    if (sample.channel == roles_.ballbar) return take_bar(sample);
-    if (circular_ && sample.channel == roles_.bar_temperature)
-        log_environment(sample.channel, sample);
+    if (sample.channel == roles_.ballbar) {
+        readings_.take_bar(sample);
+        readings_.log(sample);
+        return;
+    }
     if (readings_.take_sensor(sample)) log_environment(sample.channel, sample);
 }
 
@@ -210,17 +211,13 @@ void Station::on_instrument_note(const InstrumentView& view) {
 
 void Station::record_instrument(const std::string& sentence, Fault fault) {
     note(sentence);
-    if (recording() || drift_open()) record(EventKind::instrument, sentence, fault);
+    if (takes_records() || drift_open()) record(EventKind::instrument, sentence, fault);
 }
 
 void Station::on_trigger(const TriggerEvent& event) {
     notices_.port_works();
-    if (circular_ && recording()) {
-        take_circular(event);
-        return;
-    }
+    if (circles_ && circles_->on_trigger(event)) return;
     if (machine_) return feed_with_air(event);
-    if (repeats_last_of_circles(event)) return publish_done(event.sequence, false);
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
     // that ended with the last daemon: then it is told why.
@@ -254,11 +251,41 @@ std::string Station::shown_name_of(int id) const {
 }
 
 bool Station::recording() const {
-    return run_ && (machine_ || circular_) && !run_->closing && !run_->closed;
+    return run_ && machine_ && !run_->closing && !run_->closed;
+}
+
+bool Station::takes_records() const {
+    return circles_ ? circles_->records() : recording();
 }
 
 bool Station::run_open() const {
-    return run_ && !run_->closed;
+    return circles_ ? circles_->is_open() : run_ && !run_->closed;
+}
+
+bool Station::is_being_closed() const {
+    if (circles_) return circles_->run().stage == RunState::Stage::closing;
+    return run_ && run_->closing;
+}
+
+bool Station::is_unwritten() const {
+    return circles_ ? !circles_->run().is_written() : run_ && !run_->closing_row_durable;
+}
+
+bool Station::broken_off() const {
+    if (circles_) return circles_->broken_off();
+    return run_ ? run_->broken_off : left_broken_off_;
+}
+
+const std::string& Station::last_run_id() const {
+    return circles_ ? circles_->run().run_id : run_->header.run_id;
+}
+
+MeasurementContext Station::measurement_context() {
+    return {scheduler_, journal_, notices_, readings_, config_, files_, certificates_, stopping_};
+}
+
+CncContext Station::cnc_context() {
+    return {measurement_context(), *this, roles_, supervisor_, config_hash_, boot_id_};
 }
 
 } // namespace axiscal

@@ -5,9 +5,7 @@
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
 #include "acquisition/capture/beam_alignment.hpp"
-#include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/capture/stillness.hpp"
-#include "acquisition/capture/stream_chunker.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/live/live_readings.hpp"
 #include "acquisition/live/notices.hpp"
@@ -16,8 +14,9 @@
 #include "acquisition/live/station_interface.hpp"
 #include "acquisition/live/supervisor.hpp"
 #include "acquisition/measurement/certificates.hpp"
-#include "acquisition/measurement/circular/circle_order.hpp"
+#include "acquisition/measurement/circular/circle_measurement.hpp"
 #include "acquisition/measurement/circular/circle_resume.hpp"
+#include "acquisition/measurement/cnc_answer.hpp"
 #include "acquisition/measurement/drift/drift_measurement.hpp"
 #include "acquisition/measurement/drift/environmental_variation.hpp"
 #include "acquisition/measurement/drift/resting_test.hpp"
@@ -30,7 +29,6 @@
 #include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/set_up_watch.hpp"
 #include "acquisition/station/sleep_lock.hpp"
-#include "analysis/circular/circle_watch.hpp"
 #include "config/station_config.hpp"
 #include "drivers/loop/doorbell.hpp"
 #include "drivers/trigger/trigger_port.hpp"
@@ -61,7 +59,10 @@ struct StationParts {
     StationKey key; ///< signs what is closed
 };
 
-class Station final : public StationInterface, private SupervisorListener, private TriggerSink {
+class Station final : public StationInterface,
+                      private SupervisorListener,
+                      private TriggerSink,
+                      private CncAnswer {
 public:
     Station(Scheduler& scheduler, LinkOpener& links, StationParts parts);
     ~Station() override;
@@ -91,7 +92,7 @@ public:
     Result<void> align(AlignmentOrder order) override;
 
 private:
-    /// The run that is open, or the last one.
+    /// The positioning run that is open, or the last one. None while a circular test is the last.
     struct CurrentRun {
         RunRecord header; ///< without points
         std::string path;
@@ -122,6 +123,13 @@ private:
     void on_trigger(const TriggerEvent& event) override;
     void on_cnc_silent(bool silent) override;
     void on_port_note(Fault fault, std::string sentence) override;
+
+    // CncAnswer: what a test tells the CNC
+    void publish_armed() override;
+    void acknowledge(const JournalReceipt& receipt) override;
+    void refuse_on_port(std::uint16_t sequence, const Error& error) override;
+    void publish_no_run() override;
+    void show(PortState state) override;
 
     // station_run.cpp: the run machine's actions
     /// Inputs are handled one after the other, each with all its actions, also when an action
@@ -178,55 +186,25 @@ private:
     Task<void> close_run(Close action);
     Task<void> certify(std::string run_id, std::string path);
 
-    // station_circular.cpp: a circular test
-    /// While one is armed and after it, until the next run.
-    struct Circles {
-        explicit Circles(const CircularSetup& setup)
-            : setup{setup}
-            , order{setup.plan} {}
-        Circles(const CircularSetup& setup, const CirclesBefore& before, StreamChunker behind)
-            : setup{setup}
-            , order{setup.plan, before}
-            , chunker{std::move(behind)} {}
-        CircularSetup setup;
-        CircleOrder order;
-        std::optional<CircleWatch> watch; ///< of a circle that began once more after a restart
-        StreamChunker chunker{0};
-        MinMaxPyramid view;
-        std::uint64_t dropped = 0; ///< chunks, because the disk did not keep up
-    };
+    // station_circular.cpp: a circular test is ordered; CircleMeasurement is the test itself
     [[nodiscard]] Result<void> ready_for_circles() const;
-    [[nodiscard]] CircularSetup circular_setup() const;
     /// It did so within the last two seconds; in its range or not.
     [[nodiscard]] Result<void> ballbar_speaks() const;
-    [[nodiscard]] Result<RunRecord> circular_header(const ArmRequest& request) const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
-    Task<void> bar_is_read_until(MonotonicTime at);
-    void begin_circular(RunRecord header, std::string path, const CircularSetup& setup);
-    void take_bar(const Sample& sample);
-    void keep_chunk(StreamChunk chunk);
-    /// @returns the answer to a person; the CNC hears its own.
-    std::optional<Error> take_circular(const TriggerEvent& event);
-    Task<void>
-    commit_circle(TriggerEvent event, std::uint16_t sequence, std::string sentence, bool last);
-    void end_circular(Close close);
-    /// The answer to its last request was lost, and the test is closed by now.
-    [[nodiscard]] bool repeats_last_of_circles(const TriggerEvent& event) const;
-    [[nodiscard]] RunStatus circular_status() const;
+    /// It takes the place of the last run, or circular test.
+    void begin_circles(std::shared_ptr<CircleMeasurement> test);
 
     // station_circular_resume.cpp: a test that was open when the last daemon ended
     Task<Result<void>> resume_or_close_circles(std::string path, RunFileContents contents);
-    [[nodiscard]] CircleResume judge_circles(const RunFileContents& contents) const;
     Task<Result<void>>
     resume_circles(std::string path, RunFileContents contents, CircleResume verdict);
     Task<Result<void>> close_driven_circles(std::string path);
-    [[nodiscard]] std::string interruption_text(const RunFileContents& contents,
-                                                const CircleResume& verdict) const;
 
     // station_disk.cpp: the disk failed under an open run
     /// Tries until the run file can be written again, then goes on with the run or closes it.
     Task<void> wait_for_disk();
+    /// @param path  of the positioning run; a circular test knows its own
     Task<Result<void>> try_disk(std::string path, MonotonicTime since);
     /// What the last daemon left, tried until the disk takes records; opens the port then.
     Task<void> take_over_when_disk_is_back(std::string message);
@@ -317,7 +295,7 @@ private:
 
     // station_serials.cpp: whether the instruments after a restart are those of the run
     [[nodiscard]] std::string laser_serial_for(const RunRecord& run) const;
-    [[nodiscard]] std::vector<InstrumentSerial> answered_serials(const RunRecord& run) const;
+    [[nodiscard]] std::vector<InstrumentSerial> serials_of_axis() const;
     void judge_instruments();
     [[nodiscard]] const StationChannel& channel_of(int id) const;
     [[nodiscard]] std::string shown_name_of(int id) const; ///< "gauge/axis 1", as in a run file
@@ -378,10 +356,18 @@ private:
     void record_instrument(const std::string& sentence, Fault fault);
     [[nodiscard]] static std::string news_of_state(const InstrumentView& view); ///< "is faulty"
     void note(const std::string& sentence) { notices_.note(sentence); }
-    /// A run takes records: neither closing nor closed.
+    /// The positioning run takes records: neither closing nor closed.
     [[nodiscard]] bool recording() const;
+    // Of the run or circular test that is open, or the last one.
+    [[nodiscard]] bool takes_records() const; ///< neither closing nor closed
     [[nodiscard]] bool run_open() const;
-    void refuse_on_port(std::uint16_t sequence, const Error& error);
+    [[nodiscard]] bool is_being_closed() const;
+    [[nodiscard]] bool is_unwritten() const;              ///< its closing row is not on disk
+    [[nodiscard]] bool broken_off() const;                ///< as CurrentRun has it
+    [[nodiscard]] const std::string& last_run_id() const; ///< where there is one
+    /// What a test works with. It refers to this station.
+    [[nodiscard]] MeasurementContext measurement_context();
+    [[nodiscard]] CncContext cnc_context();
     /// As LiveReadings::scale_minus_1, with the wavelength of the run.
     [[nodiscard]] Result<double> live_scale_now() const;
     /// "laser" | "scale": what measures the axis, for sentences.
@@ -399,8 +385,6 @@ private:
     void sign_with(StationKey key);
     [[nodiscard]] OrderRecord
     order_of(std::string kind, const Orderer& by, std::string about = {}) const;
-    /// Who armed, and who overrode which check.
-    void note_orders_of_arming(const Orderer& by, const std::vector<PreflightRecord>& checks);
 
     Scheduler& scheduler_;
     StationConfig config_;
@@ -424,9 +408,10 @@ private:
     bool stopping_ = false; ///< the daemon is about to end
     RunFileCloser files_;
     Certificates certificates_;
-    std::optional<RunMachine> machine_; ///< of a linear or rotary run, else:
-    std::optional<Circles> circular_;
+    std::optional<RunMachine> machine_; ///< of run_
     std::optional<CurrentRun> run_;
+    /// The circular test that is open, or the last one; null where a run came after it.
+    std::shared_ptr<CircleMeasurement> circles_;
     struct Input {
         RunInput input;
         std::shared_ptr<Answer> answer; ///< of a person's request

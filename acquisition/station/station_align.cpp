@@ -55,7 +55,7 @@ Result<void> Station::align(AlignmentOrder order) {
         if (config_.cycle.axis_kind == AxisKind::rotary)
             return fail(Fault::refused, "a rotary axis has no travel along the beam");
         if (run_open())
-            return fail(Fault::busy, "run " + run_->header.run_id +
+            return fail(Fault::busy, "run " + last_run_id() +
                                          " is open: a beam that is steered now spoils it; finish "
                                          "it or 'axiscal abort' it first");
         if (drift_open())

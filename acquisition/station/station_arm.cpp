@@ -3,6 +3,7 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/arming.hpp"
 #include "acquisition/measurement/run_header.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
 #include "acquisition/run/cycle_plan.hpp"
@@ -62,8 +63,8 @@ Result<void> Station::nothing_goes_on() const {
         return fail(Fault::busy,
                     "a retake, an exclusion or an answer is being written just now; ask again");
     if (run_open())
-        return fail(Fault::busy, "run " + run_->header.run_id +
-                                     " is open; finish it or 'axiscal abort' it first");
+        return fail(Fault::busy,
+                    "run " + last_run_id() + " is open; finish it or 'axiscal abort' it first");
     if (drift_open())
         return fail(Fault::busy, "drift test " + resting_->run().run_id +
                                      " is going on; let it end or 'axiscal abort' it first");
@@ -147,7 +148,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     RunMachine machine{setup_of(header)};
     begin_run(std::move(header), std::move(path), std::move(machine));
     run_->limits_waived = waives_limits(checks);
-    note_orders_of_arming(request.by, checks);
+    note_arming(measurement_context(), run_->header.run_id, request.by, checks);
     journal_.note(std::move(checks));
     if (!request.datum_by_cnc) run_->orderer_has_gone = std::move(request.has_gone);
     feed_with_air(Arm{scheduler_.now(), !request.datum_by_cnc});
@@ -162,17 +163,6 @@ OrderRecord Station::order_of(std::string kind, const Orderer& by, std::string a
     return order_now(scheduler_, std::move(kind), by, std::move(about));
 }
 
-void Station::note_orders_of_arming(const Orderer& by, const std::vector<PreflightRecord>& checks) {
-    journal_.note(order_of("arm", by));
-    std::string overridden;
-    for (const PreflightRecord& check : checks) {
-        if (check.override_reason.empty()) continue;
-        journal_.note(order_of("override", by, check.name));
-        overridden += (overridden.empty() ? ", overriding " : ", ") + check.name;
-    }
-    note("Run " + run_->header.run_id + " was armed by " + name_of(by) + overridden + ".");
-}
-
 void Station::begin_run(RunRecord header, std::string path, RunMachine machine) {
     newest_run_ = header.run_id;
     newest_run_utc_ns_ = header.opened.utc_ns;
@@ -181,7 +171,7 @@ void Station::begin_run(RunRecord header, std::string path, RunMachine machine) 
     fresh.path = std::move(path);
     run_ = std::move(fresh);
     machine_.emplace(std::move(machine));
-    circular_.reset();
+    circles_.reset();
     last_receipt_.reset();
     left_over_fault_.reset();
     notices_.nothing_refused();
@@ -212,12 +202,12 @@ Task<Result<void>> Station::await_datum() {
 }
 
 Result<void> Station::trigger() {
+    if (circles_) return circles_->trigger();
     if (!recording()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
     TriggerEvent event;
     event.at = scheduler_.now();
     event.origin = TriggerOrigin::manual;
-    const std::optional<Error> refusal = circular_ ? take_circular(event) : ask(event).refusal;
-    if (refusal) return tl::unexpected<Error>(*refusal);
+    if (auto refusal = ask(event).refusal) return tl::unexpected<Error>(*std::move(refusal));
     return {};
 }
 
@@ -226,13 +216,14 @@ Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
         const auto test = resting_; // the next one may take its place before this returns
         co_return co_await test->abort(std::move(reason), std::move(by));
     }
+    if (circles_) {
+        const auto test = circles_; // as above
+        co_return co_await test->abort(std::move(reason), std::move(by));
+    }
     if (!recording()) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     journal_.note(order_of("abort", by));
     note("Run " + run_->header.run_id + " was aborted by " + name_of(by) + ".");
-    if (circular_)
-        end_circular({false, std::move(reason), Fault::none});
-    else
-        feed(Abort{std::move(reason), scheduler_.now()});
+    feed(Abort{std::move(reason), scheduler_.now()});
     co_return co_await await_closing(run_->path);
 }
 
@@ -247,11 +238,7 @@ Task<Result<RunEnding>> Station::await_closing(std::string path) {
     if (run_->closed && run_->closing_row_durable)
         co_return RunEnding{run_->outcome->complete, run_->outcome->reason};
     if (!run_->closed) co_return files_.not_closed_yet();
-    const Error& why = *run_->closing_error;
-    co_return fail(Fault::not_durable,
-                   "the run takes nothing more, but its file could not be closed: " +
-                       disk_text(why) + " The station closes it once the disk takes records",
-                   why.cause);
+    co_return file_not_closed(*run_->closing_error, config_.state_directory);
 }
 
 bool Station::instruments_returned() const {
@@ -339,7 +326,7 @@ Task<Result<void>> Station::resume_or_close(std::string path) {
     now.config_hash = config_hash_;
     now.boot_id = boot_id_;
     now.laser_serial = laser_serial_for(run);
-    now.instruments = answered_serials(run);
+    now.instruments = serials_of_axis();
     now.limits.fastest = config_.capture.fastest;
     now.limits.count_modulus =
         supervisor_.instrument(channel_of(*roles_.laser).instrument).count_modulus();

@@ -20,7 +20,7 @@ constexpr Duration answer_limit = std::chrono::seconds{5}; // for a station that
 /// While no run is open nobody captures; the counter's zero is watched by its readings: since the
 /// run was closed, or, of a run that an earlier daemon closed, since the start.
 void Station::watch_set_up(const Sample& sample) {
-    if (run_ && (!run_->closed || !datum_)) return;
+    if (circles_ || (run_ && (!run_->closed || !datum_))) return;
     set_up_.take(sample,
                  {run_.has_value(), datum_epoch_, interruption_.empty(), config_.capture.fastest});
 }
@@ -85,12 +85,12 @@ Task<std::string> Station::doubt_about_datum(const RunRecord& run) {
 /// Only when a person asks: a station that is started shows no old run. An exclusion needs no
 /// set-up; a retake is refused with what it lost.
 Task<Result<void>> Station::take_over_closed_run() {
-    if (run_ || arming_) co_return Result<void>{};
+    if (run_ || circles_ || arming_) co_return Result<void>{};
     AXISCAL_CO_TRY(const RunSummary newest, co_await newest_closed_run());
-    if (run_ || arming_) co_return fail(Fault::busy, "somebody else is at it just now");
+    if (run_ || circles_ || arming_) co_return fail(Fault::busy, "somebody else is at it just now");
     AXISCAL_CO_TRY(RunFileContents contents, co_await journal_.contents(newest.path));
     std::string doubt = co_await doubt_about_datum(contents.run);
-    if (run_ || arming_) // meanwhile
+    if (run_ || circles_ || arming_) // meanwhile
         co_return fail(Fault::busy, "somebody else is at it just now");
     CurrentRun last;
     last.path = newest.path;

@@ -22,12 +22,12 @@ int points_asked(const RunRevisions& orders) {
 
 Task<void> Station::wait_for_disk() {
     const MonotonicTime since = scheduler_.now();
-    const std::string path = run_->path;
+    const std::string path = run_ ? run_->path : std::string{};
     if (const auto why = journal_.failure())
         note(std::string{fault_sentence(why->fault)} + " " + disk_text(*why));
     while (!stopping_) {
         co_await scheduler_.sleep_for(try_every);
-        if (run_->closing) continue; // its own attempt to close is under way
+        if (is_being_closed()) continue; // its own attempt to close is under way
         if (co_await try_disk(path, since)) break;
     }
     waiting_for_disk_ = false;
@@ -82,21 +82,18 @@ Task<void> Station::take_over_when_disk_is_back(std::string message) {
 
 /// One attempt. The first thing written is how long nothing was.
 Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
+    if (circles_) {
+        const auto test = circles_; // the next one may take its place meanwhile
+        co_return co_await test->on_disk_back(since);
+    }
     if (run_->closing_row_durable) co_return co_await look_for_lost_order(std::move(path));
     co_await journal_.let_go();
     const auto opened = co_await journal_.reopen(path);
-    if (!opened && run_->closed && opened.error().fault == Fault::refused)
+    if (!opened && run_ && run_->closed && opened.error().fault == Fault::refused)
         co_return co_await finish_after_disk();
     if (!opened) co_return tl::unexpected<Error>(opened.error());
-    if (auto kept = co_await journal_.flush(); !kept) co_return kept;
-    record(EventKind::interrupted,
-           "The disk took no records for " + in_seconds(scheduler_.now() - since) +
-               "; the file was verified and synced anew.",
-           Fault::not_durable);
-    if (auto flushed = co_await journal_.flush(); !flushed) co_return flushed;
-    auto contents = co_await journal_.contents(path);
+    auto contents = co_await files_.written_again(std::move(path), since);
     if (!contents) co_return tl::unexpected<Error>(contents.error());
-    note("The run file is written again.");
     DiskBack back = disk_back(*std::move(contents));
     if (!run_->closed) co_return co_await go_on_after_disk(std::move(back));
     feed(std::move(back));
@@ -146,6 +143,7 @@ Task<Result<void>> Station::look_for_lost_order(std::string path) {
         note("What the run file holds of the order is not known: " + describe(contents.error()));
         co_return Result<void>{};
     }
+    if (!run_) co_return Result<void>{}; // circles were armed meanwhile
     if (!contents->closed) co_return co_await take_up_order(std::move(path), *std::move(contents));
     const auto tidied = co_await journal_.tidy(runs_folder());
     if (!tidied && tidied.error().fault != Fault::busy) co_return tidied;
@@ -181,6 +179,7 @@ Task<Result<void>> Station::close_after_disk() {
 Task<Result<void>> Station::finish_after_disk() {
     const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
     if (!tidied) co_return tidied;
+    if (!run_) co_return Result<void>{}; // circles were armed meanwhile
     run_->closing_row_durable = true;
     run_->closing_error.reset();
     if (run_->outcome && run_->outcome->complete) co_await certify(run_->header.run_id, run_->path);

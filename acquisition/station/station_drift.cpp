@@ -74,8 +74,7 @@ Result<RestingTest> Station::drift_of_bar(const DriftRequest& request) const {
 Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar) {
     AXISCAL_CO_TRY(RestingTest order, of_bar ? drift_of_bar(request) : drift_of_axis(request));
     if (!of_bar) order.alignment = alignment_for_run();
-    const MeasurementContext context{scheduler_, journal_, notices_,      readings_,
-                                     config_,    files_,   certificates_, stopping_};
+    const MeasurementContext context = measurement_context();
     AXISCAL_CO_TRY(resting_, co_await DriftMeasurement::open(context, std::move(order)));
     resting_->begin(request.by);
     co_return resting_->run().run_id;

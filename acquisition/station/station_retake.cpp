@@ -12,7 +12,7 @@
 
 namespace axiscal {
 Result<void> Station::run_may_be_revised() const {
-    if (run_ && circular_)
+    if (circles_)
         return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
                                          "again");
     if (!run_ || !machine_) return fail(Fault::no_run_armed, "there is no run to add to");
@@ -177,6 +177,7 @@ Task<Result<void>> Station::close_again() {
     run_->closing_row_durable = false;
     auto closed = co_await close_file_for_now(true, run_->outcome->reason);
     if (!closed) co_return closed; // the disk is waited for
+    if (!run_) co_return closed;   // circles were armed meanwhile
     run_->closing_row_durable = true;
     run_->certificate.clear();
     run_->no_certificate.reset();

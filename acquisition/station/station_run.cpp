@@ -70,7 +70,7 @@ void Station::handle(const RunInput& input) {
 }
 
 void Station::perform(PublishArmed) {
-    port_->publish_armed();
+    publish_armed();
 }
 
 void Station::perform(OpenWindow action) {
@@ -216,8 +216,7 @@ void Station::perform(RecordExclusion action) {
 }
 
 void Station::perform(SetState action) {
-    port_state_ = action.state;
-    publish_to_port();
+    show(action.state);
 }
 
 void Station::perform(Close action) {
@@ -257,7 +256,8 @@ bool Station::lacks_certificate(const RunSummary& run) const {
 
 /// What this daemon measures, or takes over, it certifies by itself when it closes it.
 bool Station::is_of_this_daemon(const std::string& path) const {
-    return (run_ && run_->path == path) || (resting_ && resting_->run().path == path);
+    return (run_ && run_->path == path) || (circles_ && circles_->run().path == path) ||
+           (resting_ && resting_->run().path == path);
 }
 
 /// The closed ones are looked into one by one and late: beside the loop, and behind whoever waited

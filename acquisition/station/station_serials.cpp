@@ -2,6 +2,7 @@
 // answered, when the run is taken over and each second from then on.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/measurement/instrument_serials.hpp"
 #include "acquisition/run/resume.hpp"
 
 #include <algorithm>
@@ -19,32 +20,22 @@ std::string Station::laser_serial_for(const RunRecord& run) const {
     return silent ? then->serial : laser_serial();
 }
 
-/// Of those that this run uses.
-std::vector<InstrumentSerial> Station::answered_serials(const RunRecord& run) const {
-    const bool circles = run.kind == TestKind::circular;
-    std::vector<int> channels = circles ? roles_.of_circles() : roles_.environment();
-    if (const auto& reference = circles ? roles_.ballbar : roles_.laser)
-        channels.push_back(*reference);
-    std::vector<InstrumentSerial> answered;
-    for (const int id : channels) {
-        const StationChannel& channel = channel_of(id);
-        const std::string& serial = supervisor_.identity(channel.instrument).serial;
-        if (!serial.empty()) answered.push_back({channel.instrument_name, serial});
-    }
-    return answered;
+/// Of those that a positioning run uses.
+std::vector<InstrumentSerial> Station::serials_of_axis() const {
+    std::vector<int> channels = roles_.environment();
+    if (roles_.laser) channels.push_back(*roles_.laser);
+    return answered_serials(supervisor_, channels);
 }
 
 /// Until it answers, an instrument keeps points from being taken, and no more than that.
 void Station::judge_instruments() {
+    if (circles_) return circles_->judge_instruments();
     if (!recording() || !run_->resumed) return;
-    std::string exchanged = exchanged_instrument(run_->header, answered_serials(run_->header));
+    std::string exchanged = exchanged_instrument(run_->header, serials_of_axis());
     if (exchanged.empty()) return;
     run_->resumed = false; // told once
     note(exchanged);
-    if (circular_)
-        end_circular({false, std::move(exchanged), Fault::unknown_instrument});
-    else
-        feed(Abort{std::move(exchanged), scheduler_.now()});
+    feed(Abort{std::move(exchanged), scheduler_.now()});
 }
 
 } // namespace axiscal

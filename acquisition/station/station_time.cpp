@@ -32,14 +32,13 @@ Task<void> Station::pause_before_looking() {
 }
 
 bool Station::time_counts() const {
-    const bool unwritten = run_ && !run_->closing_row_durable;
-    return run_open() || unwritten || drift_open() || beam_.running() ||
+    return run_open() || is_unwritten() || drift_open() || beam_.running() ||
            supervisor_.somebody_speaks() || scheduler_.now() < time_counts_until_;
 }
 
 /// While a person may still want the run: until its file is shut.
 void Station::keep_awake() {
-    sleep_lock_.want(run_open() || (run_ && !run_->closing_row_durable) || drift_open());
+    sleep_lock_.want(run_open() || is_unwritten() || drift_open());
 }
 
 /// The lock may be refused, and root may suspend in spite of it.
@@ -50,7 +49,7 @@ void Station::notice_sleep() {
     slept_ += slept;
     std::string message =
         "The computer was suspended for " + in_seconds(slept) + "; nothing was recorded meanwhile.";
-    if (recording() || drift_open()) record(EventKind::note, message);
+    if (takes_records() || drift_open()) record(EventKind::note, message);
     note(std::move(message));
 }
 
@@ -67,8 +66,7 @@ void Station::look_at_the_time() {
     if (const auto news = outbox_watch_.judge(scheduler_.clock_tie())) note(*news);
     feed_with_air(Tick{now});
     publish_to_port();
-    if (run_ && !run_->closing_row_durable && journal_.failure() &&
-        !std::exchange(waiting_for_disk_, true))
+    if (is_unwritten() && journal_.failure() && !std::exchange(waiting_for_disk_, true))
         spawn(scheduler_, wait_for_disk());
 }
 

@@ -36,9 +36,26 @@ void Station::publish_to_port() {
         status.feed_hold = stopped;
         status.may_move = port_state_ != PortState::settling && !stopped;
     }
-    status.run_broken_off = run_ ? run_->broken_off : left_broken_off_;
-    if (circular_ && run_->closed) status.run_complete = run_->outcome && run_->outcome->complete;
+    status.run_broken_off = broken_off();
+    if (circles_ && !circles_->is_open()) status.run_complete = circles_->run().complete;
     port_->publish(status);
+}
+
+void Station::publish_armed() {
+    port_->publish_armed();
+}
+
+void Station::acknowledge(const JournalReceipt& receipt) {
+    port_->acknowledge(receipt);
+}
+
+void Station::publish_no_run() {
+    port_->publish_no_run(RunEnd::at_once);
+}
+
+void Station::show(PortState state) {
+    port_state_ = state;
+    publish_to_port();
 }
 
 AxisView Station::axis_view() const {
@@ -90,7 +107,6 @@ std::optional<double> Station::position_now_mm(Length reading) const {
 }
 
 RunStatus Station::run_status() const {
-    if (circular_) return circular_status();
     const RunView view = machine_->view();
     RunStatus run;
     run.run_id = run_->header.run_id;
@@ -193,7 +209,10 @@ StationStatus Station::status() const {
     status.trigger_note = notices_.port();
     status.trigger_counters = port_->counters();
     status.cnc_silent = cnc_silent_;
-    if (run_ && (machine_ || circular_)) status.run = run_status();
+    if (circles_)
+        status.run = circles_->status();
+    else if (run_ && machine_)
+        status.run = run_status();
     status.run_open = run_open();
     if (resting_) status.drift = resting_->view();
     status.outbox = outbox_watch_.look(scheduler_.clock_tie());

@@ -118,6 +118,7 @@ def include_self_test(table):
         "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
         "acquisition/live/x.cpp": '#include "acquisition/measurement/measurement.hpp"\n',
         "acquisition/measurement/drift/x.cpp": '#include "acquisition/station/station.hpp"\n',
+        "acquisition/run/y.cpp": '#include "acquisition/measurement/circular/circle_order.hpp"\n',
     }
     fine = {"drivers/z.cpp": '#include "analysis/record/run_record.hpp"\n#include <modbus.h>\n', "acquisition/documents/pdf/x.cpp": "#include <cairo.h>\n"}
     missed = [path for path, text in planted.items() if not list(table.include_complaints(path, text))]
