@@ -50,8 +50,9 @@ Result<void> Station::plays_no_tape() const {
     return {};
 }
 
+/// The file of the last run may still have its closing row due, seen or not.
 Result<void> Station::disk_takes_records() const {
-    if (waiting_for_disk_)
+    if (waiting_for_disk_ || (is_unwritten() && !run_open()))
         return fail(Fault::not_durable, "the disk cannot store the records of the last run yet; "
                                         "'axiscal status' shows why");
     return {};

@@ -12,6 +12,7 @@ namespace axiscal {
 Result<void> Station::ready_for_circles() const {
     AXISCAL_CHECK(plays_no_tape());
     AXISCAL_CHECK(nothing_goes_on());
+    AXISCAL_CHECK(disk_takes_records());
     if (!config_.circular || !roles_.ballbar)
         return refuse(Fault::bad_request, "pass",
                       "'circular' needs the tables [ballbar] and [circular] of the station file");

@@ -89,7 +89,7 @@ Task<Result<void>> Station::try_disk(std::string path, MonotonicTime since) {
     if (run_->closing_row_durable) co_return co_await look_for_lost_order(std::move(path));
     co_await journal_.let_go();
     const auto opened = co_await journal_.reopen(path);
-    if (!opened && run_ && run_->closed && opened.error().fault == Fault::refused)
+    if (!opened && run_->closed && opened.error().fault == Fault::refused)
         co_return co_await finish_after_disk();
     if (!opened) co_return tl::unexpected<Error>(opened.error());
     auto contents = co_await files_.written_again(std::move(path), since);
@@ -143,7 +143,6 @@ Task<Result<void>> Station::look_for_lost_order(std::string path) {
         note("What the run file holds of the order is not known: " + describe(contents.error()));
         co_return Result<void>{};
     }
-    if (!run_) co_return Result<void>{}; // circles were armed meanwhile
     if (!contents->closed) co_return co_await take_up_order(std::move(path), *std::move(contents));
     const auto tidied = co_await journal_.tidy(runs_folder());
     if (!tidied && tidied.error().fault != Fault::busy) co_return tidied;
@@ -179,7 +178,6 @@ Task<Result<void>> Station::close_after_disk() {
 Task<Result<void>> Station::finish_after_disk() {
     const auto tidied = co_await journal_.tidy(config_.state_directory + "/runs");
     if (!tidied) co_return tidied;
-    if (!run_) co_return Result<void>{}; // circles were armed meanwhile
     run_->closing_row_durable = true;
     run_->closing_error.reset();
     if (run_->outcome && run_->outcome->complete) co_await certify(run_->header.run_id, run_->path);

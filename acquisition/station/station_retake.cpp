@@ -177,7 +177,6 @@ Task<Result<void>> Station::close_again() {
     run_->closing_row_durable = false;
     auto closed = co_await close_file_for_now(true, run_->outcome->reason);
     if (!closed) co_return closed; // the disk is waited for
-    if (!run_) co_return closed;   // circles were armed meanwhile
     run_->closing_row_durable = true;
     run_->certificate.clear();
     run_->no_certificate.reset();

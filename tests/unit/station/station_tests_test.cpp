@@ -1,4 +1,5 @@
 // What one test leaves to the next, of whatever kind.
+#include "tests/support/full_disk.hpp"
 #include "tests/support/report_script.hpp"
 #include "tests/unit/station/station_bench.hpp"
 
@@ -97,11 +98,12 @@ protected:
         const auto answer = life.retake(third_target());
         return answer ? "" : answer.error().detail;
     }
-    static void expect_all_refused(Life& life, const std::string& words) {
+    static void
+    expect_all_refused(Life& life, const std::string& words, Fault fault = Fault::busy) {
         for (const Kind& next : kinds) {
             const auto answer = begin(life, next);
             ASSERT_FALSE(answer) << next.name;
-            EXPECT_EQ(answer.error().fault, Fault::busy) << next.name;
+            EXPECT_EQ(answer.error().fault, fault) << next.name;
             EXPECT_NE(answer.error().detail.find(words), std::string::npos) << next.name;
         }
     }
@@ -197,6 +199,23 @@ TEST_F(StationTests, OneRunFileIsOpenAtATime) {
         expect_all_refused(life, words);
         ASSERT_TRUE(life.abort("enough"));
         EXPECT_EQ(shop.run_files().size(), ++files);
+    }
+}
+
+/// Its closing row is due: a test that began meanwhile would lose its file to it.
+TEST_F(StationTests, NoneBeginsWhileTheFileOfTheLastRunIsNotClosed) {
+    for (const Kind& last : {positioning, circles}) {
+        SCOPED_TRACE(last.name);
+        Life life{shop};
+        ASSERT_TRUE(begin(life, last));
+        {
+            const FullDisk full;
+            EXPECT_FALSE(life.abort("enough"));
+            expect_all_refused(life, "the disk cannot store", Fault::not_durable);
+        }
+        life.run_until([&] { return life.notes_with("The run file is written again") > 0; });
+        EXPECT_TRUE(begin(life, circles));
+        EXPECT_TRUE(life.abort("enough"));
     }
 }
 
