@@ -82,10 +82,8 @@ inline bool Measurement::on_trigger(const TriggerEvent& /*event*/) {
 }
 
 /// An order of a person, given now. @param about  as OrderRecord::about
-inline OrderRecord order_now(const Scheduler& scheduler,
-                             std::string kind,
-                             const Orderer& by,
-                             std::string about = {}) {
+inline OrderRecord
+order_now(const Scheduler& scheduler, std::string kind, const Orderer& by, std::string about = {}) {
     return {std::move(kind), std::move(about), scheduler.now(), scheduler.clock_tie().utc_ns, by};
 }
 

@@ -222,9 +222,8 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     return run;
 }
 
-Result<RunRecord> make_header_without_axis(RunHeaderParts parts,
-                                           const std::string& name,
-                                           const ArmRequest& request) {
+Result<RunRecord>
+make_header_without_axis(RunHeaderParts parts, const std::string& name, const ArmRequest& request) {
     parts.plan = {};
     parts.plan.approaches = 0;
     parts.plan.bidirectional = false;

@@ -48,8 +48,7 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
 /// nothing.
 /// @param name  of what is measured, in the run's id
 /// @errors as make_run_header.
-Result<RunRecord> make_header_without_axis(RunHeaderParts parts,
-                                           const std::string& name,
-                                           const ArmRequest& request);
+Result<RunRecord>
+make_header_without_axis(RunHeaderParts parts, const std::string& name, const ArmRequest& request);
 
 } // namespace axiscal

@@ -1,4 +1,5 @@
-// A circular test that was open when the last daemon ended: it goes on, or is closed with the reason.
+// A circular test that was open when the last daemon ended: it goes on, or is closed with the
+// reason.
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/measurement/circular/left_circles.hpp"

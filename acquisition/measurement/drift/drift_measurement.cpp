@@ -37,8 +37,8 @@ Task<Result<std::shared_ptr<DriftMeasurement>>> DriftMeasurement::open(Measureme
     attachments.alignment = test.alignment;
     attachments.setup = test.setup;
     RunRecord header = test.header;
-    if (auto opened = co_await context.journal.open(path, std::move(header),
-                                                    std::move(attachments));
+    if (auto opened =
+            co_await context.journal.open(path, std::move(header), std::move(attachments));
         !opened)
         co_return tl::unexpected<Error>(opened.error());
     co_return std::make_shared<DriftMeasurement>(context, test, std::move(path));
@@ -53,8 +53,7 @@ DriftMeasurement::DriftMeasurement(const MeasurementContext& context,
                 context.scheduler.now()} {
     run_.run_id = test.header.run_id;
     run_.path = std::move(path);
-    if (test.setup.of_bar)
-        bar_.emplace(SampleHistory::Limits{2 * context.config.capture.window});
+    if (test.setup.of_bar) bar_.emplace(SampleHistory::Limits{2 * context.config.capture.window});
 }
 
 std::shared_ptr<DriftMeasurement> DriftMeasurement::held() {
@@ -95,8 +94,8 @@ void DriftMeasurement::take_readings() {
     const DriftLimits limits{config.capture.window, config.axis.air.oldest,
                              bar_ ? fewest_of_bar : config.capture.minimum_samples};
     const SampleHistory& watched = bar_ ? *bar_ : context_.readings.reference();
-    auto readings = recorder_.take(context_.scheduler.now(), watched, context_.readings.latest(),
-                                   limits);
+    auto readings =
+        recorder_.take(context_.scheduler.now(), watched, context_.readings.latest(), limits);
     if (!readings.empty()) context_.journal.note(std::move(readings));
 }
 
@@ -118,9 +117,9 @@ Task<void> DriftMeasurement::close(bool complete, std::string reason) {
         co_await context_.journal.let_go(); // the next test or run has a file of its own
     }
     run_.complete = complete && closed;
-    context_.notices.note("Drift test " + run_.run_id +
-                          (run_.complete ? " is complete."
-                                         : " is closed as incomplete: " + reason));
+    context_.notices.note(
+        "Drift test " + run_.run_id +
+        (run_.complete ? " is complete." : " is closed as incomplete: " + reason));
     run_.reason = std::move(reason);
     run_.stage = RunState::Stage::closed;
     if (run_.complete) co_await certify();
@@ -134,8 +133,7 @@ Task<void> DriftMeasurement::certify() {
         run_.no_certificate = entry.error();
 }
 
-Task<void> DriftMeasurement::break_off(std::shared_ptr<DriftMeasurement> test,
-                                       std::string reason) {
+Task<void> DriftMeasurement::break_off(std::shared_ptr<DriftMeasurement> test, std::string reason) {
     co_await test->close(false, std::move(reason)); // await_closing() tells what became of it
 }
 
@@ -171,8 +169,7 @@ DriftView DriftMeasurement::view() const {
     view.planned = recorder_.planned();
     if (const auto range = recorder_.range()) view.range_um = range->in(um);
     if (is_open())
-        view.seconds_left =
-            std::max(0.0, seconds_of(recorder_.end() - context_.scheduler.now()));
+        view.seconds_left = std::max(0.0, seconds_of(recorder_.end() - context_.scheduler.now()));
     view.sentence = run_.no_certificate ? describe(*run_.no_certificate) : run_.reason;
     return view;
 }

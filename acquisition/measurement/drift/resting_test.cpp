@@ -47,9 +47,8 @@ Result<void> check_rate_of_bar(const StationConfig& config, double rate_hz) {
 
 /// Every channel of the station, the one that is watched first. One that no run of it uses stands
 /// without a medium: it must not count as air or material of the axis.
-std::vector<ChannelRecord> every_channel(const Supervisor& supervisor,
-                                         int watched,
-                                         const std::vector<int>& environment) {
+std::vector<ChannelRecord>
+every_channel(const Supervisor& supervisor, int watched, const std::vector<int>& environment) {
     std::vector<ChannelRecord> records;
     for (const StationChannel& channel : supervisor.channels()) {
         ChannelRecord record{channel.id,   channel.shown,  channel.instrument_name, channel.place,
@@ -115,8 +114,7 @@ axis_at_rest(RunHeaderParts parts, const DriftRequest& request, const DriftSetup
     return RestingTest{std::move(header), setup, watched, {}};
 }
 
-Result<RestingTest>
-bar_at_rest(RunHeaderParts parts, const DriftRequest& request, double rate_hz) {
+Result<RestingTest> bar_at_rest(RunHeaderParts parts, const DriftRequest& request, double rate_hz) {
     const StationConfig& config = parts.config;
     AXISCAL_CHECK(check_spans(request, config));
     AXISCAL_CHECK(check_rate_of_bar(config, rate_hz));

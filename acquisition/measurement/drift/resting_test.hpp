@@ -22,7 +22,7 @@ inline constexpr int fewest_of_bar = 2;
 struct RestingTest {
     RunRecord header;
     DriftSetup setup;
-    int watched = 0; ///< channel of the laser, scale or ballbar
+    int watched = 0;                          ///< channel of the laser, scale or ballbar
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
 };
 

@@ -44,19 +44,20 @@ TEST_F(ReportProgram, ItsLastLineNamesTheEntry) {
 
 TEST_F(ReportProgram, ItsFirstLineIsTheVerdictWhereItIsOne) {
     const auto verdict = [&](const std::string& first) {
-        const auto certificate = written(report_script(
-            scratch, "echo '" + first + "'; echo '{\"entry\":\"outbox/run\"}'"));
+        const auto certificate = written(
+            report_script(scratch, "echo '" + first + "'; echo '{\"entry\":\"outbox/run\"}'"));
         return certificate ? certificate->verdict : describe(certificate.error());
     };
     EXPECT_EQ(verdict(R"({"parameter":"R","value":4.6,"verdict":"fail"})"), "R: fail");
-    for (const char* none : {"noise", "[]", R"({"parameter":"R"})", R"({"parameter":1,"verdict":"fail"})"})
+    for (const char* none :
+         {"noise", "[]", R"({"parameter":"R"})", R"({"parameter":1,"verdict":"fail"})"})
         EXPECT_EQ(verdict(none), "") << none;
 }
 
 TEST_F(ReportProgram, ItsLastLineSaysWhatIsWrongWithTheSetUp) {
     const auto found = [&](const std::string& setup) {
-        const auto certificate = written(report_script(
-            scratch, "echo '{\"entry\":\"outbox/run\"" + setup + "}'"));
+        const auto certificate =
+            written(report_script(scratch, "echo '{\"entry\":\"outbox/run\"" + setup + "}'"));
         return certificate ? certificate->setup_findings
                            : std::vector{describe(certificate.error())};
     };
@@ -96,8 +97,8 @@ TEST_F(ReportProgram, TalkingWithoutEndIsEnded) {
 // is killed, this waits for an hour, and ctest ends it.
 TEST_F(ReportProgram, HangingIsKilledAtTheLimit) {
     const std::string child = scratch.file("child");
-    for (const std::string& body : {std::string{"exec sleep 3600"},
-                                    "sleep 3600 & echo $! >'" + child + "'; wait"}) {
+    for (const std::string& body :
+         {std::string{"exec sleep 3600"}, "sleep 3600 & echo $! >'" + child + "'; wait"}) {
         const auto answer = answer_of(report_script(scratch, body), std::chrono::milliseconds{300});
         ASSERT_FALSE(answer);
         EXPECT_EQ(answer.error().fault, Fault::io);

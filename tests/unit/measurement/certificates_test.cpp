@@ -23,10 +23,9 @@ protected:
     Result<std::string> made_by(const std::string& body) {
         Certificates certificates{scheduler, notices, report_script(scratch, body), "outbox"};
         std::optional<Result<std::string>> answer;
-        boost::asio::co_spawn(loop, certificates.make("run-1", "run-1.axiscal"),
-                              [&answer](std::exception_ptr, Result<std::string> got) {
-                                  answer = std::move(got);
-                              });
+        boost::asio::co_spawn(
+            loop, certificates.make("run-1", "run-1.axiscal"),
+            [&answer](std::exception_ptr, Result<std::string> got) { answer = std::move(got); });
         loop.restart();
         loop.run();
         return *answer;

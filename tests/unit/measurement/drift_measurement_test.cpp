@@ -91,7 +91,7 @@ struct Bench {
                               scratch.file("outbox")};
     MeasurementContext context{scheduler, journal, notices,      readings,
                                config,    files,   certificates, stopping};
-    std::uint32_t epoch = 0; ///< of the laser's counter
+    std::uint32_t epoch = 0;                ///< of the laser's counter
     std::shared_ptr<DriftMeasurement> test; ///< as a station holds it
 };
 
@@ -110,11 +110,9 @@ protected:
     /// Makes the file and records.
     Shared begin(bool of_bar = false) {
         std::optional<Result<Shared>> opened;
-        boost::asio::co_spawn(bench.scheduler.loop(),
-                              DriftMeasurement::open(bench.context, ten_seconds(of_bar)),
-                              [&opened](std::exception_ptr, Result<Shared> test) {
-                                  opened = std::move(test);
-                              });
+        boost::asio::co_spawn(
+            bench.scheduler.loop(), DriftMeasurement::open(bench.context, ten_seconds(of_bar)),
+            [&opened](std::exception_ptr, Result<Shared> test) { opened = std::move(test); });
         bench.scheduler.run_for(10ms);
         bench.test = opened->value();
         Orderer by;
