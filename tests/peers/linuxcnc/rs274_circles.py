@@ -107,9 +107,11 @@ class Planned:
 
 
 def canonical(program, axes):
-    """The same of what rs274 understood."""
+    """The same of what rs274 understood. It maps its tool table at $HOME/.tool.mmap, and another rs274
+    cuts that file short under it."""
     done = subprocess.run(["rs274", "-g", program], cwd=program.parent, stdin=subprocess.DEVNULL,
-                          capture_output=True, text=True, timeout=60)
+                          env={**os.environ, "HOME": str(program.parent)}, capture_output=True, text=True,
+                          timeout=60)
     assert done.returncode == 0, f"rs274: {done.stdout[-500:]}{done.stderr}"
     ways, here, settings = [], (0.0, 0.0), {}
     for line in done.stdout.splitlines():

@@ -319,9 +319,10 @@ TEST(PartProgram, Rs274OfLinuxcncAcceptsItAndMovesAsPlanned) {
         const RunPlan plan = plan_of({10.123, 60.5, 111.25, 160, 210.999}, 5);
         std::ofstream{folder / "cycle.ngc"} << *write_linuxcnc(order_of(plan, shape));
         const std::string canon = folder / "canon.txt";
-        ASSERT_EQ(std::system(
-                      ("cd " + folder.string() + " && rs274 -g cycle.ngc >canon.txt 2>messages.txt")
-                          .c_str()),
+        // rs274 maps its tool table at $HOME/.tool.mmap, and another one cuts that file short.
+        ASSERT_EQ(std::system(("cd " + folder.string() +
+                               " && HOME=. rs274 -g cycle.ngc >canon.txt 2>messages.txt")
+                                  .c_str()),
                   0);
         std::ifstream file{canon};
         std::vector<Stop> stops;
