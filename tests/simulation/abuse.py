@@ -19,9 +19,11 @@ REQUESTS = int(os.environ.get("AXISCAL_ABUSE_REQUESTS", "1000000" if os.environ.
 LONGEST_CALLBACK_MS = float(os.environ.get("AXISCAL_LONGEST_CALLBACK_MS", "2"))
 RSS_GROWTH_KIB = int(os.environ["AXISCAL_RESIDENT_GROWTH_KIB"])
 CLIENTS = 50
-# Each round sends the same. What holds the loop holds it in each, and what grows with the abuse in the later ones;
-# what the kernel or a hypervisor does in the meantime (its time counts as the thread's own) falls into one at most.
-ROUNDS = 3
+# Each round sends the same. What holds the loop holds it in each, and what grows with the abuse in each of the later
+# half; what the kernel or a hypervisor does in the meantime (its time counts as the thread's own: up to 32 ms were
+# seen in 6 s where a callback has 0.3) falls into some. So the quietest round of the later half is judged.
+ROUNDS = 20
+ROUND_S = 0.5  # at least, so that the rare ones take part in each: who vanishes does so every 0.4 s
 TCP_REPAIR = 19  # of tcp(7): a socket that is closed in this state tells its peer nothing
 
 
@@ -140,7 +142,7 @@ class Rude:
             self.leave()
         except OSError:
             self.leave(hard=True)
-        self.next_at = now + 1.0
+        self.next_at = now + 0.4
 
     def noise(self, now):
         self.send(self.dice.randbytes(self.dice.randint(1, 600)))
@@ -173,16 +175,25 @@ def abuse(b, port, enough):
 
 
 class Meter:
+    """The longest callback of each round, and how many callbacks all had."""
+
     def __init__(self, path):
-        self.path = path
+        self.path, self.longest_ns, self.callbacks = path, [], 0
         path.write_bytes(bytes(24))
 
     def begin(self):
+        self.end_s = time.monotonic() + ROUND_S
         with open(self.path, "r+b") as file:
             file.write(bytes(24))
 
-    def read(self):
-        return struct.unpack("QQQ", self.path.read_bytes())
+    def all_rounds_over(self, crowd):
+        sent = sum(one.answered for one in crowd) > (len(self.longest_ns) + 1) * REQUESTS / ROUNDS
+        if sent and time.monotonic() > self.end_s:
+            longest_ns, _, callbacks = struct.unpack("QQQ", self.path.read_bytes())
+            self.longest_ns.append(longest_ns)
+            self.callbacks += callbacks
+            self.begin()
+        return len(self.longest_ns) == ROUNDS
 
 
 def open_files(pid):
@@ -214,25 +225,20 @@ def door(b):
     bench.wait_until("the first crowd is gone", lambda: open_files(pid) <= before, 30)
     warm_kib = resident_kib(pid)
     start = b.status()["trigger"]
-    crowd, longest_of_round_ns, spans = [], [], 0
-    for _ in range(ROUNDS):
-        meter.begin()
-        crowd += abuse(b, port, lambda crowd: sum(one.answered for one in crowd) > REQUESTS / ROUNDS)
-        bench.wait_until("the crowd is gone", lambda: open_files(pid) <= before, 30)
-        longest_ns, _, counted = meter.read()
-        longest_of_round_ns.append(longest_ns)
-        spans += counted
+    meter.begin()
+    crowd = abuse(b, port, meter.all_rounds_over)
+    bench.wait_until("the crowd is gone", lambda: open_files(pid) <= before, 30)
     grown_kib = resident_kib(pid) - warm_kib
     end = b.status()["trigger"]
     told = {key: end[key] - start[key] for key in ("requests", "exceptions", "refused", "hung_up")}
     print(f"{told['requests']} requests answered, {told['exceptions']} of them refused, "
           f"{told['hung_up']} clients hung up on, {sum(one.vanished for one in crowd)} gone without a word; longest callback of the loop "
-          f"in each round {[f'{ns / 1e6:.3f} ms' for ns in longest_of_round_ns]} CPU of {spans}; resident memory {grown_kib:+d} KiB, "
-          f"open files {before}")
+          f"in each round {[f'{ns / 1e6:.3f} ms' for ns in meter.longest_ns]} CPU of {meter.callbacks}; resident memory "
+          f"{grown_kib:+d} KiB, open files {before}")
     # One callback answers what one read brought: at most 21 requests of 12 bytes in its 260.
-    expect(spans > REQUESTS / 21, "the meter has seen the callbacks of all requests")
-    too_long = [ns for ns in longest_of_round_ns if ns >= LONGEST_CALLBACK_MS * 1e6]
-    expect(len(too_long) <= 1, f"the loop was held in {len(too_long)} rounds: {longest_of_round_ns} ns of CPU")
+    expect(meter.callbacks > REQUESTS / 21, "the meter has seen the callbacks of all requests")
+    quietest_ns = min(meter.longest_ns[ROUNDS // 2:])
+    expect(quietest_ns < LONGEST_CALLBACK_MS * 1e6, f"each round held the loop: {meter.longest_ns} ns of CPU")
     expect(grown_kib < RSS_GROWTH_KIB, f"resident memory grew by {grown_kib} KiB")
     expect(told["requests"] >= 0.9 * REQUESTS, f"{told}")
     illegal = sum(one.answered for one in crowd if one.kind == "illegal")
