@@ -3,9 +3,11 @@
 // no clock: an input goes in, actions come out.
 
 #include "acquisition/run/first_targets.hpp"
+#include "acquisition/run/reading_rule.hpp"
 #include "acquisition/run/run_events.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,11 +16,10 @@ namespace axiscal {
 
 struct RunSetup {
     RunPlan plan;
-    LaserSetup laser;
-    std::string laser_serial; ///< for datum ids
+    std::shared_ptr<const ReadingRule> reading; ///< never null
+    std::string laser_serial;                   ///< for datum ids
     Duration capture_timeout = std::chrono::seconds{10};
-    RunRevisions revisions{};            ///< of an open run that goes on
-    std::optional<RotarySetup> rotary{}; ///< of a rotary axis
+    RunRevisions revisions{}; ///< of an open run that goes on
 };
 
 /// Counted, never silent.
@@ -161,8 +162,6 @@ private:
                      std::optional<ApproachClaim> approach,
                      Length expected,
                      RunActions& out);
-    /// Coordinate of the axis by this reading, the artefact being where `target` wants it.
-    [[nodiscard]] Result<Length> position_of(Length reading, Length target) const;
     void accept_datum(const Capture& capture, RunActions& out);
     void accept_point(const Capture& capture, RunActions& out);
     [[nodiscard]] std::optional<Error> objection_to_place(Length position, Length target) const;

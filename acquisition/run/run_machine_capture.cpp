@@ -2,12 +2,9 @@
 #include "acquisition/run/run_machine.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/run/live_position.hpp"
-#include "analysis/rotary/rotary_position.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace axiscal {
@@ -27,18 +24,6 @@ std::string name_of_point(const RunPlan& plan, const PlannedPoint& point, bool a
            " from the " + std::string{name_of(point.direction)} + " direction (point " +
            std::to_string(point.step + 1) + " of " + std::to_string(plan.points.size()) +
            (again ? ", to be taken again)" : ")");
-}
-
-/// What is off by whole steps is the table, not the axis.
-std::string hint_at_indexing(const RotarySetup& setup, Length beside) {
-    constexpr double share_of_step = 0.1;
-    if (setup.method == AngleMethod::polygon) return {};
-    const double steps = beside.in(mm) / setup.step_deg;
-    const auto whole = std::lround(steps);
-    if (whole == 0 || std::abs(steps - static_cast<double>(whole)) > share_of_step) return {};
-    return "; this is what an indexing table shows that stands " +
-           counted(std::labs(whole), "step") +
-           (whole > 0 ? " short of its position" : " beyond its position");
 }
 
 Error datum_lost_error(const std::string& why) {
@@ -161,10 +146,9 @@ void RunMachine::start_point(const TriggerEvent& event, RunActions& out) {
     pending.step = *step;
     pending.triggered_at = event.at;
     const PlannedPoint point = planned_at(*step);
-    const Length overrun = setup_.plan.overrun;
-    const ApproachClaim approach{
-        point.direction, setup_.laser.sign,
-        setup_.rotary ? least_reading_of_way(*setup_.rotary, overrun) : overrun, approach_since_};
+    const ApproachClaim approach{point.direction, setup_.reading->sign(),
+                                 setup_.reading->least_reading_of_way(setup_.plan.overrun),
+                                 approach_since_};
     open_window(std::move(pending), approach,
                 setup_.plan.targets[static_cast<std::size_t>(point.target_index)], out);
 }
@@ -222,20 +206,13 @@ std::string RunMachine::place_text(Length position, Length target) const {
         if (other != target && abs(position - other) <= setup_.plan.near_tolerance)
             text += "; it stands at the target at " + shown(other) +
                     (is_target_before(other) ? ", the one before: one step late" : "");
-    if (setup_.rotary) text += hint_at_indexing(*setup_.rotary, position - target);
-    return text + ".";
-}
-
-Result<Length> RunMachine::position_of(Length reading, Length target) const {
-    if (!setup_.rotary) return live_position(setup_.laser, *datum_, reading, *scale_minus_1_);
-    const int index = artefact_index(*setup_.rotary, datum_->coordinate, target);
-    return rotary_position(*setup_.rotary, setup_.laser.sign, *datum_, reading, *scale_minus_1_,
-                           index);
+    return text + setup_.reading->hint(position - target) + ".";
 }
 
 std::optional<Error> RunMachine::objection_to_place(Length position, Length target) const {
     if (abs(position - target) <= setup_.plan.near_tolerance) return std::nullopt;
-    if (setup_.rotary || static_cast<std::size_t>(view().done) >= diagnosed_targets)
+    if (!setup_.reading->sees_every_place() ||
+        static_cast<std::size_t>(view().done) >= diagnosed_targets)
         return Error{Fault::outside_window, place_text(position, target), {}, {}};
     auto claims = first_claims_;
     claims.push_back({target, position});
@@ -256,7 +233,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     if (!scale_minus_1_) return refuse_pending(scale_minus_1_.error(), capture.end, out);
     const auto planned = planned_at(pending_->step);
     const auto target = setup_.plan.targets[static_cast<std::size_t>(planned.target_index)];
-    const auto found = position_of(capture.mean, target);
+    const auto found = setup_.reading->position_of(*datum_, capture.mean, *scale_minus_1_, target);
     if (!found) return refuse_pending(found.error(), capture.end, out);
     const Length position = *found;
     if (const auto objection = objection_to_place(position, target))
@@ -282,9 +259,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     point.spread = capture.spread;
     point.slope_um_per_s = capture.slope_um_per_s;
     point.n = capture.n;
-    point.approach_travel = way.value_or(Length{});
-    if (setup_.rotary)
-        point.approach_travel = point.approach_travel / reading_per_coordinate(*setup_.rotary);
+    point.approach_travel = setup_.reading->way_of_reading(way.value_or(Length{}));
     point.datum_id = datum_->id;
     point.live_deviation = position - target;
     point.samples = capture.samples;

@@ -102,7 +102,12 @@ std::string Station::laser_serial() const {
 }
 
 RunSetup Station::setup_of(const RunRecord& header) const {
-    return {header.plan, header.laser, laser_serial(), config_.capture.timeout, {}, header.rotary};
+    return {header.plan,
+            header.rotary ? against_artefact(*header.rotary, header.laser.sign)
+                          : along_the_axis(header.laser),
+            laser_serial(),
+            config_.capture.timeout,
+            {}};
 }
 
 RunHeaderParts Station::header_parts(TestKind kind, RunPlan plan) const {

@@ -27,10 +27,17 @@ inline RunPlan small_plan() {
     return plan_passes(config, 1)->front();
 }
 
+inline LaserSetup small_laser(int sign = 1) {
+    LaserSetup laser;
+    laser.instrument = "laser";
+    laser.sign = sign;
+    return laser;
+}
+
 inline RunSetup small_setup() {
     RunSetup setup;
     setup.plan = small_plan();
-    setup.laser.instrument = "laser";
+    setup.reading = along_the_axis(small_laser());
     setup.laser_serial = "UMD-17";
     return setup;
 }
@@ -84,7 +91,7 @@ public:
     /// The reading of an axis that stands at `coordinate`, in vacuum wavelengths.
     [[nodiscard]] Length reading_at(Length coordinate) const {
         return reading_zero +
-               (coordinate - setup.plan.datum) * (setup.laser.sign * (1 + air_index_minus_1));
+               (coordinate - setup.plan.datum) * (setup.reading->sign() * (1 + air_index_minus_1));
     }
     [[nodiscard]] Capture capture_at(Length coordinate) const {
         Capture capture;

@@ -12,6 +12,13 @@ namespace {
 using testing::air_index_minus_1;
 using testing::Bench;
 
+RotarySetup small_table() {
+    RotarySetup rotary;
+    rotary.step_deg = 5;
+    rotary.arm = mm(32.61);
+    return rotary;
+}
+
 RunSetup rotary_setup() {
     CycleConfig config;
     config.axis_kind = AxisKind::rotary;
@@ -25,9 +32,7 @@ RunSetup rotary_setup() {
     const auto plans = plan_passes(config, 1);
     EXPECT_TRUE(plans) << describe(plans.error());
     if (plans) setup.plan = plans->front();
-    RotarySetup& rotary = setup.rotary.emplace();
-    rotary.step_deg = 5;
-    rotary.arm = mm(32.61);
+    setup.reading = against_artefact(small_table(), 1);
     return setup;
 }
 
@@ -58,7 +63,7 @@ TEST(RotaryRun, AsksForTheOverrunInWhatTheInterferometerReads) {
     bench.arm().trigger(1);
     const auto open = bench.the<OpenWindow>();
     ASSERT_TRUE(open.approach);
-    EXPECT_EQ(open.approach->overrun, least_reading_of_way(*bench.setup.rotary, 1.0_mm));
+    EXPECT_EQ(open.approach->overrun, least_reading_of_way(small_table(), 1.0_mm));
     EXPECT_NEAR(open.approach->overrun.in(mm), 0.5686, 5e-4);
 }
 
@@ -97,10 +102,11 @@ TEST(RotaryRun, OfAPolygonTakesAReadingAsItIsTyped) {
     RunSetup setup = rotary_setup();
     setup.plan.targets = {mm(0), mm(45), mm(90)};
     setup.plan.points = order_points(CycleKind::standard, 3, 1, true);
-    setup.rotary->method = AngleMethod::polygon;
-    setup.rotary->step_deg = 45;
-    setup.rotary->range_deg = 0.2;
-    setup.rotary->arm = {};
+    RotarySetup polygon;
+    polygon.method = AngleMethod::polygon;
+    polygon.step_deg = 45;
+    polygon.range_deg = 0.2;
+    setup.reading = against_artefact(polygon, 1);
     Bench bench{setup};
     bench.reading_zero = {};
     bench.arm();

@@ -176,7 +176,7 @@ TEST(RunMachineLaw, WhateverComesDoneNeverExceedsTheDiskAndNoPointIsDoubled) {
 RunRecord new_record(const RunSetup& setup) {
     RunRecord record;
     record.plan = setup.plan;
-    record.laser = setup.laser;
+    record.laser = testing::small_laser();
     return record;
 }
 

@@ -118,7 +118,7 @@ TEST(Point, KeepsWhatTheWindowShowed) {
 
 TEST(Point, LivePositionFollowsTheSign) {
     auto setup = small_setup();
-    setup.laser.sign = -1;
+    setup.reading = along_the_axis(testing::small_laser(-1));
     Bench bench{setup};
     bench.arm().trigger(1).window(bench.capture_at(20.003_mm));
     EXPECT_NEAR(bench.the<CommitPoint>().point.live_deviation.in(um), 3, 1e-6);

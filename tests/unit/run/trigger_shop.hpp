@@ -110,7 +110,7 @@ public:
         , port{port_of(of_shape, grace)}
         , machine{setup} {
         disk.plan = setup.plan;
-        disk.laser = setup.laser;
+        disk.laser = small_laser();
         feed(EnvironmentNow{air_index_minus_1});
         tick();
     }
@@ -277,7 +277,7 @@ private:
 public:
     [[nodiscard]] Length reading_of(Length coordinate) const {
         return 3.0_mm +
-               (coordinate - setup.plan.datum) * (setup.laser.sign * (1 + air_index_minus_1));
+               (coordinate - setup.plan.datum) * (setup.reading->sign() * (1 + air_index_minus_1));
     }
 
 private:
