@@ -1,12 +1,13 @@
 #include "acquisition/documents/evaluate.hpp"
 
-#include "acquisition/documents/circular/circular_run_file.hpp"
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/paper_identity.hpp"
-#include "acquisition/documents/positioning/positioning_run_file.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "config/json_text.hpp"
+
+#include <utility>
+#include <variant>
 
 namespace axiscal {
 namespace {
@@ -16,45 +17,33 @@ std::string differs_from(const std::string& software_version) {
     return "; this program computes differently from version " + software_version;
 }
 
-/// The one place outside a kind's own folder that asks which kind a run is.
+/// By the paper of its kind: the first of TestResult's from `index` on.
+template <std::size_t index = 0>
 Result<TestResult> computed(const std::string& path, RunFileContents contents) {
-    switch (contents.run.kind) {
-    case TestKind::circular: {
-        AXISCAL_TRY(CircularCertificate made, circular_certificate_of(path, contents));
+    using Test = std::variant_alternative_t<index, TestResult>;
+    if (contents.run.kind == PaperOf<Test>::kind) {
+        AXISCAL_TRY(Test made, PaperOf<Test>::evaluated(path, std::move(contents)));
         return TestResult{std::move(made)};
     }
-    case TestKind::drift: {
-        AXISCAL_TRY(DriftResult made, drift_result_of(path, std::move(contents)));
-        return TestResult{std::move(made)};
-    }
-    case TestKind::probing: {
-        AXISCAL_TRY(ProbingResult made, probing_result_of(path, std::move(contents)));
-        return TestResult{std::move(made)};
-    }
-    case TestKind::positioning: break;
-    }
-    AXISCAL_TRY(Certificate made, certificate_of(std::move(contents)));
-    return TestResult{std::move(made)};
+    if constexpr (index + 1 < std::variant_size_v<TestResult>)
+        return computed<index + 1>(path, std::move(contents));
+    else
+        return fail(Fault::bad_run_file, path + " holds a test of a kind that has no paper: " +
+                                             std::string{name_of(contents.run.kind)});
 }
 
-bool is_partial(const TestResult& result) {
-    const auto* positioning = std::get_if<Certificate>(&result);
-    return positioning != nullptr && positioning->completeness.partial();
+template <class Test> std::string& number_in(Test& one) {
+    if constexpr (requires { one.run; })
+        return one.run.statements.certificate_number;
+    else
+        return one.measured.run.statements.certificate_number;
 }
 
-tl::unexpected<Error> no_certificate(const RunRecord& run) {
+tl::unexpected<Error> no_certificate(const std::string& closing_reason) {
     return fail(Fault::incomplete_run,
                 "no certificate is issued of a run that was not closed as complete (" +
-                    run.closing_reason +
+                    closing_reason +
                     "); 'axiscal analyze' and 'axiscal export' give its partial result");
-}
-
-/// In which the certificate is issued; empty of a test whose paper gets no number.
-std::string finished_utc_of(const TestResult& result) {
-    if (const auto* positioning = std::get_if<Certificate>(&result))
-        return positioning->finished_utc;
-    const auto* circular = std::get_if<CircularCertificate>(&result);
-    return circular != nullptr ? circular->measured.finished_utc : std::string{};
 }
 
 int year_in(const std::string& iso_date) {
@@ -80,15 +69,17 @@ Result<PaperIdentity> store_first(const std::string& path,
     return identity;
 }
 
+/// A paper without a number has no `replaces` either.
 void name_paper(TestResult& result, const PaperIdentity& identity) {
-    const auto name = [&](auto& certificate, auto& run) {
-        run.statements.certificate_number = identity.number;
-        certificate.replaces = identity.replaces;
-        if (!identity.replaces.empty()) certificate.remarks.push_back(amendment_remark(identity));
-    };
-    if (auto* positioning = std::get_if<Certificate>(&result)) name(*positioning, positioning->run);
-    if (auto* circular = std::get_if<CircularCertificate>(&result))
-        name(*circular, circular->measured.run);
+    std::visit(
+        [&](auto& one) {
+            if constexpr (requires { one.replaces; }) {
+                number_in(one) = identity.number;
+                one.replaces = identity.replaces;
+                if (!identity.replaces.empty()) one.remarks.push_back(amendment_remark(identity));
+            }
+        },
+        result);
 }
 
 } // namespace
@@ -98,9 +89,10 @@ Result<TestResult> evaluate_run_file(const std::string& path, const Issue* issue
     AXISCAL_TRY(RunFileContents contents, read_run_file_contents(path));
     const PaperOfRun paper = paper_of(contents);
     const std::string version = contents.run.software_version;
+    const std::string closing_reason = contents.run.closing_reason;
     AXISCAL_TRY(TestResult result, computed(path, std::move(contents)));
     if (is_partial(result)) { // is neither stored nor numbered, whatever the file held before
-        if (issue != nullptr) return no_certificate(std::get<Certificate>(result).run);
+        if (issue != nullptr) return no_certificate(closing_reason);
         set_file_sha256(result, std::move(sha256));
         return result;
     }

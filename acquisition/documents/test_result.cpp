@@ -1,12 +1,6 @@
 #include "acquisition/documents/test_result.hpp"
 
-#include "acquisition/documents/circular/circular_certificate_csv.hpp"
-#include "acquisition/documents/circular/circular_certificate_json.hpp"
-#include "acquisition/documents/circular/circular_run_file.hpp"
 #include "acquisition/documents/document_parts.hpp"
-#include "acquisition/documents/positioning/certificate_csv.hpp"
-#include "acquisition/documents/positioning/certificate_json.hpp"
-#include "acquisition/documents/positioning/result_json.hpp"
 
 #include <type_traits>
 #include <utility>
@@ -14,29 +8,20 @@
 namespace axiscal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// One function a kind; a kind without one does not compile.
-template <class... Kinds> struct OfEach : Kinds... { using Kinds::operator()...; };
-template <class... Kinds> OfEach(Kinds...) -> OfEach<Kinds...>;
+template <class Test> using PaperFor = PaperOf<std::remove_cvref_t<Test>>;
 
 /// Of a circular test it is the SHA-256 of the case, where no run file stands behind it.
-template <class Result> auto& sha256_in(Result& result) {
-    if constexpr (std::is_same_v<std::remove_const_t<Result>, CircularCertificate>)
-        return result.file_sha256;
+template <class Test> auto& sha256_in(Test& one) {
+    if constexpr (requires { one.run_file_sha256; })
+        return one.run_file_sha256;
     else
-        return result.run_file_sha256;
+        return one.file_sha256;
 }
 
 } // namespace
 
-Json json_of(const TestResult& result) {
-    return std::visit(
-        OfEach{[](const Certificate& one) { return certificate_to_json(one); },
-               [](const CircularCertificate& one) { return circular_certificate_to_json(one); },
-               [](const DriftResult& one) { return drift_to_json(one); },
-               [](const ProbingResult& one) { return probing_to_json(one); }},
-        result);
+nlohmann::ordered_json json_of(const TestResult& result) {
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::json(one); }, result);
 }
 
 std::string json_text_of(const TestResult& result) {
@@ -44,27 +29,26 @@ std::string json_text_of(const TestResult& result) {
 }
 
 std::string csv_of(const TestResult& result) {
-    return std::visit(
-        OfEach{[](const Certificate& one) { return certificate_csv(one); },
-               [](const CircularCertificate& one) { return circular_certificate_csv(one); },
-               [](const DriftResult& one) { return drift_csv(one); },
-               [](const ProbingResult& one) { return probing_csv(one); }},
-        result);
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::csv(one); }, result);
 }
 
-Json stored_figures_of(const TestResult& result) {
-    return std::visit(OfEach{[](const Certificate& one) { return result_to_json(one.result); },
-                             [](const CircularCertificate& one) { return circular_figures(one); },
-                             [](const DriftResult& one) { return drift_figures(one.drift); },
-                             [](const ProbingResult& one) { return probing_figures(one); }},
+nlohmann::ordered_json stored_figures_of(const TestResult& result) {
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::figures(one); },
                       result);
 }
 
 FigureAgreement agreement_of(const TestResult& result) {
-    return std::visit(OfEach{[](const Certificate& one) { return agreement_of(one.run); },
-                             [](const CircularCertificate&) { return rounding_of_the_library; },
-                             [](const DriftResult& one) { return agreement_of(one.run); },
-                             [](const ProbingResult&) { return rounding_of_the_library; }},
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::agreement(one); },
+                      result);
+}
+
+bool is_partial(const TestResult& result) {
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::is_partial(one); },
+                      result);
+}
+
+std::string finished_utc_of(const TestResult& result) {
+    return std::visit([](const auto& one) { return PaperFor<decltype(one)>::finished_utc(one); },
                       result);
 }
 

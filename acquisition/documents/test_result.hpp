@@ -1,11 +1,10 @@
 #pragma once
 // What a test gave, whatever its kind, and the documents that say so. Pure.
 
-#include "acquisition/documents/drift/drift_document.hpp"
-#include "acquisition/documents/figure_agreement.hpp"
-#include "acquisition/documents/probing/probing_document.hpp"
-#include "analysis/circular/circular_certificate.hpp"
-#include "analysis/positioning/positioning_certificate.hpp"
+#include "acquisition/documents/circular/circular_paper.hpp"
+#include "acquisition/documents/drift/drift_paper.hpp"
+#include "acquisition/documents/positioning/positioning_paper.hpp"
+#include "acquisition/documents/probing/probing_paper.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +13,7 @@
 
 namespace axiscal {
 
+/// The one list of the kinds that have a paper: see paper.hpp.
 using TestResult = std::variant<Certificate, CircularCertificate, DriftResult, ProbingResult>;
 
 /// The certificate's document, and its text: indented, valid UTF-8, one line feed at the end.
@@ -28,6 +28,10 @@ const std::optional<Conformity>& conformity_of(const TestResult& result);
 nlohmann::ordered_json stored_figures_of(const TestResult& result);
 /// How near the figures of another processor must come.
 FigureAgreement agreement_of(const TestResult& result);
+/// Of a run that is open, or was closed as incomplete.
+bool is_partial(const TestResult& result);
+/// When the certificate was issued; empty of a test whose paper gets no number.
+std::string finished_utc_of(const TestResult& result);
 
 /// Of the run file or the case; 64 lower-case hexadecimal digits.
 const std::string& file_sha256_of(const TestResult& result);

@@ -1,6 +1,7 @@
 #include "acquisition/documents/circular/circular_report.hpp"
 
 #include "acquisition/documents/circular/circular_pages.hpp"
+#include "acquisition/documents/circular/circular_paper.hpp"
 #include "acquisition/documents/circular/circular_wording.hpp"
 
 namespace axiscal {
@@ -64,6 +65,10 @@ Result<std::string> render_circular_pdf(const CircularCertificate& certificate) 
             draw_circular_diagnosis(sheet, certificate);
             draw_circular_condition_pages(sheet, certificate, shortened);
         });
+}
+
+Result<std::string> PaperOf<CircularCertificate>::pdf(const CircularCertificate& one) {
+    return render_circular_pdf(one);
 }
 
 } // namespace axiscal

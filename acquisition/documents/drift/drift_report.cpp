@@ -1,6 +1,7 @@
 #include "acquisition/documents/drift/drift_report.hpp"
 
 #include "acquisition/documents/drift/drift_pages.hpp"
+#include "acquisition/documents/drift/drift_paper.hpp"
 #include "acquisition/documents/pdf/front_parts.hpp"
 #include "acquisition/documents/pdf/wording.hpp"
 
@@ -28,6 +29,10 @@ Result<std::string> render_drift_pdf(const DriftResult& document) {
                             draw_drift_channels(sheet, document.drift);
                             draw_drift_conditions(sheet, document, shortened);
                         });
+}
+
+Result<std::string> PaperOf<DriftResult>::pdf(const DriftResult& one) {
+    return render_drift_pdf(one);
 }
 
 } // namespace axiscal

@@ -1,13 +1,11 @@
 #include "acquisition/documents/pdf/certificate_files.hpp"
 
-#include "acquisition/documents/circular/circular_report.hpp"
-#include "acquisition/documents/drift/drift_report.hpp"
-#include "acquisition/documents/positioning/report.hpp"
-#include "acquisition/documents/probing/probing_report.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 
 #include <filesystem>
+#include <type_traits>
+#include <variant>
 
 namespace axiscal {
 namespace {
@@ -24,17 +22,10 @@ copy_verified(const std::string& from, const std::string& to, const std::string&
     return {};
 }
 
-Result<std::string> pdf_of(const Certificate& one) {
-    return render_certificate_pdf(one);
-}
-Result<std::string> pdf_of(const CircularCertificate& one) {
-    return render_circular_pdf(one);
-}
-Result<std::string> pdf_of(const DriftResult& one) {
-    return render_drift_pdf(one);
-}
-Result<std::string> pdf_of(const ProbingResult& one) {
-    return render_probing_pdf(one);
+Result<std::string> pdf_of(const TestResult& result) {
+    return std::visit(
+        [](const auto& one) { return PaperOf<std::remove_cvref_t<decltype(one)>>::pdf(one); },
+        result);
 }
 
 } // namespace
@@ -42,8 +33,7 @@ Result<std::string> pdf_of(const ProbingResult& one) {
 Result<void> write_certificate_files(const TestResult& result,
                                      const std::string& source_file,
                                      const std::string& folder) {
-    AXISCAL_TRY(const std::string pdf,
-                std::visit([](const auto& one) { return pdf_of(one); }, result));
+    AXISCAL_TRY(const std::string pdf, pdf_of(result));
     AXISCAL_CHECK(write_synced(folder + "/" + certificate_json_name, json_text_of(result)));
     AXISCAL_CHECK(write_synced(folder + "/" + certificate_csv_name, csv_of(result)));
     AXISCAL_CHECK(write_synced(folder + "/" + certificate_pdf_name, pdf));

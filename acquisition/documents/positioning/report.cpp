@@ -1,6 +1,7 @@
 #include "acquisition/documents/positioning/report.hpp"
 
 #include "acquisition/documents/positioning/certificate_pages.hpp"
+#include "acquisition/documents/positioning/positioning_paper.hpp"
 
 namespace axiscal {
 namespace {
@@ -50,6 +51,10 @@ Result<std::string> render_certificate_pdf(const Certificate& certificate) {
                             draw_target_pages(sheet, certificate);
                             draw_condition_pages(sheet, certificate, shortened);
                         });
+}
+
+Result<std::string> PaperOf<Certificate>::pdf(const Certificate& one) {
+    return render_certificate_pdf(one);
 }
 
 } // namespace axiscal

@@ -3,6 +3,7 @@
 #include "acquisition/documents/pdf/front_parts.hpp"
 #include "acquisition/documents/pdf/wording.hpp"
 #include "acquisition/documents/probing/probing_pages.hpp"
+#include "acquisition/documents/probing/probing_paper.hpp"
 
 namespace axiscal {
 namespace {
@@ -25,6 +26,10 @@ Result<std::string> render_probing_pdf(const ProbingResult& document) {
                             draw_probing_touches(sheet, document, front);
                             draw_probing_conditions(sheet, document, front);
                         });
+}
+
+Result<std::string> PaperOf<ProbingResult>::pdf(const ProbingResult& one) {
+    return render_probing_pdf(one);
 }
 
 } // namespace axiscal
