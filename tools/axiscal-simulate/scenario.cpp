@@ -229,6 +229,21 @@ void read_polygon(Fields& f, PolygonScenario& polygon) {
     if (polygon.faces < 3) f.refuse("faces", "is at least 3");
 }
 
+void read_straightness(Fields& f, StraightnessScenario& straightness) {
+    f.positive("factor", straightness.factor);
+    f.read("mirror_reversed", straightness.mirror_reversed);
+    f.table("across", [&](Fields& t) { read_errors(t, straightness.across); });
+    f.table("mirror", [&](Fields& t) { read_errors(t, straightness.mirror); });
+}
+
+/// The optics stand before the counter of a uMD, in place of those that show the axis.
+void refuse_other_optics(Fields& f, const Scenario& s) {
+    if (!s.straightness) return;
+    if (s.rotary()) f.refuse("straightness", "needs an axis that does not turn");
+    if (s.laser.kind == "ids3010" || s.laser.kind == "hpi-3d" || s.laser.resolution_um)
+        f.refuse("straightness", "needs the laser of a uMD: umd0, umd1 or umd2");
+}
+
 /// An autocollimator looks at the slide that the laser's face moves.
 void refuse_blind_autocollimator(Fields& f, const Scenario& s) {
     for (const SensorScenario& sensor : s.sensors) {
@@ -314,6 +329,8 @@ void read_all(Fields& f, Scenario& s) {
             [&](Fields& t) { read_indexing_table(t, s.indexing_table.emplace()); });
     f.table("polygon", [&](Fields& t) { read_polygon(t, s.polygon.emplace()); });
     refuse_blind_autocollimator(f, s);
+    f.table("straightness", [&](Fields& t) { read_straightness(t, s.straightness.emplace()); });
+    refuse_other_optics(f, s);
     f.table("ballbar", [&](Fields& t) { read_ballbar(t, s.ballbar.emplace()); });
     f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });
     f.table("truth", [&](Fields& t) {

@@ -98,6 +98,15 @@ struct PolygonScenario {
     std::vector<double> deviation_arcsec; ///< of each face; + stands turned with the axis
 };
 
+/// A Wollaston prism before a bisecting mirror in place of the laser's reflector: it shows the
+/// motion across the axis.
+struct StraightnessScenario {
+    double factor = 36; ///< deviation across for a displacement of 1 that the laser shows
+    bool mirror_reversed = false;
+    ErrorScenario across; ///< of the motion
+    ErrorScenario mirror; ///< its form along the axis
+};
+
 /// A ballbar between spindle and table, and what it shall find; ways of its plane move it.
 struct BallbarScenario {
     std::string path, plane = "XY"; ///< letters of the first and the second axis
@@ -154,6 +163,7 @@ struct Scenario {
     std::vector<SensorScenario> sensors;
     std::optional<TableScenario> indexing_table;
     std::optional<PolygonScenario> polygon;
+    std::optional<StraightnessScenario> straightness;
     std::optional<BallbarScenario> ballbar;
     std::optional<CncScenario> cnc;
     TruthScenario truth;

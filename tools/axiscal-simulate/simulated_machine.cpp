@@ -160,7 +160,11 @@ double SimulatedMachine::cycles_of_scale(double way_mm, double seconds) {
 double SimulatedMachine::cycles_of_rest(double rest_deg, double seconds) {
     const double rest_rad = rest_deg * std::numbers::pi / 180.0;
     const double arm_mm = scenario_.indexing_table ? scenario_.indexing_table->arm_mm : 0;
-    return cycles_of_path(scenario_.laser.sign * arm_mm * std::sin(rest_rad), seconds);
+    return cycles_of_displacement(arm_mm * std::sin(rest_rad), seconds);
+}
+
+double SimulatedMachine::cycles_of_displacement(double shown_mm, double seconds) {
+    return cycles_of_path(scenario_.laser.sign * shown_mm, seconds);
 }
 
 double SimulatedMachine::cycles_of_path(double length_mm, double seconds) {

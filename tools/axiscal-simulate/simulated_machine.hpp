@@ -72,8 +72,10 @@ public:
     /// Optical cycles since the counter started, from the exact equation
     /// N = fold (n L - n0 L0) / lambda with L the length from interferometer to reflector.
     double cycles(double slide_mm, double seconds);
-    /// The same of an angular interferometer: N = fold (n D - n0 D0) / lambda with the displacement
-    /// D = arm sin(rest) between its reflectors, which stand square when the rest is 0.
+    /// The same of optics that show a displacement of their own: N = fold (n D - n0 D0) / lambda.
+    double cycles_of_displacement(double shown_mm, double seconds);
+    /// Of an angular interferometer D = arm sin(rest) between its reflectors, which stand square
+    /// when the rest is 0.
     double cycles_of_rest(double rest_deg, double seconds);
     /// The counter starts anew: the next sample is its zero.
     void zero_counter() { zeroed_ = false; }

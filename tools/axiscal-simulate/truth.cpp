@@ -1,7 +1,9 @@
 #include "truth.hpp"
 
 #include "injected_process.hpp"
+#include "laser_count.hpp"
 #include "simulated_machine.hpp"
+#include "straightness_truth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -124,16 +126,6 @@ double air_step_index(const Scenario& s) {
 
 /// Two accepted equations for n differ by at most this near 20 C, RH up to 100 %.
 constexpr double equations_differ = 6e-8;
-
-/// Least count of the laser, um of its displacement.
-double count_um(const LaserScenario& laser) {
-    if (laser.kind == "ids3010") return 1e-6; // it tells picometres
-    if (laser.kind == "hpi-3d") return 1e-4;  // steps of 100 pm
-    if (laser.resolution_um) return *laser.resolution_um;
-    const double count = laser.wavelength_nm * 1e-3 / (laser.fold * laser.counts_per_cycle);
-    const bool heterodyne = laser.kind == "umd1" || laser.kind == "umd2-heterodyne";
-    return heterodyne ? count / std::pow(2.0, laser.phase_bits) : count;
-}
 
 /// Behind an indexing table the laser measures the rest alone, at most half a step at each of two
 /// targets; a um stands for a thousandth of a degree.
@@ -272,6 +264,7 @@ std::map<std::string, double> evaluate_truth(const Readings& forward_um,
 }
 
 nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
+    if (scenario.straightness) return straightness_truth_of(scenario, plan);
     const double sigma_um = bound_sigma_um(scenario);
     const Systematic sys = systematic_of(scenario, plan);
     const auto m = static_cast<double>(plan.targets_mm.size());

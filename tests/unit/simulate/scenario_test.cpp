@@ -24,6 +24,17 @@ TEST(Scenario, EveryShippedFileIsRead) {
     EXPECT_GE(read, 4);
 }
 
+TEST(Scenario, RefusesAPrismBeforeAnythingButAUmd) {
+    const std::string prism = "[straightness]\nfactor = 36\n";
+    EXPECT_EQ(refusal(prism), "");
+    EXPECT_NE(refusal(prism + "[laser]\nkind = \"hpi-3d\"\n").find("straightness needs the laser"),
+              std::string::npos);
+    EXPECT_NE(refusal(prism + "[indexing_table]\n").find("straightness needs an axis"),
+              std::string::npos);
+    EXPECT_NE(refusal("[straightness]\nfactor = 0\n").find("straightness.factor must be above 0"),
+              std::string::npos);
+}
+
 TEST(Scenario, ReadsTomlAndJsonAlike) {
     const auto toml = parse_scenario("seed = 7\n[errors]\nreversal_um = -3.5\n", true);
     const auto json = parse_scenario(R"({"seed":7,"errors":{"reversal_um":-3.5}})", false);

@@ -111,6 +111,14 @@ TEST_F(SimulatorTest, TheTableThatAStreamTurnsTakesTheReflectorsBack) {
     EXPECT_NEAR(displacement_um(record_of("0 0 0 -4 0", {.laser = 4})), chord_um(1), 2e-3);
 }
 
+TEST_F(SimulatorTest, BehindAPrismTheWireShowsTheMotionAcross) {
+    scenario_.straightness.emplace().across.table = {{0, 0}, {100, 36}};
+    open();
+    const double start = measured_um(0, 0);
+    // 36 um by a factor of 36; 2 nm: as along the axis
+    EXPECT_NEAR(measured_um(0, 100) - start, 1.0, 2e-3);
+}
+
 /// What a bar's counter sent last, by a laser with a corner cube; -1: nothing.
 double bar_um(int wire) {
     char text[256] = {};

@@ -23,6 +23,7 @@ SimulatedLaser::SimulatedLaser(const Scenario& scenario,
     , table_{std::move(table)}
     , machine_{scenario}
     , counter_{scenario.laser} {
+    if (scenario.straightness) across_.emplace(scenario);
     if (scenario.laser.kind == "umd0") pty_.write("\r\nMinimalist Homodyne Test:\r\n");
     if (scenario.laser.partial_first_line) pty_.write("45 3 0 4097 0 0\r\n");
 }
@@ -42,11 +43,15 @@ void SimulatedLaser::step(double drive_mm) {
     const std::lock_guard lock{mutex_};
     const double seconds = static_cast<double>(sample_) / counter_.rate_hz();
     slide_mm_ = machine_.slide_mm(drive_mm, seconds, sample_);
-    const bool angular = scenario_.indexing_table.has_value();
-    const UmdRecord record =
-        counter_.next(angular ? cycles_over_table(seconds) : machine_.cycles(slide_mm_, seconds));
+    const UmdRecord record = counter_.next(cycles_now(drive_mm, seconds));
     ++sample_;
     write(encode(record));
+}
+
+double SimulatedLaser::cycles_now(double drive_mm, double seconds) {
+    if (across_) return across_->cycles(drive_mm, seconds, sample_);
+    if (scenario_.indexing_table) return cycles_over_table(seconds);
+    return machine_.cycles(slide_mm_, seconds);
 }
 
 /// The optics are square at the begin of the run, where the table stands at its position 0.
@@ -103,6 +108,7 @@ void SimulatedLaser::restart_counter() {
     const std::lock_guard lock{mutex_};
     counter_.restart();
     machine_.zero_counter();
+    if (across_) across_->zero_counter();
 }
 
 void SimulatedLaser::skip_records(int count) {

@@ -3,12 +3,14 @@
 
 #include "sim_clock.hpp"
 #include "simulated_machine.hpp"
+#include "straightness_optics.hpp"
 #include "wire/pty.hpp"
 #include "wire/simulated_device.hpp"
 #include "wire/umd_counter.hpp"
 
 #include <functional>
 #include <mutex>
+#include <optional>
 
 namespace axiscal::simulate {
 
@@ -44,6 +46,8 @@ public:
 private:
     void step(double drive_mm);
     double cycles_over_table(double seconds);
+    /// What its optics show of this sample.
+    double cycles_now(double drive_mm, double seconds);
     void write(const std::string& record);
 
     Scenario scenario_;
@@ -52,6 +56,7 @@ private:
     SimClock clock_;
     std::function<double(double)> drive_, table_;
     SimulatedMachine machine_;
+    std::optional<StraightnessOptics> across_;
     UmdCounter counter_;
     std::uint64_t sample_ = 0;
     double slide_mm_ = 0;
