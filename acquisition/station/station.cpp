@@ -13,6 +13,7 @@
 namespace axiscal {
 namespace {
 
+constexpr Duration after_being_ready = std::chrono::seconds{1};
 constexpr Duration port_pause = std::chrono::seconds{1};
 constexpr Duration first_looks =
     std::chrono::seconds{2}; // the station is judged once after its start
@@ -105,7 +106,6 @@ Task<Result<void>> Station::start() {
                                "; check station.state_directory and its owner",
                            error);
     }
-    sleep_lock_.try_out();
     supervisor_.start();
     judged_ = scheduler_.now();
     outbox_watch_.begin_judging(judged_);
@@ -123,7 +123,14 @@ Task<Result<void>> Station::start() {
     } else {
         co_return taken;
     }
+    spawn(scheduler_, try_out_sleep_lock());
     co_return Result<void>{};
+}
+
+/// Its program takes longer to start than a station does, which is ready before.
+Task<void> Station::try_out_sleep_lock() {
+    co_await scheduler_.sleep_for(after_being_ready);
+    if (!stopping_) sleep_lock_.try_out();
 }
 
 void Station::open_port() {

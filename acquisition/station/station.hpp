@@ -350,6 +350,7 @@ private:
     [[nodiscard]] bool time_counts() const;
 
     Task<void> serve_port();
+    Task<void> try_out_sleep_lock();
     void take_reading(const Sample& sample);
     void log_environment(int channel, const Sample& sample);
     void log_environment_anew(); ///< the first point needs a reading before it
