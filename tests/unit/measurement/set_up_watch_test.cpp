@@ -1,4 +1,4 @@
-#include "acquisition/station/set_up_watch.hpp"
+#include "acquisition/measurement/positioning/set_up_watch.hpp"
 
 #include <gtest/gtest.h>
 
