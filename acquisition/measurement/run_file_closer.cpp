@@ -37,6 +37,29 @@ Task<Result<void>> RunFileCloser::close(bool complete, std::string reason) {
     }
 }
 
+Task<Result<void>> RunFileCloser::close_for_now(bool complete, std::string reason) {
+    Result<void> closed = co_await journal_.close(complete, std::move(reason));
+    if (closed || closed.error().fault != Fault::busy) co_return closed;
+    notices_.note("The run is closed and safe. " + closed.error().detail + ".");
+    co_await journal_.let_go();
+    co_return Result<void>{};
+}
+
+Task<void> RunFileCloser::wait_for_readers(std::string folder) {
+    while (!stopping_) {
+        const auto tidied = co_await journal_.tidy(folder);
+        if (tidied || tidied.error().fault != Fault::busy) co_return;
+        co_await scheduler_.sleep_for(ask_reader_every);
+    }
+}
+
+Task<std::optional<Error>> RunFileCloser::trouble_in(std::string folder) {
+    const Result<void> tried = co_await journal_.try_folder(std::move(folder));
+    std::optional<Error> trouble;
+    if (!tried) trouble = Error{Fault::not_durable, tried.error().detail, tried.error().cause, {}};
+    co_return trouble;
+}
+
 tl::unexpected<Error> RunFileCloser::not_closed_yet() const {
     if (!reader_.empty())
         return fail(Fault::busy,

@@ -5,6 +5,7 @@
 #include "analysis/quantity/time.hpp"
 #include "drivers/loop/scheduler.hpp"
 
+#include <optional>
 #include <string>
 
 namespace axiscal {
@@ -24,6 +25,16 @@ public:
     /// durable from the first attempt on.
     /// @errors as Journal::close; Fault::busy only when the daemon ends meanwhile.
     Task<Result<void>> close(bool complete, std::string reason);
+
+    /// The same without waiting: at a start, and after an order about a closed run, nobody waits
+    /// for a reader. wait_for_readers() does what is left.
+    /// @errors as Journal::close, but for Fault::busy.
+    Task<Result<void>> close_for_now(bool complete, std::string reason);
+    /// A closed run has its certificate once it is one file: its bytes are what the certificate
+    /// names. Returns when those in `folder` are, or when the daemon ends.
+    Task<void> wait_for_readers(std::string folder);
+    /// Why no file may grow in `folder`, if so. The error is Fault::not_durable.
+    Task<std::optional<Error>> trouble_in(std::string folder);
 
     /// Why a file is not closed yet: a record on its way to the disk, or a reader.
     /// @returns Fault::busy

@@ -1,7 +1,6 @@
 #include "acquisition/station/station.hpp"
 
-#include "acquisition/live/time_limits.hpp"
-#include "acquisition/run/live_position.hpp"
+#include "acquisition/measurement/positioning/polygon_reading.hpp"
 #include "analysis/rotary/rotary_position.hpp"
 #include "drivers/loop/spawn.hpp"
 
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -69,7 +69,6 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
                 (seat_all(
                      supervisor_, config_, std::move(parts.instruments), std::move(parts.tapes)),
                  supervisor_.channels())}
-    , logged_(supervisor_.channels().size())
     , outbox_watch_{config_.state_directory, config_.publish}
     , stale_after_{age_that_matters(config_)}
     , bell_{scheduler.executor()}
@@ -77,7 +76,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , files_{scheduler, journal_, notices_, stopping_}
     , certificates_{scheduler, notices_, std::move(parts.report_program),
                     config_.state_directory + "/outbox"}
-    , set_up_{reference_word()} {
+    , set_up_since_start_{reference_word(config_)} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
@@ -165,44 +164,46 @@ void Station::on_sample(const Sample& sample) {
     if (asleep_) bell_.ring();
     if (resting_) resting_->on_sample(sample);
     if (circles_) circles_->on_sample(sample);
-    if (sample.channel == roles_.laser) return take_reading(sample);
-    if (sample.channel == roles_.autocollimator) return take_face(sample);
-    if (sample.channel == roles_.ballbar) {
+    keep_reading(sample);
+    if (positioning_) positioning_->on_sample(sample);
+}
+
+void Station::keep_reading(const Sample& sample) {
+    if (sample.channel == roles_.laser) {
+        readings_.take_reference(sample);
+        watch_set_up(sample);
+        watch_alignment(sample);
+    } else if (sample.channel == roles_.autocollimator) {
+        readings_.take_reference(in_degrees(sample));
+    } else if (sample.channel == roles_.ballbar) {
         readings_.take_bar(sample);
         readings_.log(sample);
-        return;
+    } else {
+        readings_.take_sensor(sample);
     }
-    if (readings_.take_sensor(sample)) log_environment(sample.channel, sample);
 }
 
-void Station::take_reading(const Sample& sample) {
-    readings_.take_reference(sample);
-    watch_set_up(sample);
-    watch_alignment(sample);
-    if (!datum_ || !recording()) return;
-    if (sample.epoch != datum_epoch_) {
-        if (!std::exchange(datum_lost_told_, true))
-            feed(LaserFault{Fault::datum_lost,
-                            "The " + reference_word() + "'s counter lost its zero.", sample.at});
-        return;
-    }
-    const auto value = sample.value();
-    if (value && !run_->header.rotary) // whose halts no port judges
-        port_->position(sample.at, live_position(run_->header.laser, *datum_, metre(*value),
-                                                 readings_.last_scale_minus_1())
-                                       .in(mm));
-}
-
-void Station::log_environment(int channel, const Sample& sample) {
-    auto& last = logged_[static_cast<std::size_t>(channel)];
-    if (!recording() || !sample.value() || (last && sample.at - *last < log_every)) return;
-    last = sample.at;
-    journal_.note(std::vector<EnvironmentReading>{{channel, sample.at, *sample.value()}});
+void Station::record(EventKind kind, std::string sentence, Fault fault) {
+    journal_.note(EventRecord{kind, scheduler_.now(), scheduler_.clock_tie().utc_ns,
+                              std::move(sentence), fault, 0});
 }
 
 std::string Station::news_of_state(const InstrumentView& view) {
     const bool plays = view.state == InstrumentState::available && !view.tape.empty();
     return plays ? "plays a tape" : "is " + std::string{name_of(view.state)};
+}
+
+/// Once it was seen to see a face, having none before it is the way to the next: only where it
+/// comes back without one, that is told, and the first face after it.
+std::string Station::news_of_autocollimator(const InstrumentView& view) {
+    const bool between_faces =
+        autocollimator_ == InstrumentState::available && view.state == InstrumentState::faulty;
+    if (between_faces || view.state == autocollimator_) return {};
+    const InstrumentState before = std::exchange(autocollimator_, view.state);
+    if (view.state == InstrumentState::faulty) return "answers, and sees no face";
+    return before == InstrumentState::faulty && view.state == InstrumentState::available
+               ? "sees a face"
+               : news_of_state(view);
 }
 
 void Station::on_instrument_state(const InstrumentView& view) {
@@ -224,7 +225,7 @@ void Station::record_instrument(const std::string& sentence, Fault fault) {
 void Station::on_trigger(const TriggerEvent& event) {
     notices_.port_works();
     if (circles_ && circles_->on_trigger(event)) return;
-    if (machine_) return feed_with_air(event);
+    if (positioning_ && positioning_->on_trigger(event)) return;
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
     // that ended with the last daemon: then it is told why.
@@ -257,34 +258,35 @@ std::string Station::shown_name_of(int id) const {
     return channel.instrument_name + "/" + channel.shown;
 }
 
-bool Station::recording() const {
-    return run_ && machine_ && !run_->closing && !run_->closed;
+const Measurement* Station::last_run() const {
+    if (circles_) return circles_.get();
+    return positioning_.get();
 }
 
 bool Station::takes_records() const {
-    return circles_ ? circles_->records() : recording();
+    return has_run() && last_run()->run().stage == RunState::Stage::open;
 }
 
 bool Station::run_open() const {
-    return circles_ ? circles_->is_open() : run_ && !run_->closed;
+    return has_run() && last_run()->is_open();
 }
 
 bool Station::is_being_closed() const {
-    if (circles_) return circles_->run().stage == RunState::Stage::closing;
-    return run_ && run_->closing;
+    return has_run() && last_run()->run().stage == RunState::Stage::closing;
 }
 
 bool Station::is_unwritten() const {
-    return circles_ ? !circles_->run().is_written() : run_ && !run_->closing_row_durable;
+    if (circles_) return !circles_->run().is_written();
+    return positioning_ && !positioning_->is_written();
 }
 
 bool Station::broken_off() const {
     if (circles_) return circles_->broken_off();
-    return run_ ? run_->broken_off : left_broken_off_;
+    return positioning_ ? positioning_->broken_off() : left_broken_off_;
 }
 
 const std::string& Station::last_run_id() const {
-    return circles_ ? circles_->run().run_id : run_->header.run_id;
+    return last_run()->run().run_id;
 }
 
 MeasurementContext Station::measurement_context() {
@@ -293,6 +295,10 @@ MeasurementContext Station::measurement_context() {
 
 CncContext Station::cnc_context() {
     return {measurement_context(), *this, roles_, supervisor_, config_hash_, boot_id_};
+}
+
+PositioningContext Station::positioning_context() {
+    return {cnc_context(), *this, readings_};
 }
 
 } // namespace axiscal

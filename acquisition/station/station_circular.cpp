@@ -54,12 +54,9 @@ void Station::begin_circles(std::shared_ptr<CircleMeasurement> test) {
     newest_run_ = test->run().run_id;
     newest_run_utc_ns_ = test->header().opened.utc_ns;
     circles_ = std::move(test);
-    run_.reset();
-    machine_.reset();
-    last_receipt_.reset();
+    positioning_.reset();
     left_over_fault_.reset();
     notices_.nothing_refused();
-    datum_.reset();
 }
 
 std::optional<StreamView> Station::stream(std::size_t most) const {

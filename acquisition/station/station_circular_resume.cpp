@@ -2,6 +2,7 @@
 // reason.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/measurement/another_boot.hpp"
 #include "acquisition/measurement/circular/left_circles.hpp"
 #include "acquisition/runfile/run_file.hpp"
 
@@ -39,10 +40,10 @@ Task<Result<void>> Station::close_driven_circles(std::string path) {
     const auto stored = co_await journal_.summarize(path);
     if (auto reopened = co_await journal_.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
-    if (stored) mark_another_boot(stored->boot_id);
+    if (stored) note_another_boot(measurement_context(), stored->boot_id, boot_id_);
     const std::string reason = "Every circle was driven.";
     record(EventKind::closed, reason);
-    if (auto closed = co_await close_file_for_now(true, reason); !closed) {
+    if (auto closed = co_await files_.close_for_now(true, reason); !closed) {
         co_await journal_.let_go();
         co_return closed;
     }

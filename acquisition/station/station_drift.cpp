@@ -2,7 +2,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "acquisition/run/live_position.hpp"
+#include "acquisition/measurement/positioning/armed_run.hpp"
 #include "acquisition/station/held.hpp"
 
 #include <utility>
@@ -34,21 +34,16 @@ Result<void> Station::ready_for_drift(bool of_bar) const {
     return {};
 }
 
-/// While the datum of the last run stands, the laser tells where the axis is. A rotary axis may be
-/// behind any position of its table.
+/// While the datum of the last run stands, the laser tells where the axis is.
 Result<void> Station::rests_at(Length place) const {
     constexpr Length near = mm(1);
-    if (!run_ || !datum_ || run_->header.rotary || !set_up_.lost().empty() || !datum_stands())
-        return {};
-    const auto reading = readings_.reference().newest();
-    if (!reading || !reading->value()) return {};
-    const Length seen = live_position(run_->header.laser, *datum_, metre(*reading->value()),
-                                      readings_.last_scale_minus_1());
-    if (abs(seen - place) <= near) return {};
-    const std::string there = plain_number(seen.in(mm), 1);
+    if (!positioning_) return {};
+    const std::optional<Length> seen = positioning_->place_now();
+    if (!seen || abs(*seen - place) <= near) return {};
+    const std::string there = plain_number(seen->in(mm), 1);
     return refuse(Fault::bad_request, "place_mm",
                   "is " + plain_number(place.in(mm), 3) + " mm, and by the datum of run " +
-                      run_->header.run_id + " the axis stands at " + there +
+                      last_run_id() + " the axis stands at " + there +
                       " mm: drive it to the place, or say --at " + there);
 }
 
@@ -61,7 +56,7 @@ Task<Result<std::string>> Station::drift(DriftRequest request) {
 }
 
 Result<RestingTest> Station::drift_of_axis(const DriftRequest& request) const {
-    AXISCAL_TRY(RunPlan plan, plan_for({}));
+    AXISCAL_TRY(RunPlan plan, plan_for(config_, {}));
     AXISCAL_TRY(const DriftSetup setup, drift_setup_of(config_, roles_, request, plan));
     AXISCAL_CHECK(rests_at(setup.place));
     return axis_at_rest(header_parts(TestKind::drift, std::move(plan)), request, setup);

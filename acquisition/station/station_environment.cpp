@@ -18,16 +18,4 @@ void Station::judge_environment() {
         record_instrument(news->sentence, news->fault);
 }
 
-Result<double> Station::within_limits(Result<double> scale) const {
-    const bool held_to_limits = !run_ || !run_->limits_waived;
-    if (scale && readings_.outside() && held_to_limits)
-        return tl::unexpected<Error>(*readings_.outside());
-    return scale;
-}
-
-Result<double> Station::live_scale_now() const {
-    return readings_.scale_minus_1(scheduler_.now(),
-                                   run_ ? run_->header.laser.vacuum_wavelength : nm(632.991));
-}
-
 } // namespace axiscal

@@ -1,6 +1,7 @@
 // Which drift test the budget of a run takes its E_VE from, and what the checks look at of it.
 #include "acquisition/station/station.hpp"
 
+#include "acquisition/measurement/positioning/armed_run.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/runfile/run_file.hpp"
 
@@ -35,7 +36,7 @@ Result<EveFacts> Station::eve_facts(const ArmRequest& request, const FoundEve& f
         facts.run_takes = least_time_of(config_.circular->setup.plan);
         return facts;
     }
-    AXISCAL_TRY(const RunPlan plan, plan_for(request));
+    AXISCAL_TRY(const RunPlan plan, plan_for(config_, request));
     facts.run_takes = least_time_of(plan, config_.cycle.feed, config_.cycle.dwell);
     facts.rest = found.rest;
     facts.angle = plan.axis_kind == AxisKind::rotary;

@@ -30,6 +30,14 @@ SensorFacts Station::sensor_facts(int id) const {
     return facts;
 }
 
+std::optional<int> Station::autocollimator_for(PreflightFacts& facts) const {
+    const auto id = roles_.autocollimator;
+    if (!id || facts.circular) return std::nullopt;
+    facts.faces_read = true;
+    if (const auto& last = readings_.latest(*id)) facts.face_age = facts.now - last->at;
+    return id;
+}
+
 PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     constexpr std::size_t day_letters = 10;
     const MonotonicTime now = scheduler_.now();

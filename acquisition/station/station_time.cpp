@@ -53,6 +53,11 @@ void Station::notice_sleep() {
     note(std::move(message));
 }
 
+void Station::judge_instruments() {
+    if (circles_) circles_->judge_instruments();
+    if (positioning_) positioning_->judge_instruments();
+}
+
 void Station::look_at_the_time() {
     const MonotonicTime now = scheduler_.now();
     notice_sleep();
@@ -64,7 +69,7 @@ void Station::look_at_the_time() {
         judged_ = now;
     }
     if (const auto news = outbox_watch_.judge(scheduler_.clock_tie())) note(*news);
-    feed_with_air(Tick{now});
+    if (positioning_) positioning_->on_time(now);
     publish_to_port();
     if (is_unwritten() && journal_.failure() && !std::exchange(waiting_for_disk_, true))
         spawn(scheduler_, wait_for_disk());

@@ -1,8 +1,8 @@
 // A person's answer to a finding about the set-up: kept in the file of the closed run, printed on
 // its next certificate.
+#include "acquisition/journal/journal.hpp"
+#include "acquisition/measurement/positioning/positioning_measurement.hpp"
 #include "acquisition/runfile/run_file.hpp"
-#include "acquisition/station/held.hpp"
-#include "acquisition/station/station.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -33,12 +33,12 @@ std::string listed(const std::vector<std::string>& kinds) {
 } // namespace
 
 /// Only what the newest certificate says can be answered.
-Task<Result<void>> Station::finding_stands(std::string finding) {
-    const std::string run_id = run_->header.run_id, path = run_->path;
-    AXISCAL_CO_TRY(const RunSummary run, co_await journal_.summarize(path));
+Task<Result<void>> PositioningMeasurement::finding_stands(std::string finding) {
+    const std::string run_id = run_.run_id, path = run_.path;
+    AXISCAL_CO_TRY(const RunSummary run, co_await context_.journal.summarize(path));
     if (!run.evaluated)
         co_return fail(Fault::busy, "run " + run_id + " has no certificate yet; ask again");
-    const auto result = co_await journal_.stored_result(path);
+    const auto result = co_await context_.journal.stored_result(path);
     if (!result) co_return tl::unexpected<Error>(result.error());
     const auto kinds = findings_in(result->document);
     if (std::ranges::find(kinds, finding) != kinds.end()) co_return Result<void>{};
@@ -49,27 +49,22 @@ Task<Result<void>> Station::finding_stands(std::string finding) {
                                            finding + "'; it has " + listed(kinds));
 }
 
-Task<Result<void>> Station::answer_finding(AnswerRequest request) {
-    if (auto taken = co_await take_over_closed_run(); !taken) co_return taken;
-    if (auto may = run_may_be_revised(); !may) co_return may;
-    if (!run_->closed)
-        co_return fail(Fault::busy,
-                       "the run is open; its set-up is searched when it has its certificate");
-    const Held revising{revising_};
+Task<Result<void>> PositioningMeasurement::answer_finding(AnswerRequest request) {
     if (auto stands = co_await finding_stands(request.finding); !stands) co_return stands;
-    AnswerRecord answer{request.finding, scheduler_.now(), scheduler_.clock_tie().utc_ns,
+    const Scheduler& scheduler = context_.scheduler;
+    AnswerRecord answer{request.finding, scheduler.now(), scheduler.clock_tie().utc_ns,
                         request.text};
-    OrderRecord order = order_of("answer", request.by, request.finding);
-    auto kept = co_await journal_.reopen_closed(run_->path, std::move(answer), std::move(order));
+    OrderRecord order = order_now(scheduler, "answer", request.by, request.finding);
+    auto kept =
+        co_await context_.journal.reopen_closed(run_.path, std::move(answer), std::move(order));
     if (!kept) {
-        if (kept.error().fault == Fault::not_durable) find_out_about_order();
+        if (kept.error().fault == Fault::not_durable) revision_unknown_ = true;
         co_return kept;
     }
-    ++run_->answers;
-    if (run_->taken_over) mark_another_boot(run_->header.boot_id);
+    ++answers_;
     kept = co_await close_again();
     if (kept)
-        note("The finding " + request.finding + " of run " + run_->header.run_id +
+        note("The finding " + request.finding + " of run " + run_.run_id +
              " is answered: " + request.text + "; by " + name_of(request.by));
     co_return kept;
 }

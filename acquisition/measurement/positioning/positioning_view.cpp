@@ -1,0 +1,125 @@
+// What a positioning run shows: to people and to the CNC.
+#include "acquisition/capture/wording.hpp"
+#include "acquisition/live/live_readings.hpp"
+#include "acquisition/measurement/positioning/positioning_measurement.hpp"
+#include "acquisition/run/live_position.hpp"
+#include "analysis/rotary/rotary_position.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace axiscal {
+
+void PositioningMeasurement::put_on(PortStatus& status) const {
+    const RunView view = machine_.view();
+    if (view.next && !view.closed) {
+        status.next_target = view.next->target_index;
+        status.next_nominal_mm = target_of(*view.next).in(mm);
+    }
+    status.run_complete = view.complete;
+    const bool stopped = view.stopped && !view.closed;
+    status.feed_hold = stopped;
+    status.may_move = status.state != PortState::settling && !stopped;
+}
+
+void PositioningMeasurement::put_on(AxisView& axis, Length reading) const {
+    if (!datum_ || !is_open()) return;
+    axis.position_mm = position_now_mm(reading);
+    const auto next = machine_.view().next;
+    if (!axis.position_mm || !next) return;
+    const double deviation_um = (*axis.position_mm - target_of(*next).in(mm)) * 1e3;
+    if (std::abs(deviation_um) <= header_.plan.near_tolerance.in(um))
+        axis.deviation_um = deviation_um;
+}
+
+Length PositioningMeasurement::target_of(const PlannedPoint& point) const {
+    return header_.plan.targets[static_cast<std::size_t>(point.target_index)];
+}
+
+/// Where the indexing table stands shows only near the next target: elsewhere a rotary axis has no
+/// position that could be told.
+std::optional<double> PositioningMeasurement::position_now_mm(Length reading) const {
+    const double scale = context_.readings.last_scale_minus_1();
+    if (!header_.rotary) return live_position(header_.laser, *datum_, reading, scale).in(mm);
+    const auto next = machine_.view().next;
+    if (!next) return std::nullopt;
+    const Length target = target_of(*next);
+    const int index = artefact_index(*header_.rotary, datum_->coordinate, target);
+    const auto position =
+        rotary_position(*header_.rotary, header_.laser.sign, *datum_, reading, scale, index);
+    if (!position || abs(*position - target) > header_.plan.near_tolerance) return std::nullopt;
+    return position->in(mm);
+}
+
+std::optional<Length> PositioningMeasurement::place_now() const {
+    if (!datum_ || header_.rotary || !set_up_.lost().empty() || !datum_stands())
+        return std::nullopt;
+    const auto reading = context_.readings.reference().newest();
+    if (!reading || !reading->value()) return std::nullopt;
+    return live_position(header_.laser, *datum_, metre(*reading->value()),
+                         context_.readings.last_scale_minus_1());
+}
+
+RunStatus PositioningMeasurement::status() const {
+    const RunView view = machine_.view();
+    RunStatus run;
+    run.run_id = run_.run_id;
+    run.pass = header_.plan.pass;
+    run.file = run_.path;
+    run.step = view.done;
+    run.steps = view.total;
+    run.done = view.last_durable;
+    run.certificate = run_.certificate;
+    if (view.last_deviation) run.last_deviation_um = view.last_deviation->in(um);
+    if (view.last_synchronisation)
+        run.last_synchronisation_um = view.last_synchronisation->error_um;
+    run.state = state_text(view);
+    if (view.next && is_open()) {
+        run.next_target = view.next->target_index;
+        run.next_nominal_mm = target_of(*view.next).in(mm);
+        run.next_direction = view.next->direction;
+        run.next_approach = view.next->approach;
+    }
+    run.retakes_asked = view.retakes_asked;
+    run.retakes_left = view.retakes_left;
+    run.excluded = view.excluded;
+    run.skipped = view.without_point;
+    run.seconds_left = seconds_left(view);
+    tell_trouble(run, view);
+    return run;
+}
+
+std::string PositioningMeasurement::state_text(const RunView& view) const {
+    if (!is_open()) return run_.complete ? "complete" : "incomplete";
+    if (view.stopped) return "stopped";
+    if (!view.datum) return "tying datum";
+    return view.state == PortState::settling ? "settling" : "armed";
+}
+
+void PositioningMeasurement::tell_trouble(RunStatus& run, const RunView& view) const {
+    const auto tell = [&run](Fault fault, std::string sentence) {
+        if (fault != Fault::none) run.last_fault = fault_name(fault);
+        run.last_sentence = std::move(sentence);
+    };
+    if (!is_open() && !run_.complete)
+        tell(run_.fault, run_.reason);
+    else if (run_.no_certificate)
+        tell(run_.no_certificate->fault, describe(*run_.no_certificate));
+    else if (refusal_ && is_open())
+        tell(refusal_->fault, describe(*refusal_));
+    else if (view.without_point > 0)
+        tell(Fault::none, "Warning: " + counted(view.without_point, "point") +
+                              " skipped by the CNC, and not taken since: 'axiscal retake' takes "
+                              "what is missing, 'axiscal abort' ends the run without.");
+}
+
+/// From the mean time between points; none before the second, for the first one waited for people.
+std::optional<double> PositioningMeasurement::seconds_left(const RunView& view) const {
+    if (taken_ < 2 || !is_open() || view.stopped) return std::nullopt;
+    const double spacing = seconds_of(last_taken_ - first_taken_) / (taken_ - 1);
+    const double since = seconds_of(context_.scheduler.now() - last_taken_);
+    return std::max(0.0, spacing * (view.total - view.done - view.skipped) - since);
+}
+
+} // namespace axiscal
