@@ -2,14 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace axiscal {
 
+Duration open_between(Duration u_of_first, Duration u_of_second) {
+    constexpr Duration bus_turns = std::chrono::milliseconds{2};
+    const double half_widths_s =
+        std::numbers::sqrt3 * (seconds_of(u_of_first) + seconds_of(u_of_second));
+    return std::max(bus_turns, from_seconds(half_widths_s));
+}
+
 double speed_of_jump(Duration between, double jump_m) {
-    constexpr Duration stamp_jitter = std::chrono::milliseconds{2};
     constexpr double floor_m = 20e-6;
     const double beyond_m = std::abs(jump_m) - floor_m;
-    return beyond_m > 0 ? beyond_m / seconds_of(between + stamp_jitter) : 0;
+    return beyond_m > 0 ? beyond_m / seconds_of(between) : 0;
 }
 
 SampleSummary::SampleSummary(const Sample& sample)
@@ -24,6 +31,7 @@ SampleSummary::SampleSummary(const Sample& sample)
     if (!reading) return;
     good = 1;
     first_good_at = last_good_at = sample.at;
+    first_good_u = last_good_u = sample.time_uncertainty;
     first_good_m = last_good_m = low_m = high_m = *reading;
 }
 
@@ -46,11 +54,13 @@ void SampleSummary::append(const SampleSummary& next) {
 void SampleSummary::append_good(const SampleSummary& next) {
     if (good == 0) {
         first_good_at = next.first_good_at;
+        first_good_u = next.first_good_u;
         first_good_m = last_good_m = low_m = high_m = next.first_good_m;
     }
     const double jump_m = good == 0 ? 0 : next.first_good_m - last_good_m;
-    fastest_jump = std::max({fastest_jump, next.fastest_jump,
-                             speed_of_jump(next.first_good_at - last_good_at, jump_m)});
+    const Duration between =
+        next.first_good_at - last_good_at + open_between(last_good_u, next.first_good_u);
+    fastest_jump = std::max({fastest_jump, next.fastest_jump, speed_of_jump(between, jump_m)});
     fall_m = std::max({fall_m, next.fall_m, high_m - next.low_m});
     rise_m = std::max({rise_m, next.rise_m, next.high_m - low_m});
     low_m = std::min(low_m, next.low_m);
@@ -64,6 +74,7 @@ void SampleSummary::append_good(const SampleSummary& next) {
     sum_t_ += next.sum_t_ + count * t;
     sum_r_ += next.sum_r_ + count * r;
     last_good_at = next.last_good_at;
+    last_good_u = next.last_good_u;
     last_good_m = next.last_good_m;
     good += next.good;
 }

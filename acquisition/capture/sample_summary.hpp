@@ -34,6 +34,7 @@ struct SampleSummary {
 
     // Of the good samples alone:
     MonotonicTime first_good_at{}, last_good_at{};
+    Duration first_good_u{}, last_good_u{}; ///< u(t) of these two
     double first_good_m = 0, last_good_m = 0;
     double low_m = 0, high_m = 0;
     double fall_m = 0, rise_m = 0; ///< from an earlier one to a later one, at most
@@ -47,9 +48,14 @@ private:
 
 SampleSummary summary_of(std::span<const Sample> samples);
 
-/// The speed that a jump between two neighbouring good readings takes at least. Stamps jitter by a
-/// bus turn (1 ms FTDI latency, twice), so a jump is judged over a little more than the time
-/// between two stamps; by less than 20 um readings jump by noise without any motion: 0.
+/// How much longer than the time between their stamps it may be between two readings: the half
+/// widths, sqrt(3) u(t), of both rectangles (placed_time.hpp), and at least a bus turn each (1 ms
+/// FTDI latency), by which stamps jitter whose u(t) is not stated.
+Duration open_between(Duration u_of_first, Duration u_of_second);
+
+/// The speed that a jump between two neighbouring good readings takes at least.
+/// @param between  at most: the time between their stamps, and what those leave open
+/// @returns 0 for less than 20 um, by which readings jump by noise without any motion
 double speed_of_jump(Duration between, double jump_m);
 
 } // namespace axiscal

@@ -1,5 +1,6 @@
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
 
+#include "acquisition/capture/sample_summary.hpp"
 #include "acquisition/capture/wording.hpp"
 
 #include <utility>
@@ -27,7 +28,8 @@ void SetUpWatch::take(const Sample& sample, const Run& run) {
         lost_ = of + "beam was interrupted" + since;
     else if (sample.value() && last_ && run.fastest.si() > 0) {
         const auto jump = abs(metre(*sample.value()) - metre(*last_->value()));
-        const auto reach = metre(run.fastest.si() * seconds_of(sample.at - last_->at));
+        const Duration open = open_between(last_->time_uncertainty, sample.time_uncertainty);
+        const auto reach = metre(run.fastest.si() * seconds_of(sample.at - last_->at + open));
         if (jump > reach + reading_slack)
             lost_ =
                 of + "reading jumped by " + in_mm(jump) + since + ", faster than the axis can move";

@@ -115,6 +115,24 @@ TEST(Stillness, CallsAJumpBeyondTheFastestFeedImplausible) {
     EXPECT_EQ(judge_last_window(signal.stand(0.3)).fault, Fault::implausible_jump);
 }
 
+/// A laser of 25 readings a second at 70 mm/s, one of them read 39 ms late: u(t) is 41 ms /
+/// sqrt(3).
+std::optional<Error> lost_by_a_late_reading(Duration u_of_stamps, double jump_mm) {
+    SampleHistory history{SampleHistory::Limits{std::chrono::seconds{10}}};
+    Sample late{0, at_s(1.039), mm(100).si()}, next{0, at_s(1.040), mm(100 + jump_mm).si()};
+    late.time_uncertainty = next.time_uncertainty = u_of_stamps;
+    history.push(late);
+    history.push(next);
+    return find_lost_count(history, history.all(), mm_per_minute(40'000));
+}
+
+TEST(Stillness, JudgesAJumpByWhatItsStampsLeaveOpen) {
+    constexpr Duration u = std::chrono::microseconds{23671};
+    EXPECT_FALSE(lost_by_a_late_reading(u, 2.8));
+    EXPECT_TRUE(lost_by_a_late_reading(Duration{}, 2.8));
+    EXPECT_TRUE(lost_by_a_late_reading(u, 60)); // 55 mm are possible in 83 ms
+}
+
 TEST(Stillness, DoesNotCallAFastMoveImplausible) {
     AxisSignal signal;
     signal.stand(0.1).move_to(300, 990).stand(0.1);

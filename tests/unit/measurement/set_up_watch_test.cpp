@@ -30,9 +30,18 @@ TEST(SetUpWatch, LosesNothingWhileTheAxisMovesNoFasterThanItCan) {
 TEST(SetUpWatch, NamesAJumpByItsLength) {
     SetUpWatch watch{"laser"};
     watch.take(reading(0, 0.1), closed_run());
-    watch.take(reading(0.1, 0.2), closed_run()); // 100 mm, where 50.05 mm are possible
+    watch.take(reading(0.1, 0.2), closed_run()); // 100 mm, where 51.05 mm are possible
     EXPECT_EQ(watch.lost(), "the laser's reading jumped by 100 mm since the run was closed, "
                             "faster than the axis can move");
+}
+
+TEST(SetUpWatch, JudgesAJumpByWhatItsStampsLeaveOpen) {
+    SetUpWatch watch{"laser"};
+    Sample late = reading(0.039, 0.1), next = reading(0.040, 0.102);
+    late.time_uncertainty = next.time_uncertainty = std::chrono::microseconds{23671};
+    watch.take(late, closed_run());
+    watch.take(next, closed_run());
+    EXPECT_EQ(watch.lost(), "");
 }
 
 TEST(SetUpWatch, JudgesNoJumpWhereTheSpeedIsNotStated) {
