@@ -6,6 +6,7 @@
 
 #include "acquisition/capture/beam_alignment.hpp"
 #include "acquisition/journal/journal.hpp"
+#include "acquisition/live/channel_facts.hpp"
 #include "acquisition/live/live_readings.hpp"
 #include "acquisition/live/notices.hpp"
 #include "acquisition/live/outbox_watch.hpp"
@@ -169,14 +170,12 @@ private:
 
     // station_preflight.cpp
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
-    [[nodiscard]] SensorFacts sensor_facts(int channel) const;
     /// Its channel, where the checks look at it; its facts are filled in then.
     std::optional<int> autocollimator_for(PreflightFacts& facts) const;
 
     // station_environment.cpp: the limits of the environment
     /// Once a second: told when it leaves them and when it is back.
     void judge_environment();
-    [[nodiscard]] std::vector<SensorFacts> environment_facts() const;
 
     // station_revise.cpp: a person adds to a run, also after it was closed
     void watch_set_up(const Sample& sample);
@@ -224,7 +223,6 @@ private:
     // station_view.cpp
     void publish_to_port();
     [[nodiscard]] AxisView axis_view() const;
-    [[nodiscard]] ChannelView channel_view(const StationChannel& channel) const;
 
     // station_time.cpp: what only time decides
     /// Ten times a second while something can change by time alone, else when somebody rings.
@@ -257,6 +255,9 @@ private:
     [[nodiscard]] bool is_unwritten() const;              ///< its closing row is not on disk
     [[nodiscard]] bool broken_off() const;                ///< as PositioningMeasurement has it
     [[nodiscard]] const std::string& last_run_id() const; ///< where there is one
+    [[nodiscard]] ChannelFacts channels() const {
+        return {config_, roles_, supervisor_, readings_};
+    }
     /// What a test works with. It refers to this station.
     [[nodiscard]] MeasurementContext measurement_context();
     [[nodiscard]] CncContext cnc_context();

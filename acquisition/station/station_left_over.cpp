@@ -96,9 +96,10 @@ Task<Result<void>>
 Station::resume_or_close_axis(std::string path, RunFileContents contents, bool whole) {
     const PositioningContext context = positioning_context();
     StationNow now = co_await station_after_restart(context, contents.run);
-    if (!waives_limits(contents.revisions.preflight))
-        now.outside_limits =
-            outside_limits(config_.environment, environment_facts(), scheduler_.now());
+    if (!waives_limits(contents.revisions.preflight)) {
+        const MonotonicTime at = scheduler_.now();
+        now.outside_limits = outside_limits(config_.environment, channels().environment(at), at);
+    }
     ResumeVerdict verdict = decide_resume(contents.run, std::nullopt, now);
     if (verdict.decision != ResumeDecision::wait_for_request)
         co_return co_await close_left_over(path, verdict.sentence, verdict.fault, whole);

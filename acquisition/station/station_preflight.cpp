@@ -15,21 +15,6 @@ stated(const ArmRequest& request, const std::string& key, const std::string& in_
 
 } // namespace
 
-SensorFacts Station::sensor_facts(int id) const {
-    const StationChannel& channel = channel_of(id);
-    const ChannelView view = channel_view(channel);
-    SensorFacts facts;
-    facts.name = channel.instrument_name + "/" + channel.name;
-    facts.kind = channel.kind;
-    facts.medium = channel.medium;
-    facts.on_scale = std::ranges::find(roles_.scale, id) != roles_.scale.end();
-    facts.as_sent = channel.correction == 0 && channel.calibration.corrections.empty();
-    facts.fresh = view.value.has_value();
-    facts.quality = view.quality;
-    facts.log = &readings_.log_of(id);
-    return facts;
-}
-
 std::optional<int> Station::autocollimator_for(PreflightFacts& facts) const {
     const auto id = roles_.autocollimator;
     if (!id || facts.circular) return std::nullopt;
@@ -41,6 +26,7 @@ std::optional<int> Station::autocollimator_for(PreflightFacts& facts) const {
 PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     constexpr std::size_t day_letters = 10;
     const MonotonicTime now = scheduler_.now();
+    const ChannelFacts seen = channels();
     PreflightFacts facts{
         config_,
         now,
@@ -64,7 +50,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     facts.circular = takes_circles(request);
     std::vector<int> roles = facts.circular ? roles_.of_circles() : roles_.environment();
     for (const int id : roles)
-        facts.sensors.push_back(sensor_facts(id));
+        facts.sensors.push_back(seen.sensor(id, now));
     const std::optional<int> length_id = facts.circular ? roles_.ballbar : roles_.laser;
     if (length_id) roles.push_back(*length_id);
     if (const auto id = autocollimator_for(facts)) roles.push_back(*id);
@@ -86,7 +72,7 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     const int seat = channel_of(*length_id).instrument;
     for (const StationChannel& channel : supervisor_.channels())
         if (channel.kind == ChannelKind::strength && channel.instrument == seat)
-            facts.strengths.push_back(sensor_facts(channel.id));
+            facts.strengths.push_back(seen.sensor(channel.id, now));
     if (facts.circular) {
         if (const auto& reading = readings_.latest(*length_id)) facts.bar_age = now - reading->at;
         facts.bar = &readings_.log_of(*length_id);

@@ -5,8 +5,6 @@
 #include "acquisition/live/time_limits.hpp"
 #include "config/version.hpp"
 
-#include <algorithm>
-
 namespace axiscal {
 void Station::publish_to_port() {
     PortStatus status;
@@ -78,43 +76,16 @@ AxisView Station::axis_view() const {
     return axis;
 }
 
-ChannelView Station::channel_view(const StationChannel& channel) const {
-    ChannelView view;
-    view.instrument = channel.instrument_name;
-    view.channel = channel.name;
-    view.name = channel.shown;
-    view.place = channel.place;
-    view.unit = stored_unit_of(channel.kind);
-    view.kind = channel.kind;
-    view.medium = channel.medium;
-    const std::vector<int> environment = roles_.environment();
-    if (channel.id == roles_.laser || channel.id == roles_.autocollimator)
-        view.role = "axis";
-    else if (channel.id == roles_.ballbar)
-        view.role = "ballbar";
-    else if (std::ranges::find(environment, channel.id) != environment.end())
-        view.role = "environment";
-    view.used = !view.role.empty();
-    const auto& sample = readings_.latest(channel.id);
-    if (!sample) return view;
-    const Duration age = scheduler_.now() - sample->at;
-    const bool measures =
-        channel.kind == ChannelKind::displacement || channel.kind == ChannelKind::angle;
-    const bool stale = age > (measures ? laser_limit : config_.axis.air.oldest);
-    view.age_s = seconds_of(age);
-    view.quality = stale ? "stale" : std::string{name_of(sample->quality())};
-    if (!stale) view.value = sample->value();
-    return view;
-}
-
 StationStatus Station::status() const {
     StationStatus status;
     status.station = config_.station;
     status.version = software_version();
     status.utc = iso8601_utc(scheduler_.clock_tie().utc_ns);
     status.axis = axis_view();
+    const ChannelFacts seen = channels();
+    const MonotonicTime now = scheduler_.now();
     for (const StationChannel& channel : supervisor_.channels()) {
-        status.channels.push_back(channel_view(channel));
+        status.channels.push_back(seen.view(channel, now));
         if (channel.kind == ChannelKind::strength)
             status.axis.strength_percent = status.channels.back().value;
     }
