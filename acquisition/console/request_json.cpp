@@ -3,6 +3,7 @@
 #include "config/settings.hpp"
 
 #include "analysis/quantity/valid_text.hpp"
+#include "analysis/record/test_kind.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -72,11 +73,18 @@ Result<void> read_orderer(const Json& value, Orderer& by) {
     return {};
 }
 
+/// To people a circular test is one of the passes; only here it is told from those of the axis.
+void read_pass(const std::string& pass, ArmRequest& request) {
+    request.pass = valid_text(pass);
+    request.kind =
+        request.pass == name_of(TestKind::circular) ? TestKind::circular : TestKind::positioning;
+}
+
 Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
     if (key == "datum_mm" && value.is_number())
         return request.datum_mm = value.get<double>(), Result<void>{};
     if (key == "pass" && value.is_string())
-        return request.pass = valid_text(value.get<std::string>()), Result<void>{};
+        return read_pass(value.get<std::string>(), request), Result<void>{};
     if (key == "seed" && value.is_number_unsigned())
         return request.seed = value.get<std::uint64_t>(), Result<void>{};
     if (key == "datum_by_cnc" && value.is_boolean())

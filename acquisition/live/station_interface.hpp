@@ -9,6 +9,7 @@
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
+#include "analysis/record/test_kind.hpp"
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/sample.hpp"
 #include "drivers/trigger/trigger_port.hpp"
@@ -100,13 +101,11 @@ struct StationStatus {
     std::vector<std::string> notes; ///< latest last, at most 20
 };
 
-/// ArmRequest::pass and RunStatus::pass of a circular test.
-inline constexpr std::string_view circular_pass = "circular";
-
 /// What a person gives when arming; empty fields keep the station file's statements.
 struct ArmRequest {
-    std::optional<double> datum_mm; ///< coordinate where the axis stands now
-    std::string pass = "whole";
+    std::optional<double> datum_mm;        ///< coordinate where the axis stands now
+    TestKind kind = TestKind::positioning; ///< of what is armed: a drift test is ordered otherwise
+    std::string pass = "whole";            ///< of a positioning run
     std::optional<std::uint64_t> seed;
     bool datum_by_cnc = false;                     ///< wait for the CNC's prepare command instead
     std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...

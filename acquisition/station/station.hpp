@@ -140,6 +140,7 @@ private:
     }
 
     // station_arm.cpp: a positioning run is ordered; PositioningMeasurement is the run itself
+    Task<Result<std::string>> arm_axis(ArmRequest request);
     Task<Result<std::string>> open_and_tie(ArmRequest request);
     /// It takes the place of the last run, or circular test.
     void begin_positioning(std::shared_ptr<PositioningMeasurement> test);

@@ -70,7 +70,16 @@ RunHeaderParts Station::header_parts(TestKind kind, RunPlan plan) const {
 }
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
-    if (request.pass == circular_pass) co_return co_await arm_circular(std::move(request));
+    switch (request.kind) {
+    case TestKind::positioning: co_return co_await arm_axis(std::move(request));
+    case TestKind::circular: co_return co_await arm_circular(std::move(request));
+    case TestKind::drift:
+    case TestKind::probing: break;
+    }
+    co_return refuse(Fault::bad_request, "pass", "is of a test that is not armed");
+}
+
+Task<Result<std::string>> Station::arm_axis(ArmRequest request) {
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
     const Held arming{arming_};
     co_return co_await open_and_tie(std::move(request));

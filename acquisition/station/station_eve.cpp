@@ -10,7 +10,7 @@
 
 namespace axiscal {
 bool Station::takes_circles(const ArmRequest& request) const {
-    const bool asked = request.pass == circular_pass || (!roles_.laser && !reads_polygon());
+    const bool asked = request.kind == TestKind::circular || (!roles_.laser && !reads_polygon());
     return asked && roles_.ballbar && config_.circular;
 }
 

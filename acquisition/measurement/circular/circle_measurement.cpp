@@ -165,7 +165,7 @@ void CircleMeasurement::judge_instruments() {
 RunStatus CircleMeasurement::status() const {
     RunStatus status;
     status.run_id = run_.run_id;
-    status.pass = circular_pass;
+    status.pass = name_of(TestKind::circular);
     status.file = run_.path;
     status.step = order_.begun();
     status.steps = order_.circles();

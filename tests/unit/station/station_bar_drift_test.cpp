@@ -62,7 +62,7 @@ protected:
     }
     static Result<std::string> arm_circles(Life& life) {
         ArmRequest request;
-        request.pass = "circular";
+        request.kind = TestKind::circular;
         const auto answer = life.begin_arm(std::move(request));
         life.run(2s);
         return *answer ? **answer : Result<std::string>{fail(Fault::internal, "still arming")};

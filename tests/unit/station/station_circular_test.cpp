@@ -80,7 +80,7 @@ struct Bay {
 
 ArmRequest circles() {
     ArmRequest request;
-    request.pass = "circular";
+    request.kind = TestKind::circular;
     return request;
 }
 

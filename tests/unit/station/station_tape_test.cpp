@@ -140,7 +140,7 @@ TEST_F(StationWithATape, ArmsNothingWhateverReasonIsGiven) {
     EXPECT_EQ(armed.error().fault, Fault::refused);
     EXPECT_NE(armed.error().detail.find("air plays the tape /traces/air.tape"), std::string::npos)
         << armed.error().detail;
-    request.pass = "circular";
+    request.kind = TestKind::circular;
     const auto circles = life.arm(request);
     ASSERT_FALSE(circles);
     EXPECT_NE(circles.error().detail.find("/traces/air.tape"), std::string::npos);

@@ -59,7 +59,7 @@ protected:
         life.shop.axis.go(datum_mm, life.scheduler.now());
         life.run(3s); // it is there, and a test that was ended is closed
         ArmRequest arming;
-        if (kind.of_bar) arming.pass = "circular";
+        if (kind.of_bar) arming.kind = TestKind::circular;
         DriftRequest resting;
         resting.of_bar = kind.of_bar;
         resting.duration = lasts;

@@ -289,7 +289,7 @@ protected:
     static void arm_circles(Life& life) {
         life.run(2s);
         ArmRequest request;
-        request.pass = "circular";
+        request.kind = TestKind::circular;
         const auto armed = life.begin_arm(request);
         life.run(1s);
         ASSERT_TRUE(*armed && **armed) << describe((**armed).error());
