@@ -9,6 +9,7 @@
 #include "drivers/sample.hpp"
 #include "drivers/trigger/trigger_port.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,7 @@ class Certificates;
 class Journal;
 class LiveReadings;
 class Notices;
+class Revisable;
 class RunFileCloser;
 
 /// What a test works with. All of it lives longer than the tasks of any test.
@@ -63,23 +65,54 @@ public:
     [[nodiscard]] virtual const RunState& run() const = 0;
     /// Records from now on, into the file that the journal has open. Once.
     virtual void begin(const Orderer& by) = 0;
+    /// In place of begin(), of one that an earlier daemon left open. The port is not open yet.
+    /// @errors what could not be read or written. It records all the same.
+    virtual Task<Result<void>> go_on();
     /// Of every channel of the station.
     virtual void on_sample(const Sample& sample) = 0;
     /// Of a CNC. @returns whether it is a request of this test, which answers it; of any other the
     /// CNC is told that no run takes it. A test without a CNC has none.
     virtual bool on_trigger(const TriggerEvent& event);
+    /// Ten times a second while something can change by time alone, also when it is closed.
+    virtual void on_time(MonotonicTime now);
+    /// A person does what the CNC would ask for next. @errors why it is refused.
+    virtual Result<void> trigger();
+    /// A person read the autocollimator. @errors as StationInterface::type_reading.
+    virtual Result<void> type_reading(double seconds_of_arc);
+    /// Once a second: one that goes on after a restart ends where an instrument was exchanged.
+    virtual void judge_instruments();
+    /// What is no full block yet goes into the file with what is written next.
+    virtual void keep_rest();
+    /// One attempt after the disk failed. @param since  when that was seen
+    /// @errors why the file cannot be written yet.
+    virtual Task<Result<void>> on_disk_back(MonotonicTime since);
     /// Ends it early; returns when it is closed. Whoever waits for that holds the test meanwhile.
     /// @errors as StationInterface::abort; Fault::busy or no_run_armed where it is not open, or is
     /// being closed already.
     virtual Task<Result<RunEnding>> abort(std::string reason, Orderer by) = 0;
 
+    /// Its closing row is on disk.
+    [[nodiscard]] virtual bool is_written() const { return run().is_written(); }
+    /// Ended as incomplete, and a CNC may stand at a request of it; also while it is being closed.
+    [[nodiscard]] virtual bool broken_off() const { return false; }
+    /// Of its certificate, where it is made outside the test.
+    virtual void keep_certificate(const Result<std::string>& entry);
+    /// As something that a person may add to. @errors why nobody can.
+    virtual Result<std::shared_ptr<Revisable>> to_be_added_to();
+
+    /// Where the axis stands by the datum of this test, while that holds.
+    [[nodiscard]] virtual std::optional<Length> place_now() const { return std::nullopt; }
+    /// At most `most` stretches; none of a test that records no stream.
+    [[nodiscard]] virtual std::optional<StreamView> stream(std::size_t most) const;
+    virtual void put_on_status(StationStatus& shown) const = 0;
+    /// @param axis  with all that needs no test. @param reading  of what measures it, now
+    virtual void put_on_axis(AxisView& axis, Length reading) const;
+    /// @param status  with its state
+    virtual void put_on_port(PortStatus& status) const;
+
     /// Its file is open, or on the way to being closed.
     [[nodiscard]] bool is_open() const { return run().stage != RunState::Stage::closed; }
 };
-
-inline bool Measurement::on_trigger(const TriggerEvent& /*event*/) {
-    return false;
-}
 
 /// An order of a person, given now. @param about  as OrderRecord::about
 inline OrderRecord

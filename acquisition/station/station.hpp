@@ -108,6 +108,7 @@ private:
     void acknowledge_skip(const JournalReceipt& receipt) override;
     void end_requests(RunEnd end) override;
     void publish_position(MonotonicTime at, double position_mm) override;
+    void start_with(PortState state) override { port_state_ = state; }
     void publish_anew() override { publish_to_port(); }
 
     /// An event of this moment, with the next commit.

@@ -107,7 +107,6 @@ Station::resume_or_close_axis(std::string path, RunFileContents contents, bool w
                    co_await PositioningMeasurement::reopen(
                        context, std::move(path), std::move(contents), std::move(verdict.sentence)));
     begin_positioning(test);
-    port_state_ = PortState::armed;
     co_return co_await test->go_on();
 }
 

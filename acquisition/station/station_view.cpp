@@ -18,7 +18,7 @@ void Station::publish_to_port() {
     status.pressure_Pa = readings_.mean(EnvironmentRole::air_pressure, now);
     status.humidity_percent = readings_.mean(EnvironmentRole::air_humidity, now);
     status.material_degC = readings_.mean(EnvironmentRole::material_temperature, now);
-    if (positioning_) positioning_->put_on(status);
+    if (positioning_) positioning_->put_on_port(status);
     status.run_broken_off = broken_off();
     if (circles_ && !circles_->is_open()) status.run_complete = circles_->run().complete;
     port_->publish(status);
@@ -71,7 +71,7 @@ AxisView Station::axis_view() const {
     }
     if (const auto value = newest->value()) {
         axis.displacement_mm = metre(*value).in(mm);
-        if (positioning_) positioning_->put_on(axis, metre(*value));
+        if (positioning_) positioning_->put_on_axis(axis, metre(*value));
     }
     return axis;
 }

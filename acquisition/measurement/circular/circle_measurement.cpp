@@ -8,6 +8,7 @@
 #include "acquisition/live/time_limits.hpp"
 #include "acquisition/measurement/arming.hpp"
 #include "acquisition/measurement/circular/left_circles.hpp"
+#include "acquisition/measurement/revisable.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/stream_record.hpp"
@@ -188,7 +189,20 @@ std::optional<Error> CircleMeasurement::trouble() const {
     return Error{Fault::not_durable, std::to_string(dropped_) + " blocks were dropped", {}, {}};
 }
 
-StreamView CircleMeasurement::stream(std::size_t most) const {
+Result<std::shared_ptr<Revisable>> CircleMeasurement::to_be_added_to() {
+    return fail(Fault::no_run_armed, "the last run is a circular test: its circles are driven "
+                                     "again");
+}
+
+void CircleMeasurement::put_on_status(StationStatus& shown) const {
+    shown.run = status();
+}
+
+void CircleMeasurement::put_on_port(PortStatus& status) const {
+    if (!is_open()) status.run_complete = run_.complete;
+}
+
+std::optional<StreamView> CircleMeasurement::stream(std::size_t most) const {
     const StationChannel& bar = context_.instruments.channels()[static_cast<std::size_t>(bar_)];
     StreamView stream;
     stream.run_id = run_.run_id;

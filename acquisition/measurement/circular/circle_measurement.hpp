@@ -56,29 +56,28 @@ public:
     /// durable, unless that circle is whole; the next one is taken where the circle before it is
     /// whole.
     /// @errors as Journal::receipt_for_circle and ::flush. It records all the same.
-    Task<Result<void>> go_on();
+    Task<Result<void>> go_on() override;
 
     void on_sample(const Sample& sample) override;
     /// Once it is closed as complete it still answers the repeat of its last request.
     bool on_trigger(const TriggerEvent& event) override;
     /// A person begins the next circle, or ends the last one. @errors why it is refused.
-    Result<void> trigger();
+    Result<void> trigger() override;
     Task<Result<RunEnding>> abort(std::string reason, Orderer by) override;
-    /// Once a second: one that goes on after a restart ends where an instrument was exchanged.
-    void judge_instruments();
-    /// Readings that are no full block yet go into the file with what is written next.
-    void keep_rest();
-    /// One attempt after the disk failed. @param since  when that was seen
-    /// @errors why the file cannot be written yet.
-    Task<Result<void>> on_disk_back(MonotonicTime since);
+    void judge_instruments() override;
+    void keep_rest() override;
+    Task<Result<void>> on_disk_back(MonotonicTime since) override;
+    /// Never: its circles are driven again.
+    Result<std::shared_ptr<Revisable>> to_be_added_to() override;
 
     /// It takes requests and readings: neither closing nor closed.
     [[nodiscard]] bool records() const { return run_.stage == RunState::Stage::open; }
     /// Ended as incomplete, also while it is being closed.
-    [[nodiscard]] bool broken_off() const { return broken_off_; }
+    [[nodiscard]] bool broken_off() const override { return broken_off_; }
     [[nodiscard]] RunStatus status() const;
-    /// At most `most` stretches.
-    [[nodiscard]] StreamView stream(std::size_t most) const;
+    [[nodiscard]] std::optional<StreamView> stream(std::size_t most) const override;
+    void put_on_status(StationStatus& shown) const override;
+    void put_on_port(PortStatus& status) const override;
 
 private:
     /// Of a test that an earlier daemon opened.

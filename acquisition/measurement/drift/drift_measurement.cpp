@@ -156,6 +156,10 @@ Task<Result<RunEnding>> DriftMeasurement::await_closing() {
     co_return RunEnding{run_.complete, run_.reason};
 }
 
+void DriftMeasurement::put_on_status(StationStatus& shown) const {
+    shown.drift = view();
+}
+
 DriftView DriftMeasurement::view() const {
     DriftView view;
     view.run_id = run_.run_id;

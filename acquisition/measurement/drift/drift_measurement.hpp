@@ -29,6 +29,7 @@ public:
     void on_sample(const Sample& sample) override;
     Task<Result<RunEnding>> abort(std::string reason, Orderer by) override;
     [[nodiscard]] DriftView view() const;
+    void put_on_status(StationStatus& shown) const override;
 
 private:
     static Task<void> record(std::shared_ptr<DriftMeasurement> test);

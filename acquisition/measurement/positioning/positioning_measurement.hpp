@@ -11,6 +11,7 @@
 #include "acquisition/measurement/positioning/left_positioning.hpp"
 #include "acquisition/measurement/positioning/positioning_port.hpp"
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
+#include "acquisition/measurement/revisable.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "analysis/record/run_record.hpp"
 #include "analysis/record/run_revisions.hpp"
@@ -33,7 +34,7 @@ struct RunFileContents;
 /// It ends with its last point, by an abort, or where its datum is lost. When the disk fails it
 /// waits: nothing is acknowledged until then. After its closing it answers the repeat of its last
 /// request, and can be added to while its set-up stands.
-class PositioningMeasurement final : public Measurement {
+class PositioningMeasurement final : public Measurement, public Revisable {
 public:
     /// Makes its run file; begin() records. @errors as Journal::open, with what to do.
     static Task<Result<std::shared_ptr<PositioningMeasurement>>> open(PositioningContext context,
@@ -64,50 +65,43 @@ public:
     Task<Result<void>> await_datum();
     /// In place of begin() after reopen(). The port is not open yet: the first thing a CNC can read
     /// of us is the last durable request. @errors as Journal::receipt_for. It records all the same.
-    Task<Result<void>> go_on();
+    Task<Result<void>> go_on() override;
 
     void on_sample(const Sample& sample) override;
     bool on_trigger(const TriggerEvent& event) override;
     /// Ten times a second, also when it is closed.
-    void on_time(MonotonicTime now);
+    void on_time(MonotonicTime now) override;
     /// A person captures the next point. @errors why it is refused.
-    Result<void> trigger();
+    Result<void> trigger() override;
     /// Of a polygon whose faces a person reads. @errors as StationInterface::type_reading.
-    Result<void> type_reading(double seconds_of_arc);
+    Result<void> type_reading(double seconds_of_arc) override;
     Task<Result<RunEnding>> abort(std::string reason, Orderer by) override;
-    /// Once a second: one that goes on after a restart ends where an instrument was exchanged.
-    void judge_instruments();
-    /// One attempt after the disk failed. @param since  when that was seen
-    /// @errors why the file cannot be written yet.
-    Task<Result<void>> on_disk_back(MonotonicTime since);
+    void judge_instruments() override;
+    Task<Result<void>> on_disk_back(MonotonicTime since) override;
 
-    // Neither while it is being closed, nor two of them at once. After a failure order_is_lost()
-    // may say that the disk has to be waited for.
-    Task<Result<RetakeAnswer>> retake(RevisionRequest request);
-    Task<Result<int>> exclude(RevisionRequest request);
-    Task<Result<void>> answer_finding(AnswerRequest request); ///< once it is closed
-    /// An order could not be written: the file may hold it all the same.
-    [[nodiscard]] bool order_is_lost() const { return revision_unknown_; }
-    /// @errors Fault::not_durable while it is not known what became of one.
-    [[nodiscard]] Result<void> order_is_known() const;
+    Result<std::shared_ptr<Revisable>> to_be_added_to() override { return held(); }
+    Task<Result<RetakeAnswer>> retake(RevisionRequest request) override;
+    Task<Result<int>> exclude(RevisionRequest request) override;
+    Task<Result<void>> answer_finding(AnswerRequest request) override;
+    [[nodiscard]] bool order_is_lost() const override { return revision_unknown_; }
+    [[nodiscard]] Result<void> order_is_known() const override;
 
     /// It takes requests and readings: neither closing nor closed.
     [[nodiscard]] bool records() const { return run_.stage == RunState::Stage::open; }
     /// Its closing row is on disk. Not while a closed run is closed again.
-    [[nodiscard]] bool is_written() const { return written_; }
+    [[nodiscard]] bool is_written() const override { return written_; }
     /// Closed as incomplete, and not by the CNC's own request; also while it is being closed.
-    [[nodiscard]] bool broken_off() const { return broken_off_; }
-    /// Of its certificate, however it came about.
-    void keep_certificate(const Result<std::string>& entry);
+    [[nodiscard]] bool broken_off() const override { return broken_off_; }
+    void keep_certificate(const Result<std::string>& entry) override;
 
     [[nodiscard]] RunStatus status() const;
     /// Where it stands, while the run is open; how far from the next target, near it.
-    void put_on(AxisView& axis, Length reading) const;
-    /// @param status  with its state
-    void put_on(PortStatus& status) const;
+    void put_on_axis(AxisView& axis, Length reading) const override;
+    void put_on_port(PortStatus& status) const override;
+    void put_on_status(StationStatus& shown) const override;
     /// Where the axis stands, while the datum of the closed run holds; not of a rotary axis, which
     /// may be behind any position of its table.
-    [[nodiscard]] std::optional<Length> place_now() const;
+    [[nodiscard]] std::optional<Length> place_now() const override;
 
 private:
     /// What the run machine answers a person. It goes to nobody else.

@@ -17,6 +17,8 @@ public:
     virtual void end_requests(RunEnd end) = 0;
     /// Where the axis stands now, for a port that judges by it.
     virtual void publish_position(MonotonicTime at, double position_mm) = 0;
+    /// STATE of what is published next; as yet nothing is.
+    virtual void start_with(PortState state) = 0;
     /// Everything that the CNC may read, with the STATE that was shown last.
     virtual void publish_anew() = 0;
 };

@@ -38,6 +38,7 @@ Task<Result<std::shared_ptr<PositioningMeasurement>>> PositioningMeasurement::re
 Task<Result<void>> PositioningMeasurement::go_on() {
     Interruption before = *std::move(interruption_);
     interruption_.reset();
+    context_.port.start_with(PortState::armed);
     log_environment_anew();
     record(EventKind::interrupted, std::move(before.sentence));
     feed(EnvironmentNow{within_limits(scale_now())});

@@ -11,7 +11,11 @@
 
 namespace axiscal {
 
-void PositioningMeasurement::put_on(PortStatus& status) const {
+void PositioningMeasurement::put_on_status(StationStatus& shown) const {
+    shown.run = status();
+}
+
+void PositioningMeasurement::put_on_port(PortStatus& status) const {
     const RunView view = machine_.view();
     if (view.next && !view.closed) {
         status.next_target = view.next->target_index;
@@ -23,7 +27,7 @@ void PositioningMeasurement::put_on(PortStatus& status) const {
     status.may_move = status.state != PortState::settling && !stopped;
 }
 
-void PositioningMeasurement::put_on(AxisView& axis, Length reading) const {
+void PositioningMeasurement::put_on_axis(AxisView& axis, Length reading) const {
     if (!datum_ || !is_open()) return;
     axis.position_mm = position_now_mm(reading);
     const auto next = machine_.view().next;

@@ -223,7 +223,7 @@ TEST_F(CircleMeasurements, AnswerEachRequestAndCloseWithTheLast) {
     EXPECT_EQ(test->status().state, "armed");
     EXPECT_TRUE(ask(1) && ask(2));
     EXPECT_EQ(test->status().done, 2);
-    EXPECT_TRUE(test->stream(10).recording);
+    EXPECT_TRUE(test->stream(10)->recording);
     EXPECT_TRUE(ask(3));
     EXPECT_EQ(bench.cnc.done, (Numbers{1, 2, 3}));
     EXPECT_EQ(test->status().state, "complete");
