@@ -26,6 +26,9 @@ public:
     /// Why the computer may fall asleep although it is not wanted, in the program's words; empty:
     /// the lock was given, or nobody has answered yet.
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
+    /// For how long the computer slept, locked or not, since this was told last, or since the
+    /// start; 0: not noticeably.
+    Duration slept_in_spite_of_it();
 
 private:
     void ask();
@@ -35,6 +38,7 @@ private:
     Scheduler& scheduler_;
     std::string program_;
     std::string refusal_;
+    Duration slept_; ///< as told last
     int input_ = -1; ///< the lock lasts until it is closed, by us or by our end
     bool wanted_ = false, asking_ = false, held_ = false;
 };

@@ -60,7 +60,6 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , roles_{std::move(parts.roles)}
     , config_hash_{std::move(parts.config_hash)}
     , boot_id_{std::move(parts.boot_id)}
-    , slept_{scheduler.asleep()}
     , sleep_lock_{scheduler, std::move(parts.inhibit_program)}
     , supervisor_{scheduler, links, *this}
     , port_{std::move(parts.port)}

@@ -278,7 +278,6 @@ private:
     StationRoles roles_;
     std::string config_hash_;
     BootId boot_id_;
-    Duration slept_{}; ///< of the computer, as last told
     SleepLock sleep_lock_;
     Supervisor supervisor_;
     std::unique_ptr<TriggerPort> port_;

@@ -43,10 +43,8 @@ void Station::keep_awake() {
 
 /// The lock may be refused, and root may suspend in spite of it.
 void Station::notice_sleep() {
-    constexpr Duration noticeable = std::chrono::milliseconds{500};
-    const Duration slept = scheduler_.asleep() - slept_;
-    if (slept < noticeable) return;
-    slept_ += slept;
+    const Duration slept = sleep_lock_.slept_in_spite_of_it();
+    if (slept <= Duration{}) return;
     std::string message =
         "The computer was suspended for " + in_seconds(slept) + "; nothing was recorded meanwhile.";
     if (takes_records() || drift_open()) record(EventKind::note, message);
