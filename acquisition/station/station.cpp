@@ -75,7 +75,8 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , files_{scheduler, journal_, notices_, stopping_}
     , certificates_{scheduler, notices_, std::move(parts.report_program),
                     config_.state_directory + "/outbox"}
-    , set_up_since_start_{reference_word(config_)} {
+    , disk_{measurement_context(), tests_}
+    , recovery_{positioning_context(), tests_, arming_} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
@@ -109,20 +110,22 @@ Task<Result<void>> Station::start() {
     outbox_watch_.begin_judging(judged_);
     time_counts_until_ = std::max(time_counts_until_, judged_ + first_looks);
     spawn(scheduler_, tick());
-    const Result<void> taken = co_await take_over_stored_runs();
+    const Result<void> taken = co_await recovery_.take_over_stored_runs();
     if (taken) {
         open_port();
     } else if (taken.error().fault == Fault::not_durable) {
-        waiting_for_disk_ = true;
-        std::string message = disk_text(taken.error());
-        note("What the last daemon left cannot be taken over yet: " + message +
-             " The station tries again by itself; until then the trigger port stays shut.");
-        spawn(scheduler_, take_over_when_disk_is_back(std::move(message)));
+        std::string told = disk_.begin_to_take_over(taken.error());
+        spawn(scheduler_, open_port_once_taken_over(std::move(told)));
     } else {
         co_return taken;
     }
     spawn(scheduler_, try_out_sleep_lock());
     co_return Result<void>{};
+}
+
+Task<void> Station::open_port_once_taken_over(std::string told) {
+    const bool taken = co_await disk_.until_taken_over(recovery_, std::move(told));
+    if (taken) open_port();
 }
 
 /// Its program takes longer to start than a station does, which is ready before.
@@ -141,7 +144,7 @@ Task<void> Station::stop() {
     sleep_lock_.want(false);
     end_port_.emit(boost::asio::cancellation_type::terminal);
     if (takes_records() || drift_open()) {
-        if (circles_) circles_->keep_rest();
+        if (const auto& run = last_run()) run->keep_rest();
         record(EventKind::interrupted, "The daemon was stopped; the run stays open.");
         co_await journal_.flush();
     }
@@ -161,16 +164,15 @@ void Station::on_sample(const Sample& sample) {
     readings_.take(sample);
     time_counts_until_ = sample.at + stale_after_;
     if (asleep_) bell_.ring();
-    if (resting_) resting_->on_sample(sample);
-    if (circles_) circles_->on_sample(sample);
+    if (const auto& resting = tests_.resting()) resting->on_sample(sample);
     keep_reading(sample);
-    if (positioning_) positioning_->on_sample(sample);
+    if (const auto& run = last_run()) run->on_sample(sample);
 }
 
 void Station::keep_reading(const Sample& sample) {
     if (sample.channel == roles_.laser) {
         readings_.take_reference(sample);
-        watch_set_up(sample);
+        recovery_.watch_set_up(sample);
         watch_alignment(sample);
     } else if (sample.channel == roles_.autocollimator) {
         readings_.take_reference(in_degrees(sample));
@@ -223,13 +225,12 @@ void Station::record_instrument(const std::string& sentence, Fault fault) {
 
 void Station::on_trigger(const TriggerEvent& event) {
     notices_.port_works();
-    if (circles_ && circles_->on_trigger(event)) return;
-    if (positioning_ && positioning_->on_trigger(event)) return;
+    if (const auto& run = last_run(); run && run->on_trigger(event)) return;
     if (event.sequence == 0) return;
     // Without an open run the first value seen is the baseline, unless the CNC waits for a run
     // that ended with the last daemon: then it is told why.
-    if (event.standing && left_over_fault_)
-        refuse_on_port(event.sequence, *left_over_fault_);
+    if (event.standing && recovery_.why_not())
+        refuse_on_port(event.sequence, *recovery_.why_not());
     else if (!event.standing)
         refuse_on_port(event.sequence, {Fault::no_run_armed, {}, {}, {}});
 }
@@ -257,35 +258,8 @@ std::string Station::shown_name_of(int id) const {
     return channel.instrument_name + "/" + channel.shown;
 }
 
-const Measurement* Station::last_run() const {
-    if (circles_) return circles_.get();
-    return positioning_.get();
-}
-
-bool Station::takes_records() const {
-    return has_run() && last_run()->run().stage == RunState::Stage::open;
-}
-
-bool Station::run_open() const {
-    return has_run() && last_run()->is_open();
-}
-
-bool Station::is_being_closed() const {
-    return has_run() && last_run()->run().stage == RunState::Stage::closing;
-}
-
-bool Station::is_unwritten() const {
-    if (circles_) return !circles_->run().is_written();
-    return positioning_ && !positioning_->is_written();
-}
-
 bool Station::broken_off() const {
-    if (circles_) return circles_->broken_off();
-    return positioning_ ? positioning_->broken_off() : left_broken_off_;
-}
-
-const std::string& Station::last_run_id() const {
-    return last_run()->run().run_id;
+    return last_run() ? last_run()->broken_off() : recovery_.left_broken_off();
 }
 
 MeasurementContext Station::measurement_context() {

@@ -14,20 +14,18 @@
 #include "acquisition/live/station_interface.hpp"
 #include "acquisition/live/supervisor.hpp"
 #include "acquisition/measurement/certificates.hpp"
-#include "acquisition/measurement/circular/circle_measurement.hpp"
-#include "acquisition/measurement/circular/circle_resume.hpp"
-#include "acquisition/measurement/drift/drift_measurement.hpp"
+#include "acquisition/measurement/disk_wait.hpp"
 #include "acquisition/measurement/drift/environmental_variation.hpp"
 #include "acquisition/measurement/drift/resting_test.hpp"
+#include "acquisition/measurement/latest_tests.hpp"
 #include "acquisition/measurement/measurement.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
-#include "acquisition/measurement/positioning/positioning_measurement.hpp"
 #include "acquisition/measurement/positioning/positioning_port.hpp"
-#include "acquisition/measurement/positioning/set_up_watch.hpp"
+#include "acquisition/measurement/recovery.hpp"
+#include "acquisition/measurement/revisable.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
 #include "acquisition/measurement/run_header.hpp"
 #include "acquisition/preflight/preflight.hpp"
-#include "acquisition/runfile/run_store.hpp"
 #include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/sleep_lock.hpp"
 #include "config/station_config.hpp"
@@ -35,6 +33,7 @@
 #include "drivers/trigger/trigger_port.hpp"
 
 #include <boost/asio/cancellation_signal.hpp>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -120,31 +119,16 @@ private:
     [[nodiscard]] Result<void> ballbar_speaks() const;
     Task<Result<std::string>> arm_circular(ArmRequest request);
     Task<Result<std::string>> open_circular(ArmRequest request);
-    /// It takes the place of the last run, or circular test.
-    void begin_circles(std::shared_ptr<CircleMeasurement> test);
 
-    // station_circular_resume.cpp: a test that was open when the last daemon ended
-    Task<Result<void>> resume_or_close_circles(std::string path, RunFileContents contents);
-    Task<Result<void>>
-    resume_circles(std::string path, RunFileContents contents, CircleResume verdict);
-    Task<Result<void>> close_driven_circles(std::string path);
-
-    // station_disk.cpp: the disk failed under an open run
-    /// Tries until the run file can be written again, then goes on with the run or closes it.
-    Task<void> wait_for_disk();
-    Task<Result<void>> try_disk(MonotonicTime since);
     /// What the last daemon left, tried until the disk takes records; opens the port then.
-    Task<void> take_over_when_disk_is_back(std::string message);
-    /// What failed and what to do, without the fault's own sentence.
-    [[nodiscard]] std::string disk_text(const Error& error) const {
-        return axiscal::disk_text(error, config_.state_directory);
-    }
+    Task<void> open_port_once_taken_over(std::string told);
 
     // station_arm.cpp: a positioning run is ordered; PositioningMeasurement is the run itself
     Task<Result<std::string>> arm_axis(ArmRequest request);
     Task<Result<std::string>> open_and_tie(ArmRequest request);
-    /// It takes the place of the last run, or circular test.
-    void begin_positioning(std::shared_ptr<PositioningMeasurement> test);
+    /// It takes the place of the last run, or circular test, and begins.
+    void
+    begin(const std::shared_ptr<Measurement>& test, std::int64_t opened_utc_ns, const Orderer& by);
     [[nodiscard]] Result<void> plays_no_tape() const;
     [[nodiscard]] Result<void> ready_to_measure() const;
     [[nodiscard]] Result<void> disk_takes_records() const;
@@ -153,40 +137,17 @@ private:
     /// Of a test that is opened now. @param plan  of the axis; of other tests empty
     [[nodiscard]] RunHeaderParts header_parts(TestKind kind, RunPlan plan) const;
 
-    // station_left_over.cpp: what an earlier daemon left
     [[nodiscard]] std::string runs_folder() const { return config_.state_directory + "/runs"; }
-    /// @errors Fault::not_durable while the disk is why it cannot be done; those of
-    /// look_through_runs().
-    Task<Result<void>> take_over_stored_runs();
-    void keep_hold_of_broken_off(const StoredRuns& stored);
-    Task<Result<void>> resume_or_close(std::string path);
-    Task<Result<void>> resume_or_close_axis(std::string path, RunFileContents contents, bool whole);
-    Task<void> publish_done_of_closed(std::string newest_path);
-    Task<Result<void>>
-    close_left_over(std::string path, std::string reason, Fault fault, bool whole);
-    /// Certificates of complete runs that the last daemon could not finish.
-    Task<void> certify_left_over(StoredRuns stored);
-    [[nodiscard]] bool is_of_this_daemon(const std::string& path) const;
-    [[nodiscard]] bool lacks_certificate(const RunSummary& run) const;
-    Task<void> certify(std::string run_id, std::string path);
 
     // station_preflight.cpp
     [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
     /// Its channel, where the checks look at it; its facts are filled in then.
     std::optional<int> autocollimator_for(PreflightFacts& facts) const;
 
-    // station_environment.cpp: the limits of the environment
-    /// Once a second: told when it leaves them and when it is back.
-    void judge_environment();
-
     // station_revise.cpp: a person adds to a run, also after it was closed
-    void watch_set_up(const Sample& sample);
-    Task<Result<RunSummary>> newest_closed_run();
-    Task<Result<void>> take_over_closed_run();
-    [[nodiscard]] Result<void> run_may_be_revised() const;
-    /// One is there after this, where there is no error.
-    Task<Result<void>> run_to_revise();
-    void find_out_about_order(const PositioningMeasurement& test);
+    Task<Result<std::shared_ptr<Revisable>>> run_to_revise();
+    [[nodiscard]] Result<std::shared_ptr<Revisable>> run_that_may_be_revised() const;
+    void find_out_about_order(const Revisable& test);
 
     [[nodiscard]] const StationChannel& channel_of(int id) const;
     [[nodiscard]] std::string shown_name_of(int id) const; ///< "gauge/axis 1", as in a run file
@@ -198,7 +159,7 @@ private:
     [[nodiscard]] Result<RestingTest> drift_of_bar(const DriftRequest& request) const;
     Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
     [[nodiscard]] Result<void> rests_at(Length place) const;
-    [[nodiscard]] bool drift_open() const { return resting_ && resting_->is_open(); }
+    [[nodiscard]] bool drift_open() const { return tests_.rest_goes_on(); }
 
     // station_eve.cpp
     /// E_VE of the drift test that the station file points to, if it does: of the bar for circles,
@@ -231,7 +192,8 @@ private:
     Task<void> tick();
     Task<void> pause_before_looking();
     void look_at_the_time();
-    void judge_instruments(); ///< once a second: those of the run that is open
+    /// Of the limits, once a second: told when it leaves them and when it is back.
+    void judge_environment();
     void keep_awake();
     void notice_sleep();
     /// A run, a drift test or an alignment goes on, an instrument speaks, or what was read last
@@ -247,16 +209,13 @@ private:
     /// What its change of state is worth: nothing where it sees no face on the way.
     [[nodiscard]] std::string news_of_autocollimator(const InstrumentView& view);
     void note(const std::string& sentence) { notices_.note(sentence); }
-    /// The run or circular test that is open, or the last one; null before the first.
-    [[nodiscard]] const Measurement* last_run() const;
-    [[nodiscard]] bool has_run() const { return last_run() != nullptr; }
-    // Of that one.
-    [[nodiscard]] bool takes_records() const; ///< neither closing nor closed
-    [[nodiscard]] bool run_open() const;
-    [[nodiscard]] bool is_being_closed() const;
-    [[nodiscard]] bool is_unwritten() const;              ///< its closing row is not on disk
-    [[nodiscard]] bool broken_off() const;                ///< as PositioningMeasurement has it
-    [[nodiscard]] const std::string& last_run_id() const; ///< where there is one
+    // The run or circular test that is open, or was the last one; null before the first.
+    [[nodiscard]] const std::shared_ptr<Measurement>& last_run() const { return tests_.run(); }
+    [[nodiscard]] bool run_open() const { return tests_.run_open(); }
+    [[nodiscard]] bool takes_records() const { return tests_.takes_records(); }
+    [[nodiscard]] bool is_unwritten() const { return tests_.is_unwritten(); }
+    /// Also of the newest run of the last daemon.
+    [[nodiscard]] bool broken_off() const;
     [[nodiscard]] ChannelFacts channels() const {
         return {config_, roles_, supervisor_, readings_};
     }
@@ -291,24 +250,17 @@ private:
     Doorbell bell_;
     Notices notices_;
     bool stopping_ = false; ///< the daemon is about to end
+    bool arming_ = false;
     RunFileCloser files_;
     Certificates certificates_;
-    // The run, or the circular test, that is open or was the last one. One of them at most.
-    std::shared_ptr<PositioningMeasurement> positioning_;
-    std::shared_ptr<CircleMeasurement> circles_;
+    LatestTests tests_;
+    DiskWait disk_;
+    Recovery recovery_;
     PortState port_state_ = PortState::idle;
-    SetUpWatch set_up_since_start_; ///< until there is a run: for the one of an earlier daemon
-    std::optional<JournalReceipt> done_of_closed_; ///< what the CNC was told of that one
-    bool left_broken_off_ = false;         ///< the newest run of the last daemon was broken off
-    std::optional<Error> left_over_fault_; ///< why the run of the last daemon could not go on
-    std::shared_ptr<DriftMeasurement> resting_; ///< the drift test that is open, or the last one
-    std::string newest_run_; ///< id of the stored one that was opened latest; empty: none
-    std::int64_t newest_run_utc_ns_ = 0;
     BeamAlignment beam_;
     boost::asio::cancellation_signal end_port_;
-    bool waiting_for_disk_ = false; ///< the run file could not be written
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
-    bool arming_ = false, cnc_silent_ = false;
+    bool cnc_silent_ = false;
     bool revising_ = false; ///< a retake, an exclusion or an answer is being kept
 };
 

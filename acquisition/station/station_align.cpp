@@ -55,11 +55,11 @@ Result<void> Station::align(AlignmentOrder order) {
         if (config_.cycle.axis_kind == AxisKind::rotary)
             return fail(Fault::refused, "a rotary axis has no travel along the beam");
         if (run_open())
-            return fail(Fault::busy, "run " + last_run_id() +
+            return fail(Fault::busy, "run " + last_run()->run().run_id +
                                          " is open: a beam that is steered now spoils it; finish "
                                          "it or 'axiscal abort' it first");
         if (drift_open())
-            return fail(Fault::busy, "drift test " + resting_->run().run_id +
+            return fail(Fault::busy, "drift test " + tests_.resting()->run().run_id +
                                          " is going on: a beam that is steered now spoils it");
         beam_.begin(config_.cycle.travel_high - config_.cycle.travel_low,
                     config_.capture.spread_limit, scheduler_.clock_tie());

@@ -3,6 +3,7 @@
 
 #include "acquisition/live/time_limits.hpp"
 #include "acquisition/measurement/positioning/armed_run.hpp"
+#include "acquisition/measurement/positioning/positioning_measurement.hpp"
 #include "acquisition/station/held.hpp"
 
 #include <utility>
@@ -23,7 +24,7 @@ Result<void> Station::plays_no_tape() const {
 
 /// The file of the last run may still have its closing row due, seen or not.
 Result<void> Station::disk_takes_records() const {
-    if (waiting_for_disk_ || (is_unwritten() && !run_open()))
+    if (disk_.goes_on() || (is_unwritten() && !run_open()))
         return fail(Fault::not_durable, "the disk cannot store the records of the last run yet; "
                                         "'axiscal status' shows why");
     return {};
@@ -35,10 +36,10 @@ Result<void> Station::nothing_goes_on() const {
         return fail(Fault::busy,
                     "a retake, an exclusion or an answer is being written just now; ask again");
     if (run_open())
-        return fail(Fault::busy,
-                    "run " + last_run_id() + " is open; finish it or 'axiscal abort' it first");
+        return fail(Fault::busy, "run " + last_run()->run().run_id +
+                                     " is open; finish it or 'axiscal abort' it first");
     if (drift_open())
-        return fail(Fault::busy, "drift test " + resting_->run().run_id +
+        return fail(Fault::busy, "drift test " + tests_.resting()->run().run_id +
                                      " is going on; let it end or 'axiscal abort' it first");
     return {};
 }
@@ -100,27 +101,25 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     const PositioningContext context = positioning_context();
     AXISCAL_CO_TRY(const std::shared_ptr<PositioningMeasurement> test,
                    co_await PositioningMeasurement::open(context, std::move(armed)));
-    begin_positioning(test);
-    test->begin(request.by);
+    begin(test, test->header().opened.utc_ns, request.by);
     if (request.datum_by_cnc) co_return test->run().run_id;
     if (auto tied = co_await test->await_datum(); !tied)
         co_return tl::unexpected<Error>(tied.error());
     co_return test->run().run_id;
 }
 
-void Station::begin_positioning(std::shared_ptr<PositioningMeasurement> test) {
-    newest_run_ = test->run().run_id;
-    newest_run_utc_ns_ = test->header().opened.utc_ns;
-    positioning_ = std::move(test);
-    circles_.reset();
-    left_over_fault_.reset();
+void Station::begin(const std::shared_ptr<Measurement>& test,
+                    std::int64_t opened_utc_ns,
+                    const Orderer& by) {
+    tests_.put_on(test, opened_utc_ns);
+    recovery_.forget_why_not();
     notices_.nothing_refused();
+    test->begin(by);
 }
 
 Result<void> Station::trigger() {
-    if (circles_) return circles_->trigger();
-    if (!positioning_) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
-    return positioning_->trigger();
+    if (!last_run()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
+    return last_run()->trigger();
 }
 
 Result<void> Station::type_reading(double seconds_of_arc) {
@@ -129,18 +128,13 @@ Result<void> Station::type_reading(double seconds_of_arc) {
                     std::string{"this station reads its "} +
                         (reads_faces() ? "autocollimator" : "length") +
                         " by itself: 'axiscal trigger' captures the next point");
-    if (!positioning_) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
-    return positioning_->type_reading(seconds_of_arc);
+    if (!last_run()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
+    return last_run()->type_reading(seconds_of_arc);
 }
 
 Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
-    std::shared_ptr<Measurement> test; // the next one may take its place before this returns
-    if (drift_open())
-        test = resting_;
-    else if (circles_)
-        test = circles_;
-    else if (positioning_)
-        test = positioning_;
+    // The next one may take its place before this returns.
+    const std::shared_ptr<Measurement> test = drift_open() ? tests_.resting() : last_run();
     if (!test) co_return fail(Fault::no_run_armed, "there is nothing to abort");
     co_return co_await test->abort(std::move(reason), std::move(by));
 }

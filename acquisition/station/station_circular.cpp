@@ -3,6 +3,7 @@
 
 #include "acquisition/live/time_limits.hpp"
 #include "acquisition/measurement/circular/armed_circles.hpp"
+#include "acquisition/measurement/circular/circle_measurement.hpp"
 #include "acquisition/station/held.hpp"
 
 #include <utility>
@@ -44,24 +45,14 @@ Task<Result<std::string>> Station::open_circular(ArmRequest request) {
     const CncContext context = cnc_context();
     AXISCAL_CO_TRY(const std::shared_ptr<CircleMeasurement> test,
                    co_await CircleMeasurement::open(context, std::move(armed)));
-    begin_circles(test);
-    test->begin(request.by);
+    begin(test, test->header().opened.utc_ns, request.by);
     if (auto kept = co_await journal_.flush(); !kept) co_return tl::unexpected<Error>(kept.error());
     co_return test->run().run_id;
 }
 
-void Station::begin_circles(std::shared_ptr<CircleMeasurement> test) {
-    newest_run_ = test->run().run_id;
-    newest_run_utc_ns_ = test->header().opened.utc_ns;
-    circles_ = std::move(test);
-    positioning_.reset();
-    left_over_fault_.reset();
-    notices_.nothing_refused();
-}
-
 std::optional<StreamView> Station::stream(std::size_t most) const {
-    if (!circles_) return std::nullopt;
-    return circles_->stream(most);
+    if (!last_run()) return std::nullopt;
+    return last_run()->stream(most);
 }
 
 } // namespace axiscal

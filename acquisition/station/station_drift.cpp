@@ -2,6 +2,7 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
+#include "acquisition/measurement/drift/drift_measurement.hpp"
 #include "acquisition/measurement/positioning/armed_run.hpp"
 #include "acquisition/station/held.hpp"
 
@@ -37,13 +38,13 @@ Result<void> Station::ready_for_drift(bool of_bar) const {
 /// While the datum of the last run stands, the laser tells where the axis is.
 Result<void> Station::rests_at(Length place) const {
     constexpr Length near = mm(1);
-    if (!positioning_) return {};
-    const std::optional<Length> seen = positioning_->place_now();
+    if (!last_run()) return {};
+    const std::optional<Length> seen = last_run()->place_now();
     if (!seen || abs(*seen - place) <= near) return {};
     const std::string there = plain_number(seen->in(mm), 1);
     return refuse(Fault::bad_request, "place_mm",
                   "is " + plain_number(place.in(mm), 3) + " mm, and by the datum of run " +
-                      last_run_id() + " the axis stands at " + there +
+                      last_run()->run().run_id + " the axis stands at " + there +
                       " mm: drive it to the place, or say --at " + there);
 }
 
@@ -70,9 +71,11 @@ Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar)
     AXISCAL_CO_TRY(RestingTest order, of_bar ? drift_of_bar(request) : drift_of_axis(request));
     if (!of_bar) order.alignment = alignment_for_run();
     const MeasurementContext context = measurement_context();
-    AXISCAL_CO_TRY(resting_, co_await DriftMeasurement::open(context, std::move(order)));
-    resting_->begin(request.by);
-    co_return resting_->run().run_id;
+    AXISCAL_CO_TRY(const std::shared_ptr<DriftMeasurement> test,
+                   co_await DriftMeasurement::open(context, std::move(order)));
+    tests_.let_rest(test);
+    test->begin(request.by);
+    co_return test->run().run_id;
 }
 
 } // namespace axiscal

@@ -42,9 +42,9 @@ PreflightFacts Station::preflight_facts(const ArmRequest& request) const {
     if (config_.axis.angle)
         facts.run_out = stated(request, "run_out", config_.axis.angle->setup.run_out);
     facts.boot_known = boot_id_.known();
-    facts.newest_run = newest_run_;
-    if (!newest_run_.empty())
-        facts.newest_run_day = iso8601_utc(newest_run_utc_ns_).substr(0, day_letters);
+    facts.newest_run = tests_.newest().run_id;
+    if (!facts.newest_run.empty())
+        facts.newest_run_day = iso8601_utc(tests_.newest().opened_utc_ns).substr(0, day_letters);
     facts.may_sleep = sleep_lock_.refusal();
     facts.polygon = reads_polygon();
     facts.circular = takes_circles(request);

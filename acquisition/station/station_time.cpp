@@ -2,7 +2,6 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/capture/wording.hpp"
-#include "drivers/loop/spawn.hpp"
 
 #include <utility>
 
@@ -51,9 +50,12 @@ void Station::notice_sleep() {
     note(std::move(message));
 }
 
-void Station::judge_instruments() {
-    if (circles_) circles_->judge_instruments();
-    if (positioning_) positioning_->judge_instruments();
+/// Outside them nothing is captured, and the run goes on when it is back.
+void Station::judge_environment() {
+    if (!config_.environment.stated()) return;
+    const MonotonicTime now = scheduler_.now();
+    if (const auto news = readings_.judge_limits(channels().environment(now), now))
+        record_instrument(news->sentence, news->fault);
 }
 
 void Station::look_at_the_time() {
@@ -63,14 +65,13 @@ void Station::look_at_the_time() {
     if (now - judged_ >= judge_every) {
         supervisor_.judge();
         judge_environment();
-        judge_instruments();
+        if (const auto& run = last_run()) run->judge_instruments();
         judged_ = now;
     }
     if (const auto news = outbox_watch_.judge(scheduler_.clock_tie())) note(*news);
-    if (positioning_) positioning_->on_time(now);
+    if (const auto& run = last_run()) run->on_time(now);
     publish_to_port();
-    if (is_unwritten() && journal_.failure() && !std::exchange(waiting_for_disk_, true))
-        spawn(scheduler_, wait_for_disk());
+    if (is_unwritten() && journal_.failure()) disk_.begin();
 }
 
 } // namespace axiscal

@@ -18,9 +18,8 @@ void Station::publish_to_port() {
     status.pressure_Pa = readings_.mean(EnvironmentRole::air_pressure, now);
     status.humidity_percent = readings_.mean(EnvironmentRole::air_humidity, now);
     status.material_degC = readings_.mean(EnvironmentRole::material_temperature, now);
-    if (positioning_) positioning_->put_on_port(status);
+    if (const auto& run = last_run()) run->put_on_port(status);
     status.run_broken_off = broken_off();
-    if (circles_ && !circles_->is_open()) status.run_complete = circles_->run().complete;
     port_->publish(status);
 }
 
@@ -71,7 +70,7 @@ AxisView Station::axis_view() const {
     }
     if (const auto value = newest->value()) {
         axis.displacement_mm = metre(*value).in(mm);
-        if (positioning_) positioning_->put_on_axis(axis, metre(*value));
+        if (const auto& run = last_run()) run->put_on_axis(axis, metre(*value));
     }
     return axis;
 }
@@ -94,12 +93,9 @@ StationStatus Station::status() const {
     status.trigger_note = notices_.port();
     status.trigger_counters = port_->counters();
     status.cnc_silent = cnc_silent_;
-    if (circles_)
-        status.run = circles_->status();
-    else if (positioning_)
-        status.run = positioning_->status();
+    if (const auto& run = last_run()) run->put_on_status(status);
     status.run_open = run_open();
-    if (resting_) status.drift = resting_->view();
+    if (const auto& resting = tests_.resting()) resting->put_on_status(status);
     status.outbox = outbox_watch_.look(scheduler_.clock_tie());
     status.notes.assign(notices_.last().begin(), notices_.last().end());
     return status;

@@ -1,4 +1,5 @@
 // A station with nothing to do: what it wakes for, what it opens, and that it is there at once.
+#include "acquisition/runfile/run_store.hpp"
 #include "tests/support/opening_count.hpp"
 #include "tests/unit/runfile/random_run.hpp"
 #include "tests/unit/station/station_bench.hpp"
