@@ -6,6 +6,7 @@
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/recording/tape_link.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,6 +88,9 @@ public:
     [[nodiscard]] bool somebody_speaks() const;
 
     [[nodiscard]] const std::vector<StationChannel>& channels() const { return channels_; }
+    [[nodiscard]] const StationChannel& channel(int id) const {
+        return channels_[static_cast<std::size_t>(id)];
+    }
     [[nodiscard]] std::vector<InstrumentView> view() const;
     [[nodiscard]] const Instrument& instrument(int index) const;
     [[nodiscard]] const Identity& identity(int index) const;

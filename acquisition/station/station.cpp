@@ -76,7 +76,8 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , certificates_{scheduler, notices_, std::move(parts.report_program),
                     config_.state_directory + "/outbox"}
     , disk_{measurement_context(), tests_}
-    , recovery_{positioning_context(), tests_, arming_} {
+    , recovery_{positioning_context(), tests_, arming_}
+    , beam_{cnc_context(), tests_} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
@@ -173,7 +174,7 @@ void Station::keep_reading(const Sample& sample) {
     if (sample.channel == roles_.laser) {
         readings_.take_reference(sample);
         recovery_.watch_set_up(sample);
-        watch_alignment(sample);
+        beam_.take(sample);
     } else if (sample.channel == roles_.autocollimator) {
         readings_.take_reference(in_degrees(sample));
     } else if (sample.channel == roles_.ballbar) {

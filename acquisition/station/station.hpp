@@ -4,7 +4,6 @@
 //
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
-#include "acquisition/capture/beam_alignment.hpp"
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/live/channel_facts.hpp"
 #include "acquisition/live/live_readings.hpp"
@@ -13,6 +12,7 @@
 #include "acquisition/live/roles.hpp"
 #include "acquisition/live/station_interface.hpp"
 #include "acquisition/live/supervisor.hpp"
+#include "acquisition/measurement/beam_watch.hpp"
 #include "acquisition/measurement/certificates.hpp"
 #include "acquisition/measurement/disk_wait.hpp"
 #include "acquisition/measurement/drift/environmental_variation.hpp"
@@ -172,17 +172,6 @@ private:
     [[nodiscard]] Result<std::vector<PreflightRecord>>
     judge(const ArmRequest& request, const std::optional<FoundEve>& eve) const;
 
-    // station_align.cpp
-    void watch_alignment(const Sample& sample);
-    Result<void> keep_alignment(std::optional<double> spot_offset_mm);
-    [[nodiscard]] AlignmentRecord alignment_so_far() const;
-    /// The latest strength that the laser told, if it is no more than 2 s old.
-    [[nodiscard]] std::optional<Sample> strength_told() const;
-    [[nodiscard]] std::optional<double> strength_now() const;
-    /// The last one kept, where it is of the laser that is there now. One that is still going on is
-    /// kept first.
-    std::optional<AlignmentRecord> alignment_for_run();
-
     // station_view.cpp
     void publish_to_port();
     [[nodiscard]] AxisView axis_view() const;
@@ -223,9 +212,6 @@ private:
     [[nodiscard]] MeasurementContext measurement_context();
     [[nodiscard]] CncContext cnc_context();
     [[nodiscard]] PositioningContext positioning_context();
-    [[nodiscard]] std::string laser_serial() const {
-        return serial_of_axis(config_, roles_, supervisor_);
-    }
     [[nodiscard]] bool reads_polygon() const { return axiscal::reads_polygon(config_); }
     /// Its autocollimator is an instrument; else a person reads it and types.
     [[nodiscard]] bool reads_faces() const { return roles_.autocollimator.has_value(); }
@@ -256,8 +242,8 @@ private:
     LatestTests tests_;
     DiskWait disk_;
     Recovery recovery_;
+    BeamWatch beam_;
     PortState port_state_ = PortState::idle;
-    BeamAlignment beam_;
     boost::asio::cancellation_signal end_port_;
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool cnc_silent_ = false;

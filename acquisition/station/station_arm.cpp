@@ -96,7 +96,7 @@ Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(ArmedRun armed, armed_run(parts, request, eve));
     armed.checks = std::move(checks);
     armed.attachments.alignment =
-        alignment_for_run(); // ends one that is going on: not before all else fits
+        beam_.for_run(); // ends one that is going on: not before all else fits
     if (!request.datum_by_cnc) armed.orderer_has_gone = std::move(request.has_gone);
     const PositioningContext context = positioning_context();
     AXISCAL_CO_TRY(const std::shared_ptr<PositioningMeasurement> test,
@@ -115,6 +115,10 @@ void Station::begin(const std::shared_ptr<Measurement>& test,
     recovery_.forget_why_not();
     notices_.nothing_refused();
     test->begin(by);
+}
+
+Result<void> Station::align(AlignmentOrder order) {
+    return beam_.carry_out(order);
 }
 
 Result<void> Station::trigger() {

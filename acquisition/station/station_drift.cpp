@@ -69,7 +69,7 @@ Result<RestingTest> Station::drift_of_bar(const DriftRequest& request) const {
 
 Task<Result<std::string>> Station::open_drift(DriftRequest request, bool of_bar) {
     AXISCAL_CO_TRY(RestingTest order, of_bar ? drift_of_bar(request) : drift_of_axis(request));
-    if (!of_bar) order.alignment = alignment_for_run();
+    if (!of_bar) order.alignment = beam_.for_run();
     const MeasurementContext context = measurement_context();
     AXISCAL_CO_TRY(const std::shared_ptr<DriftMeasurement> test,
                    co_await DriftMeasurement::open(context, std::move(order)));

@@ -101,4 +101,8 @@ StationStatus Station::status() const {
     return status;
 }
 
+AlignmentView Station::alignment() const {
+    return beam_.view();
+}
+
 } // namespace axiscal
