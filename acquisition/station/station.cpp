@@ -76,7 +76,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , certificates_{scheduler, notices_, std::move(parts.report_program),
                     config_.state_directory + "/outbox"}
     , disk_{measurement_context(), tests_}
-    , recovery_{positioning_context(), tests_, arming_}
+    , recovery_{positioning_context(), tests_, under_way_.arming}
     , beam_{cnc_context(), tests_} {
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
@@ -210,7 +210,7 @@ std::string Station::news_of_autocollimator(const InstrumentView& view) {
 
 void Station::on_instrument_state(const InstrumentView& view) {
     const auto id = roles_.autocollimator;
-    const bool sees_faces = id && view.name == channel_of(*id).instrument_name;
+    const bool sees_faces = id && view.name == supervisor_.channel(*id).instrument_name;
     const std::string how = sees_faces ? news_of_autocollimator(view) : news_of_state(view);
     if (!how.empty()) record_instrument(view.name + " " + how + ".", Fault::none);
 }
@@ -250,15 +250,6 @@ void Station::on_port_note(Fault fault, std::string sentence) {
     notices_.note_port(fault, std::move(sentence));
 }
 
-const StationChannel& Station::channel_of(int id) const {
-    return supervisor_.channels()[static_cast<std::size_t>(id)];
-}
-
-std::string Station::shown_name_of(int id) const {
-    const StationChannel& channel = channel_of(id);
-    return channel.instrument_name + "/" + channel.shown;
-}
-
 bool Station::broken_off() const {
     return last_run() ? last_run()->broken_off() : recovery_.left_broken_off();
 }
@@ -273,6 +264,11 @@ CncContext Station::cnc_context() {
 
 PositioningContext Station::positioning_context() {
     return {cnc_context(), *this, readings_};
+}
+
+OrderContext Station::order_context() {
+    return {positioning_context(), tests_, recovery_, disk_, beam_, under_way_,
+            sleep_lock_.refusal()};
 }
 
 } // namespace axiscal

@@ -15,17 +15,16 @@
 #include "acquisition/measurement/beam_watch.hpp"
 #include "acquisition/measurement/certificates.hpp"
 #include "acquisition/measurement/disk_wait.hpp"
-#include "acquisition/measurement/drift/environmental_variation.hpp"
 #include "acquisition/measurement/drift/resting_test.hpp"
 #include "acquisition/measurement/latest_tests.hpp"
 #include "acquisition/measurement/measurement.hpp"
+#include "acquisition/measurement/order_context.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
 #include "acquisition/measurement/positioning/positioning_port.hpp"
 #include "acquisition/measurement/recovery.hpp"
 #include "acquisition/measurement/revisable.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
 #include "acquisition/measurement/run_header.hpp"
-#include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/sleep_lock.hpp"
 #include "config/station_config.hpp"
@@ -137,20 +136,10 @@ private:
     /// Of a test that is opened now. @param plan  of the axis; of other tests empty
     [[nodiscard]] RunHeaderParts header_parts(TestKind kind, RunPlan plan) const;
 
-    [[nodiscard]] std::string runs_folder() const { return config_.state_directory + "/runs"; }
-
-    // station_preflight.cpp
-    [[nodiscard]] PreflightFacts preflight_facts(const ArmRequest& request) const;
-    /// Its channel, where the checks look at it; its facts are filled in then.
-    std::optional<int> autocollimator_for(PreflightFacts& facts) const;
-
     // station_revise.cpp: a person adds to a run, also after it was closed
     Task<Result<std::shared_ptr<Revisable>>> run_to_revise();
     [[nodiscard]] Result<std::shared_ptr<Revisable>> run_that_may_be_revised() const;
     void find_out_about_order(const Revisable& test);
-
-    [[nodiscard]] const StationChannel& channel_of(int id) const;
-    [[nodiscard]] std::string shown_name_of(int id) const; ///< "gauge/axis 1", as in a run file
 
     // station_drift.cpp: a drift test is ordered; DriftMeasurement is the test itself
     [[nodiscard]] bool drift_is_of_bar(const DriftRequest& request) const;
@@ -160,17 +149,6 @@ private:
     Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
     [[nodiscard]] Result<void> rests_at(Length place) const;
     [[nodiscard]] bool drift_open() const { return tests_.rest_goes_on(); }
-
-    // station_eve.cpp
-    /// E_VE of the drift test that the station file points to, if it does: of the bar for circles,
-    /// else of the axis.
-    Task<Result<std::optional<FoundEve>>> eve_for(bool circles);
-    [[nodiscard]] bool takes_circles(const ArmRequest& request) const;
-    /// What of it the pre-flight checks look at.
-    [[nodiscard]] Result<EveFacts> eve_facts(const ArmRequest& request,
-                                             const FoundEve& found) const;
-    [[nodiscard]] Result<std::vector<PreflightRecord>>
-    judge(const ArmRequest& request, const std::optional<FoundEve>& eve) const;
 
     // station_view.cpp
     void publish_to_port();
@@ -212,6 +190,7 @@ private:
     [[nodiscard]] MeasurementContext measurement_context();
     [[nodiscard]] CncContext cnc_context();
     [[nodiscard]] PositioningContext positioning_context();
+    [[nodiscard]] OrderContext order_context();
     [[nodiscard]] bool reads_polygon() const { return axiscal::reads_polygon(config_); }
     /// Its autocollimator is an instrument; else a person reads it and types.
     [[nodiscard]] bool reads_faces() const { return roles_.autocollimator.has_value(); }
@@ -236,7 +215,7 @@ private:
     Doorbell bell_;
     Notices notices_;
     bool stopping_ = false; ///< the daemon is about to end
-    bool arming_ = false;
+    UnderWay under_way_;
     RunFileCloser files_;
     Certificates certificates_;
     LatestTests tests_;
@@ -247,7 +226,6 @@ private:
     boost::asio::cancellation_signal end_port_;
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool cnc_silent_ = false;
-    bool revising_ = false; ///< a retake, an exclusion or an answer is being kept
 };
 
 } // namespace axiscal

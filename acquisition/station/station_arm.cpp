@@ -2,9 +2,10 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/live/time_limits.hpp"
+#include "acquisition/measurement/held.hpp"
+#include "acquisition/measurement/order_checks.hpp"
 #include "acquisition/measurement/positioning/armed_run.hpp"
 #include "acquisition/measurement/positioning/positioning_measurement.hpp"
-#include "acquisition/station/held.hpp"
 
 #include <utility>
 
@@ -31,8 +32,8 @@ Result<void> Station::disk_takes_records() const {
 }
 
 Result<void> Station::nothing_goes_on() const {
-    if (arming_) return fail(Fault::busy, "somebody else is arming a run just now");
-    if (revising_)
+    if (under_way_.arming) return fail(Fault::busy, "somebody else is arming a run just now");
+    if (under_way_.revising)
         return fail(Fault::busy,
                     "a retake, an exclusion or an answer is being written just now; ask again");
     if (run_open())
@@ -82,23 +83,20 @@ Task<Result<std::string>> Station::arm(ArmRequest request) {
 
 Task<Result<std::string>> Station::arm_axis(ArmRequest request) {
     if (auto ready = ready_to_measure(); !ready) co_return tl::unexpected<Error>(ready.error());
-    const Held arming{arming_};
+    const Held arming{under_way_.arming};
     co_return co_await open_and_tie(std::move(request));
 }
 
 Task<Result<std::string>> Station::open_and_tie(ArmRequest request) {
     AXISCAL_CO_TRY(RunPlan plan, plan_for(config_, request));
-    AXISCAL_CO_TRY(std::optional<FoundEve> eve, co_await eve_for(takes_circles(request)));
-    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
-    if (const std::string objections = open_objections(checks); !objections.empty())
-        co_return refuse(Fault::refused, "preflight", objections);
+    const OrderContext context = order_context();
+    AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
     const RunHeaderParts parts = header_parts(TestKind::positioning, std::move(plan));
-    AXISCAL_CO_TRY(ArmedRun armed, armed_run(parts, request, eve));
-    armed.checks = std::move(checks);
+    AXISCAL_CO_TRY(ArmedRun armed, armed_run(parts, request, admitted.eve));
+    armed.checks = std::move(admitted.checks);
     armed.attachments.alignment =
         beam_.for_run(); // ends one that is going on: not before all else fits
     if (!request.datum_by_cnc) armed.orderer_has_gone = std::move(request.has_gone);
-    const PositioningContext context = positioning_context();
     AXISCAL_CO_TRY(const std::shared_ptr<PositioningMeasurement> test,
                    co_await PositioningMeasurement::open(context, std::move(armed)));
     begin(test, test->header().opened.utc_ns, request.by);
@@ -115,6 +113,10 @@ void Station::begin(const std::shared_ptr<Measurement>& test,
     recovery_.forget_why_not();
     notices_.nothing_refused();
     test->begin(by);
+}
+
+Task<Result<std::vector<PreflightRecord>>> Station::preflight(ArmRequest request) {
+    return preflight_of(order_context(), std::move(request));
 }
 
 Result<void> Station::align(AlignmentOrder order) {

@@ -4,7 +4,8 @@
 #include "acquisition/live/time_limits.hpp"
 #include "acquisition/measurement/circular/armed_circles.hpp"
 #include "acquisition/measurement/circular/circle_measurement.hpp"
-#include "acquisition/station/held.hpp"
+#include "acquisition/measurement/held.hpp"
+#include "acquisition/measurement/order_checks.hpp"
 
 #include <utility>
 
@@ -30,19 +31,17 @@ Result<void> Station::ballbar_speaks() const {
 
 Task<Result<std::string>> Station::arm_circular(ArmRequest request) {
     if (auto ready = ready_for_circles(); !ready) co_return tl::unexpected<Error>(ready.error());
-    const Held arming{arming_};
+    const Held arming{under_way_.arming};
     co_return co_await open_circular(std::move(request));
 }
 
 Task<Result<std::string>> Station::open_circular(ArmRequest request) {
-    AXISCAL_CO_TRY(std::optional<FoundEve> eve, co_await eve_for(takes_circles(request)));
-    AXISCAL_CO_TRY(std::vector<PreflightRecord> checks, judge(request, eve));
-    if (const std::string objections = open_objections(checks); !objections.empty())
-        co_return refuse(Fault::refused, "preflight", objections);
+    const OrderContext context = order_context();
+    AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
     const RunHeaderParts parts = header_parts(TestKind::circular, {});
-    AXISCAL_CO_TRY(ArmedCircles armed, armed_circles(parts, request, readings_.bar_rate_hz(), eve));
-    armed.checks = std::move(checks);
-    const CncContext context = cnc_context();
+    AXISCAL_CO_TRY(ArmedCircles armed,
+                   armed_circles(parts, request, readings_.bar_rate_hz(), admitted.eve));
+    armed.checks = std::move(admitted.checks);
     AXISCAL_CO_TRY(const std::shared_ptr<CircleMeasurement> test,
                    co_await CircleMeasurement::open(context, std::move(armed)));
     begin(test, test->header().opened.utc_ns, request.by);

@@ -3,8 +3,8 @@
 
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/measurement/drift/drift_measurement.hpp"
+#include "acquisition/measurement/held.hpp"
 #include "acquisition/measurement/positioning/armed_run.hpp"
-#include "acquisition/station/held.hpp"
 
 #include <utility>
 
@@ -52,7 +52,7 @@ Task<Result<std::string>> Station::drift(DriftRequest request) {
     const bool of_bar = drift_is_of_bar(request);
     if (auto ready = ready_for_drift(of_bar); !ready)
         co_return tl::unexpected<Error>(ready.error());
-    const Held arming{arming_};
+    const Held arming{under_way_.arming};
     co_return co_await open_drift(std::move(request), of_bar);
 }
 

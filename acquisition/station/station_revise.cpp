@@ -2,7 +2,7 @@
 // was closed.
 #include "acquisition/station/station.hpp"
 
-#include "acquisition/station/held.hpp"
+#include "acquisition/measurement/held.hpp"
 
 #include <utility>
 
@@ -15,7 +15,8 @@ Result<std::shared_ptr<Revisable>> Station::run_that_may_be_revised() const {
         return fail(Fault::not_durable, "the disk cannot store the records of the run yet; "
                                         "'axiscal status' shows why");
     AXISCAL_CHECK(run->order_is_known());
-    if (arming_ || revising_) return fail(Fault::busy, "somebody else is at it just now");
+    if (under_way_.arming || under_way_.revising)
+        return fail(Fault::busy, "somebody else is at it just now");
     if (drift_open()) return fail(Fault::busy, "a drift test is going on; let it end");
     if (tests_.is_being_closed()) return fail(Fault::busy, "the run is being closed; ask again");
     return run;
@@ -35,7 +36,7 @@ void Station::find_out_about_order(const Revisable& test) {
 
 Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
     AXISCAL_CO_TRY(const std::shared_ptr<Revisable> test, co_await run_to_revise());
-    const Held revising{revising_};
+    const Held revising{under_way_.revising};
     auto taken = co_await test->retake(std::move(request));
     find_out_about_order(*test);
     co_return taken;
@@ -43,7 +44,7 @@ Task<Result<RetakeAnswer>> Station::retake(RevisionRequest request) {
 
 Task<Result<int>> Station::exclude(RevisionRequest request) {
     AXISCAL_CO_TRY(const std::shared_ptr<Revisable> test, co_await run_to_revise());
-    const Held revising{revising_};
+    const Held revising{under_way_.revising};
     auto left_out = co_await test->exclude(std::move(request));
     find_out_about_order(*test);
     co_return left_out;
@@ -54,7 +55,7 @@ Task<Result<void>> Station::answer_finding(AnswerRequest request) {
     if (run_open())
         co_return fail(Fault::busy,
                        "the run is open; its set-up is searched when it has its certificate");
-    const Held revising{revising_};
+    const Held revising{under_way_.revising};
     auto kept = co_await test->answer_finding(std::move(request));
     find_out_about_order(*test);
     co_return kept;

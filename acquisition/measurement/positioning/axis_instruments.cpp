@@ -26,6 +26,10 @@ bool reads_polygon(const StationConfig& config) {
     return config.axis.angle && config.axis.angle->setup.method == AngleMethod::polygon;
 }
 
+bool measures_axis(const StationConfig& config, const StationRoles& roles) {
+    return roles.laser || reads_polygon(config);
+}
+
 std::string serial_of_axis(const StationConfig& config,
                            const StationRoles& roles,
                            const Supervisor& instruments) {

@@ -20,6 +20,8 @@ class Supervisor;
 std::string reference_word(const StationConfig& config);
 /// A rotary axis with a polygon before an autocollimator.
 bool reads_polygon(const StationConfig& config);
+/// Else the station measures circles alone.
+bool measures_axis(const StationConfig& config, const StationRoles& roles);
 
 /// The serial number that it told, else the one of the station file.
 std::string serial_of_axis(const StationConfig& config,

@@ -1,0 +1,23 @@
+#pragma once
+// What the pre-flight checks of a circular test look at. For a station with the tables [ballbar]
+// and [circular].
+
+#include "acquisition/measurement/drift/environmental_variation.hpp"
+#include "acquisition/measurement/order_context.hpp"
+#include "acquisition/preflight/preflight.hpp"
+#include "config/station_config.hpp"
+
+#include <vector>
+
+namespace axiscal {
+
+struct WantedDrift;
+
+/// @returns the channels of the instruments that it uses
+std::vector<int> add_circle_facts(const OrderContext& context, PreflightFacts& facts);
+
+/// Of the ballbar.
+WantedDrift drift_for_circles(const OrderContext& context);
+EveFacts eve_facts_of_circles(const StationConfig& config, const FoundEve& found);
+
+} // namespace axiscal
