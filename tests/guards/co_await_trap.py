@@ -4,6 +4,7 @@
 g++ 12 destroys such a temporary twice: `co_await f([x] { ... })`, `co_await f(Arguments{x})` and
 `co_await f({x})`. Name the value first, then `co_await f(std::move(named))`. A coroutine that is a
 capturing lambda loses its captures with the lambda: coroutines are functions.
+`if (co_await f(std::move(named)))` becomes an illegal instruction: name the answer first.
 
 co_await_trap.py SOURCE_DIR     checks the sources
 co_await_trap.py --self-test    proves that planted samples are seen and good code is not
@@ -20,6 +21,7 @@ CAPTURING = re.compile(r"(?:^|[(,=&|]|\bco_await|\breturn)\s*\[\s*[^\]\s][^\]]*\
 BRACED = re.compile(r"(?:^|[(,]|\bco_await)\s*(?:((?:\w+::)*[A-Z]\w*(?:<[^<>]*>)?)\s*)?\{")
 COROUTINE_LAMBDA = re.compile(r"\[\s*[^\]\s][^\]]*\]\s*\([^()]*(?:\([^()]*\)[^()]*)*\)\s*(?:mutable\s*)?"
                               r"->\s*(?:\w+::)*(?:Task|awaitable)\b")
+CONDITION = re.compile(r"\b(?:if|while)\s*\(\s*!?\s*$")
 
 
 def blank_noise(text):
@@ -51,6 +53,8 @@ def complaints(path, source):
             yield f"{path}:{line}: a capturing lambda inside co_await: name it first"
         if BRACED.search(expression):
             yield f"{path}:{line}: a braced temporary inside co_await: name it first"
+        if CONDITION.search(text[max(0, found.start() - 40):found.start()]) and "std::move" in expression:
+            yield f"{path}:{line}: a condition awaits what takes a moved value: name its answer first"
     for found in COROUTINE_LAMBDA.finditer(text):
         line = text.count("\n", 0, found.start()) + 1
         yield f"{path}:{line}: a coroutine that is a capturing lambda: make it a function"
@@ -64,6 +68,7 @@ BAD = [
     "co_await open(a, LinkSettings{.path = p});",
     "const auto r =\n    co_await read(\n        ModbusRead{1, 3});",
     "auto task = [this]() -> Task<void> { co_return; };",
+    "if (co_await wait.until_taken_over(recovery, std::move(told))) open_port();",
     "co_spawn(loop, [&session]() -> boost::asio::awaitable<void> { co_return; }, detached);",
 ]
 GOOD = [
@@ -72,6 +77,8 @@ GOOD = [
     "if (co_await ready(deadline + std::chrono::seconds{1})) { Arguments a{1}; }",
     "post(loop, [x] { use(x); });\nco_await timer.async_wait(token);",
     "co_await f(table[index], 2); // co_await f([x]{})",
+    "if (auto taken = co_await f(std::move(named)); !taken) return;",
+    "if (co_await f(named)) g(std::move(named));",
     'log("co_await f(Arguments{x})");',
 ]
 
