@@ -1,8 +1,15 @@
 #pragma once
-// What a test that a person orders is opened with.
+// What a test that a person orders is opened with, and what speaks against one of any kind.
 
 #include "acquisition/measurement/positioning/positioning_port.hpp"
+#include "acquisition/measurement/run_header.hpp"
+#include "analysis/quantity/result.hpp"
+#include "analysis/record/run_revisions.hpp"
+#include "analysis/record/test_kind.hpp"
+#include "config/station_config.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <string>
 
 namespace axiscal {
@@ -27,5 +34,21 @@ struct OrderContext : PositioningContext {
     UnderWay& under_way;
     const std::string& may_sleep; ///< why the computer may fall asleep; empty: it may not
 };
+
+/// No reason overrides this. @errors Fault::refused
+Result<void> plays_no_tape(const StationConfig& config);
+/// @errors Fault::not_durable
+Result<void> disk_takes_records(const OrderContext& context);
+/// No test is open, whatever its kind, and nobody opens one or adds to one. @errors Fault::busy
+Result<void> nothing_goes_on(const OrderContext& context);
+
+/// Of a test that is opened now. @param plan  of the axis; of other tests empty
+RunHeaderParts header_parts(const OrderContext& context, TestKind kind, RunPlan plan);
+/// It takes the place of the last one before the CNC, and records.
+/// @param test  its file is open
+void begin_before_cnc(const OrderContext& context,
+                      const std::shared_ptr<Measurement>& test,
+                      std::int64_t opened_utc_ns,
+                      const Orderer& by);
 
 } // namespace axiscal

@@ -2,9 +2,13 @@
 
 #include "acquisition/live/roles.hpp"
 #include "acquisition/measurement/circular/circle_facts.hpp"
+#include "acquisition/measurement/circular/open_circles.hpp"
 #include "acquisition/measurement/positioning/axis_facts.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
+#include "acquisition/measurement/positioning/open_positioning.hpp"
 #include "acquisition/runfile/run_file.hpp"
+
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -20,6 +24,16 @@ bool is_measured_by_ballbar(TestKind kind) {
 }
 
 } // namespace
+
+Task<Result<std::string>> open_ordered(OrderContext context, ArmRequest request) {
+    switch (request.kind) {
+    case TestKind::positioning: co_return co_await open_positioning(context, std::move(request));
+    case TestKind::circular: co_return co_await open_circles(context, std::move(request));
+    case TestKind::drift:
+    case TestKind::probing: break;
+    }
+    co_return refuse(Fault::bad_request, "pass", "is of a test that is not armed");
+}
 
 TestKind kind_that_is_checked(const OrderContext& context, const ArmRequest& request) {
     const bool asked =

@@ -7,12 +7,18 @@
 #include "acquisition/preflight/preflight.hpp"
 #include "analysis/quantity/result.hpp"
 #include "analysis/record/test_kind.hpp"
+#include "drivers/loop/scheduler.hpp"
 
+#include <string>
 #include <vector>
 
 namespace axiscal {
 
 struct WantedDrift;
+
+/// As StationInterface::arm. A drift test is ordered by open_drift().
+/// @errors Fault::bad_request for a kind that is not armed.
+Task<Result<std::string>> open_ordered(OrderContext context, ArmRequest request);
 
 /// Whose readings the pre-flight checks look at: circles, where they are asked for or nothing
 /// measures an axis, and the station has what they need; else the axis.

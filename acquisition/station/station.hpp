@@ -1,6 +1,6 @@
 #pragma once
-// The station: joins instruments, trigger port, tests and journal on one loop. It decides whether a
-// test may begin, and nothing about the test itself. Loop-bound.
+// The station: joins instruments, trigger port, tests and journal on one loop. What a kind of test
+// is, and what speaks against one, stands in acquisition/measurement. Loop-bound.
 //
 // Its tasks end with the loop: when a station is destroyed, the loop must not run again.
 
@@ -15,7 +15,6 @@
 #include "acquisition/measurement/beam_watch.hpp"
 #include "acquisition/measurement/certificates.hpp"
 #include "acquisition/measurement/disk_wait.hpp"
-#include "acquisition/measurement/drift/resting_test.hpp"
 #include "acquisition/measurement/latest_tests.hpp"
 #include "acquisition/measurement/measurement.hpp"
 #include "acquisition/measurement/order_context.hpp"
@@ -24,7 +23,6 @@
 #include "acquisition/measurement/recovery.hpp"
 #include "acquisition/measurement/revisable.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
-#include "acquisition/measurement/run_header.hpp"
 #include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/sleep_lock.hpp"
 #include "config/station_config.hpp"
@@ -112,43 +110,13 @@ private:
     /// An event of this moment, with the next commit.
     void record(EventKind kind, std::string sentence, Fault fault = Fault::none);
 
-    // station_circular.cpp: a circular test is ordered; CircleMeasurement is the test itself
-    [[nodiscard]] Result<void> ready_for_circles() const;
-    /// It did so within the last two seconds; in its range or not.
-    [[nodiscard]] Result<void> ballbar_speaks() const;
-    Task<Result<std::string>> arm_circular(ArmRequest request);
-    Task<Result<std::string>> open_circular(ArmRequest request);
-
     /// What the last daemon left, tried until the disk takes records; opens the port then.
     Task<void> open_port_once_taken_over(std::string told);
-
-    // station_arm.cpp: a positioning run is ordered; PositioningMeasurement is the run itself
-    Task<Result<std::string>> arm_axis(ArmRequest request);
-    Task<Result<std::string>> open_and_tie(ArmRequest request);
-    /// It takes the place of the last run, or circular test, and begins.
-    void
-    begin(const std::shared_ptr<Measurement>& test, std::int64_t opened_utc_ns, const Orderer& by);
-    [[nodiscard]] Result<void> plays_no_tape() const;
-    [[nodiscard]] Result<void> ready_to_measure() const;
-    [[nodiscard]] Result<void> disk_takes_records() const;
-    /// Neither run nor drift test is open, and nobody opens one. @errors Fault::busy
-    [[nodiscard]] Result<void> nothing_goes_on() const;
-    /// Of a test that is opened now. @param plan  of the axis; of other tests empty
-    [[nodiscard]] RunHeaderParts header_parts(TestKind kind, RunPlan plan) const;
 
     // station_revise.cpp: a person adds to a run, also after it was closed
     Task<Result<std::shared_ptr<Revisable>>> run_to_revise();
     [[nodiscard]] Result<std::shared_ptr<Revisable>> run_that_may_be_revised() const;
     void find_out_about_order(const Revisable& test);
-
-    // station_drift.cpp: a drift test is ordered; DriftMeasurement is the test itself
-    [[nodiscard]] bool drift_is_of_bar(const DriftRequest& request) const;
-    [[nodiscard]] Result<void> ready_for_drift(bool of_bar) const;
-    [[nodiscard]] Result<RestingTest> drift_of_axis(const DriftRequest& request) const;
-    [[nodiscard]] Result<RestingTest> drift_of_bar(const DriftRequest& request) const;
-    Task<Result<std::string>> open_drift(DriftRequest request, bool of_bar);
-    [[nodiscard]] Result<void> rests_at(Length place) const;
-    [[nodiscard]] bool drift_open() const { return tests_.rest_goes_on(); }
 
     // station_view.cpp
     void publish_to_port();
@@ -181,6 +149,7 @@ private:
     [[nodiscard]] bool run_open() const { return tests_.run_open(); }
     [[nodiscard]] bool takes_records() const { return tests_.takes_records(); }
     [[nodiscard]] bool is_unwritten() const { return tests_.is_unwritten(); }
+    [[nodiscard]] bool drift_open() const { return tests_.rest_goes_on(); }
     /// Also of the newest run of the last daemon.
     [[nodiscard]] bool broken_off() const;
     [[nodiscard]] ChannelFacts channels() const {

@@ -101,6 +101,11 @@ StationStatus Station::status() const {
     return status;
 }
 
+std::optional<StreamView> Station::stream(std::size_t most) const {
+    if (!last_run()) return std::nullopt;
+    return last_run()->stream(most);
+}
+
 AlignmentView Station::alignment() const {
     return beam_.view();
 }

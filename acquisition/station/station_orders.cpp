@@ -1,0 +1,50 @@
+// What people order. Each kind of test says itself what speaks against it, and how it is opened.
+#include "acquisition/station/station.hpp"
+
+#include "acquisition/measurement/drift/open_drift.hpp"
+#include "acquisition/measurement/order_checks.hpp"
+#include "acquisition/measurement/ordered_kinds.hpp"
+
+#include <utility>
+
+namespace axiscal {
+
+Task<Result<std::string>> Station::arm(ArmRequest request) {
+    return open_ordered(order_context(), std::move(request));
+}
+
+Task<Result<std::string>> Station::drift(DriftRequest request) {
+    return open_drift(order_context(), std::move(request));
+}
+
+Task<Result<std::vector<PreflightRecord>>> Station::preflight(ArmRequest request) {
+    return preflight_of(order_context(), std::move(request));
+}
+
+Result<void> Station::align(AlignmentOrder order) {
+    return beam_.carry_out(order);
+}
+
+Result<void> Station::trigger() {
+    if (!last_run()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
+    return last_run()->trigger();
+}
+
+Result<void> Station::type_reading(double seconds_of_arc) {
+    if (!reads_polygon() || reads_faces())
+        return fail(Fault::bad_request,
+                    std::string{"this station reads its "} +
+                        (reads_faces() ? "autocollimator" : "length") +
+                        " by itself: 'axiscal trigger' captures the next point");
+    if (!last_run()) return fail(Fault::no_run_armed, "'axiscal arm' opens a run");
+    return last_run()->type_reading(seconds_of_arc);
+}
+
+Task<Result<RunEnding>> Station::abort(std::string reason, Orderer by) {
+    // The next one may take its place before this returns.
+    const std::shared_ptr<Measurement> test = drift_open() ? tests_.resting() : last_run();
+    if (!test) co_return fail(Fault::no_run_armed, "there is nothing to abort");
+    co_return co_await test->abort(std::move(reason), std::move(by));
+}
+
+} // namespace axiscal
