@@ -14,9 +14,9 @@ double as_written(double value) {
     return std::round(value * 1e9) / 1e9;
 }
 
-std::vector<std::string> parameters_of(std::initializer_list<TestKind> kinds) {
+std::vector<std::string> all_parameters() {
     std::vector<std::string> names;
-    for (const TestKind kind : kinds)
+    for (const TestKind kind : all_test_kinds)
         for (const std::string_view name : judged_parameters(kind))
             names.emplace_back(name);
     return names;
@@ -47,9 +47,7 @@ void read_band(Settings& table, AxisUnits units, ToleranceLimit& limit) {
 
 ToleranceLimit read_one(Settings table, AxisKind kind) {
     ToleranceLimit limit;
-    limit.parameter =
-        table.choice("parameter", parameters_of({TestKind::positioning, TestKind::circular,
-                                                 TestKind::drift, TestKind::probing}));
+    limit.parameter = table.choice("parameter", all_parameters());
     if (table.refused("parameter")) limit.parameter.clear();
     limit.limit = read_limit(table, limit.parameter, kind);
     read_band(table, AxisUnits{kind}, limit);

@@ -34,8 +34,7 @@ void read_run(RunRecord& run, RowReader& in) {
 }
 
 void read_test(RunRecord& run, RowReader& in) {
-    run.kind =
-        in.choice({TestKind::positioning, TestKind::circular, TestKind::drift, TestKind::probing});
+    run.kind = in.one_of(all_test_kinds);
 }
 
 void read_plan(RunRecord& run, RowReader& in) {
@@ -172,8 +171,8 @@ void read_tolerance_set(RunRecord& run, RowReader& in) {
     set.name = in.text();
     set.source = in.text();
     set.unit = in.text();
-    set.rule = in.choice({DecisionRule::none, DecisionRule::iso_14253_1_2017,
-                          DecisionRule::guard_U, DecisionRule::simple});
+    set.rule = in.choice({DecisionRule::none, DecisionRule::iso_14253_1_2017, DecisionRule::guard_U,
+                          DecisionRule::simple});
     set.to_be_checked = in.flag();
     if (run.tolerances) return in.reject("stands there twice");
     run.tolerances = std::move(set);

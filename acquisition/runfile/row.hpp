@@ -65,9 +65,10 @@ public:
             bounded(std::numeric_limits<Integer>::min(), std::numeric_limits<Integer>::max()));
     }
     /// The one of `all` whose name_of is stored here.
-    template <class Choice> Choice choice(std::initializer_list<Choice> all) {
+    template <class Choice> Choice choice(std::initializer_list<Choice> all) { return one_of(all); }
+    template <class Choices> typename Choices::value_type one_of(const Choices& all) {
         const std::string name = text();
-        for (const Choice candidate : all)
+        for (const auto candidate : all)
             if (name_of(candidate) == name) return candidate;
         return reject("\"" + name + "\" is not known"), *all.begin();
     }

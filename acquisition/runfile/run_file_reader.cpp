@@ -297,7 +297,7 @@ Result<void> take_opening(const Database& database, RunSummary& summary) {
 
 /// Of a changed file the first kind: who reads all of it is told of the row.
 TestKind kind_named(const std::string& name) {
-    for (const TestKind kind : {TestKind::circular, TestKind::drift, TestKind::probing})
+    for (const TestKind kind : all_test_kinds)
         if (name == name_of(kind)) return kind;
     return TestKind::positioning;
 }

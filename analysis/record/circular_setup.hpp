@@ -87,6 +87,9 @@ struct CircularSetup {
     std::optional<double> bar_alpha_per_K, machine_alpha_per_K;
     std::optional<int> bar_temperature_channel; ///< ChannelRecord::id
     CircularUncertaintyStatement uncertainty;
+
+    static constexpr std::array<std::string_view, 8> judged{
+        "G_ccw", "G_cw", "G_b", "F_max_ccw", "F_max_cw", "F_min_ccw", "F_min_cw", "D"};
 };
 
 /// One circle of the program.

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -22,6 +23,9 @@ struct ProbingRecord {
     double feed_mm_per_min = 0;
     std::string probe, signal_path;    ///< as stated: type and stylus; skip input, PLC
     std::vector<ProbingTouch> touches; ///< in the order in which they were made
+
+    static constexpr std::array<std::string_view, 7> judged{
+        "E_TD,X", "E_TD,Y", "E_TD,Z", "E_TD,XY", "E_TD,XZ", "E_TD,YZ", "E_TD,XYZ"};
 };
 
 } // namespace axiscal

@@ -9,9 +9,12 @@
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/probing_record.hpp"
 #include "analysis/record/synchronisation.hpp"
+#include "analysis/record/test_kind.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -24,12 +27,15 @@ struct DriftSetup {
     Length place; ///< coordinate at which the axis rests; 0 for a ballbar, which has none
     /// Of the ballbar at rest: LaserSetup names its instrument and says nothing else.
     bool of_bar = false;
+
+    static constexpr std::array<std::string_view, 2> judged{"E_VE", "ETVE"};
 };
 
 /// What only RunRecord::kind has, one alternative a TestKind in its order. Of a positioning run the
 /// plan says all; that of a circular test comes with its first block, and nothing stands for it
-/// before.
+/// before. `judged` of each: the figures of its kind that a limit can name.
 using TestSetup = std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord>;
+static_assert(std::variant_size_v<TestSetup> == all_test_kinds.size());
 
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched

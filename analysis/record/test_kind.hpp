@@ -1,6 +1,7 @@
 #pragma once
 // What kind of test a run is. Pure data.
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -19,5 +20,9 @@ constexpr std::string_view name_of(TestKind kind) {
     }
     return "?";
 }
+
+/// In their order.
+inline constexpr std::array all_test_kinds{TestKind::positioning, TestKind::circular,
+                                           TestKind::drift, TestKind::probing};
 
 } // namespace axiscal

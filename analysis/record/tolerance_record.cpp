@@ -1,6 +1,9 @@
 #include "analysis/record/tolerance_record.hpp"
 
+#include "analysis/record/run_attachments.hpp"
+
 #include <algorithm>
+#include <variant>
 
 namespace axiscal {
 namespace {
@@ -37,22 +40,21 @@ constexpr std::array<std::string_view, 32> of_positioning{"A",
                                                           "repeatability_backward",
                                                           "positioning",
                                                           "lost_motion"};
-constexpr std::array<std::string_view, 8> of_circles{
-    "G_ccw", "G_cw", "G_b", "F_max_ccw", "F_max_cw", "F_min_ccw", "F_min_cw", "D"};
-constexpr std::array<std::string_view, 2> of_drift{"E_VE", "ETVE"};
-constexpr std::array<std::string_view, 7> of_probing{"E_TD,X",  "E_TD,Y",  "E_TD,Z",  "E_TD,XY",
-                                                     "E_TD,XZ", "E_TD,YZ", "E_TD,XYZ"};
+
+using JudgedParameters = std::span<const std::string_view>;
+
+/// Of each kind, in the order of TestKind.
+template <class... Setups>
+constexpr std::array<JudgedParameters, 1 + sizeof...(Setups)>
+judged_of_each(std::variant<std::monostate, Setups...>* /*types alone*/) {
+    return {JudgedParameters{of_positioning}, JudgedParameters{Setups::judged}...};
+}
 
 } // namespace
 
 std::span<const std::string_view> judged_parameters(TestKind kind) {
-    switch (kind) {
-    case TestKind::positioning: return of_positioning;
-    case TestKind::circular: return of_circles;
-    case TestKind::drift: return of_drift;
-    case TestKind::probing: return of_probing;
-    }
-    return {};
+    constexpr auto each = judged_of_each(static_cast<TestSetup*>(nullptr));
+    return each[static_cast<std::size_t>(kind)];
 }
 
 std::optional<ToleranceRecord> limits_of_kind(const ToleranceRecord& set, TestKind kind) {
