@@ -1,5 +1,6 @@
 #pragma once
-// What writing and reading of rows share: the columns of every table, names of statements. Pure.
+// What writing and reading of rows share: the columns of every table but those of setups/, names of
+// statements. Pure.
 
 #include "acquisition/runfile/record_rows.hpp"
 
@@ -7,7 +8,7 @@
 
 namespace axiscal {
 
-/// In the order of the chain.
+/// Of every kind of test.
 inline constexpr std::array tables{
     Table{"run",
           "run_id, software_version, station, station_config, config_hash, boot_id, "
@@ -62,11 +63,6 @@ inline constexpr std::array tables{
           "iittrriiiRRRRIIR"},
     Table{"alignment_place",
           "begin_m, end_m, readings, weakest_percent, mean_percent, last_percent", "rrirrr"},
-    Table{"drift", "duration_ns, interval_ns, place_m, of_bar", "iiri"},
-    Table{"probing", "feed_mm_per_min, probe, signal_path", "rtt"},
-    Table{"probing_touch",
-          "direction_x, direction_y, direction_z, reference, approach_m, x_m, y_m, z_m",
-          "rrrirrrr"},
     Table{"eve_source", "run_id", "t"},
     Table{"datum",
           "id, at_ns, coordinate_m, reading_m, epoch, spread_m, slope_um_per_s, n, sequence, "
@@ -79,20 +75,6 @@ inline constexpr std::array tables{
           "iiiititiiirrrirtrIRb"},
     Table{"environment", "channel, at_ns, value", "iir"},
     Table{"event", "kind, at_ns, utc_ns, text, fault, sequence", "tiitti"},
-    Table{"circular",
-          "plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg, "
-          "overshoot_deg, feed_in_mm, feed_in_outside, centre_x_mm, centre_y_mm, centre_z_mm, "
-          "tool_offset, work_offset, sample_rate_hz, low_pass_hz, averaged, start_from, "
-          "trigger_delay_s",
-          "trrtiirrrrirrrttrRitr"},
-    Table{"circular_bar",
-          "instrument, sign, length_mm, bar_alpha_per_K, machine_alpha_per_K, temperature_channel",
-          "tirRRI"},
-    Table{"circular_uncertainty",
-          "device_width_um, calibration_U_um, calibration_k, repeatability_um, eve_um, "
-          "centre_width_um, machine_temperature_width_K, bar_temperature_width_K, "
-          "machine_alpha_width_per_K, bar_alpha_width_per_K, runs",
-          "RRRRRRRRRRi"},
     Table{"stream", "id, channel, name, unit, nominal_rate_hz", "iittr"},
     Table{"stream_block",
           "stream, block, first_count, samples, missing, before, begin_ns, end_ns, low, high, "

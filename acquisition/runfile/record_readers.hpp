@@ -1,6 +1,7 @@
 #pragma once
 // One function a chained table: takes a row's values in the order of its columns into the record.
-// What they refuse is remembered by the reader. Internal to record_rows_read*.cpp. Pure.
+// What they refuse is remembered by the reader. Internal to record_rows_read*.cpp and setups/.
+// Pure.
 
 #include "acquisition/runfile/record_rows.hpp"
 
@@ -16,13 +17,13 @@ using ReadMeasuredRow = void(RunRecord& run, RowReader& in);
 ReadMeasuredRow read_run, read_test, read_plan, read_target, read_plan_point, read_laser,
     read_material, read_air, read_rotary, read_rotary_deviation, read_linear_scale,
     read_linear_scale_sensor, read_imported, read_uncertainty, read_uncertainty_target,
-    read_tolerance_set, read_tolerance_limit, read_standard, read_statement, read_instrument, read_channel, read_channel_calibration, read_channel_correction;
+    read_tolerance_set, read_tolerance_limit, read_standard, read_statement, read_instrument,
+    read_channel, read_channel_calibration, read_channel_correction;
 ClockTie read_tie(RowReader& in);
 PlannedPoint read_planned(RowReader& in);
 
-// record_rows_read_tests.cpp
-ReadRow read_alignment, read_alignment_place, read_drift, read_probing, read_probing_touch,
-    read_eve_source, read_circular, read_circular_bar, read_circular_uncertainty;
+// record_rows_read_beside.cpp
+ReadRow read_alignment, read_alignment_place, read_eve_source;
 
 // record_rows_read_course.cpp
 ReadMeasuredRow read_environment, read_event;

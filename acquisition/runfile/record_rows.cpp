@@ -1,4 +1,6 @@
 #include "acquisition/runfile/record_columns.hpp"
+#include "acquisition/runfile/row_values.hpp"
+#include "acquisition/runfile/setups/setup_rows.hpp"
 #include "acquisition/runfile/window_packing.hpp"
 
 #include <algorithm>
@@ -7,21 +9,14 @@
 namespace axiscal {
 namespace {
 
-template <class Integer> Value whole(Integer number) {
-    return static_cast<std::int64_t>(number);
-}
+using row_values::chained;
+using row_values::optional;
+using row_values::si_or_nothing;
+using row_values::text;
+using row_values::whole;
+
 Value nanoseconds(MonotonicTime at) {
     return nanoseconds_of(at);
-}
-Value optional(const std::optional<double>& number) {
-    return number ? Value{*number} : Value{};
-}
-Value text(std::string_view words) {
-    return std::string{words};
-}
-
-ChainedRow chained(std::string_view table, Row row) {
-    return {&table_named(table), std::move(row)};
 }
 
 ChainedRow row_of_plan(const RunPlan& plan) {
@@ -63,10 +58,6 @@ ChainedRow row_of_rotary(const RotarySetup& rotary) {
                  run_out] = rotary;
     return chained("rotary", {text(name_of(method)), step_deg, arm.si(), range_deg,
                               whole(turn_time.count()), whole(by_hand), whole(with_axis), run_out});
-}
-
-template <class Amount> Value si_or_nothing(const std::optional<Amount>& amount) {
-    return amount ? Value{amount->si()} : Value{};
 }
 
 ChainedRow row_of_scale(const ScaleSetup& scale) {
@@ -131,12 +122,6 @@ ChainedRow row_of_place(const AlignmentPlace& place) {
     const auto& [begin, end, readings, weakest, mean, last] = place;
     return chained("alignment_place", {begin.si(), end.si(), whole(readings), weakest, mean, last});
 }
-ChainedRow row_of_touch(const ProbingTouch& touch) {
-    const auto& [direction, reference, approach, latched] = touch;
-    return chained("probing_touch",
-                   {direction[0], direction[1], direction[2], whole(reference), approach.si(),
-                    latched[0].si(), latched[1].si(), latched[2].si()});
-}
 
 std::vector<ChainedRow> rows_of(const ToleranceRecord& set) {
     const auto& [name, source, unit, rule, to_be_checked, limits] = set;
@@ -147,32 +132,12 @@ std::vector<ChainedRow> rows_of(const ToleranceRecord& set) {
     return rows;
 }
 
-std::vector<ChainedRow> rows_of(std::monostate /*positioning*/) {
-    return {};
-}
-
-std::vector<ChainedRow> rows_of(const DriftSetup& drift) {
-    const auto& [duration, interval, place, of_bar] = drift;
-    return {chained("drift",
-                    {whole(duration.count()), whole(interval.count()), place.si(), whole(of_bar)})};
-}
-
-std::vector<ChainedRow> rows_of(const ProbingRecord& probing) {
-    const auto& [feed_mm_per_min, probe, signal_path, touches] = probing;
-    std::vector<ChainedRow> rows{chained("probing", {feed_mm_per_min, probe, signal_path})};
-    for (const ProbingTouch& touch : touches)
-        rows.push_back(row_of_touch(touch));
-    return rows;
-}
-
 } // namespace
 
-std::span<const Table> chained_tables() {
-    return tables;
-}
-
-const Table& table_named(std::string_view name) {
-    return *std::ranges::find(tables, name, &Table::name);
+std::vector<ChainedRow> rows_of(const TestSetup& setup) {
+    const auto all = setup_rows();
+    const auto own = std::ranges::find(all, static_cast<TestKind>(setup.index()), &SetupRows::kind);
+    return own == all.end() ? std::vector<ChainedRow>{} : (*own)->rows(setup);
 }
 
 std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachments& attachments) {
@@ -227,8 +192,7 @@ std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachment
         for (const AlignmentPlace& place : alignment->places)
             rows.push_back(row_of_place(place));
     }
-    std::ranges::move(std::visit([](const auto& known) { return rows_of(known); }, setup),
-                      std::back_inserter(rows));
+    std::ranges::move(rows_of(setup), std::back_inserter(rows));
     if (!eve_source.empty()) rows.push_back(chained("eve_source", {eve_source}));
     return rows;
 }
@@ -294,64 +258,6 @@ ChainedRow row_of(const Closing& closing) {
     const auto& [complete, reason, tie] = closing;
     return chained("closing", {whole(complete), reason, nanoseconds(tie.before), tie.utc_ns,
                                nanoseconds(tie.after)});
-}
-
-namespace {
-
-ChainedRow row_of_circular(const CircularPlan& plan, const CircularCapture& capture) {
-    const auto& [plane, radius_mm, feed_mm_per_s, senses, repeats, warm_up, start_deg, arc_deg,
-                 overshoot_deg, feed_in_mm, feed_in_outside, centre_mm, tool_offset, work_offset,
-                 start, trigger_delay_s] = plan;
-    std::string words;
-    for (const Sense sense : senses)
-        words += (words.empty() ? "" : " ") + std::string{name_of(sense)};
-    return chained("circular", {text(name_of(plane)),
-                                radius_mm,
-                                feed_mm_per_s,
-                                words,
-                                whole(repeats),
-                                whole(warm_up),
-                                start_deg,
-                                arc_deg,
-                                overshoot_deg,
-                                feed_in_mm,
-                                whole(feed_in_outside),
-                                centre_mm[0],
-                                centre_mm[1],
-                                centre_mm[2],
-                                tool_offset,
-                                work_offset,
-                                capture.sample_rate_hz,
-                                optional(capture.low_pass_hz),
-                                whole(capture.averaged),
-                                text(name_of(start)),
-                                trigger_delay_s});
-}
-
-ChainedRow row_of_statement(const CircularUncertaintyStatement& statement) {
-    const auto& [device, calibration_U, calibration_k, repeatability, eve, centre, machine_degC,
-                 bar_degC, machine_alpha, bar_alpha, runs] = statement;
-    return chained("circular_uncertainty",
-                   {optional(device), optional(calibration_U), optional(calibration_k),
-                    optional(repeatability), optional(eve), optional(centre),
-                    optional(machine_degC), optional(bar_degC), optional(machine_alpha),
-                    optional(bar_alpha), whole(runs)});
-}
-
-} // namespace
-
-std::vector<ChainedRow> rows_of(const CircularSetup& setup) {
-    const auto& [plan, capture, bar_instrument, bar_sign, bar_length_mm, bar_alpha, machine_alpha,
-                 temperature_channel, uncertainty] = setup;
-    Value channel;
-    if (temperature_channel) channel = whole(*temperature_channel);
-    std::vector<ChainedRow> rows;
-    rows.push_back(row_of_circular(plan, capture));
-    rows.push_back(
-        chained("circular_bar", {bar_instrument, whole(bar_sign), bar_length_mm,
-                                 optional(bar_alpha), optional(machine_alpha), channel}));
-    rows.push_back(row_of_statement(uncertainty));
-    return rows;
 }
 
 ChainedRow row_of(const StreamSetup& stream) {

@@ -33,7 +33,7 @@ struct ChainedRow {
     Row row;
 };
 
-/// Every table whose rows are links of the chain, `run` first and `closing` last.
+/// Every table whose rows are links of the chain, in the order of the schema: `run` is the first.
 std::span<const Table> chained_tables();
 const Table& table_named(std::string_view name);
 
@@ -47,7 +47,8 @@ ChainedRow row_of(const PointRecord& point, const std::optional<Synchronisation>
 ChainedRow row_of(const EnvironmentReading& reading);
 ChainedRow row_of(const EventRecord& event);
 ChainedRow row_of(const Closing& closing);
-std::vector<ChainedRow> rows_of(const CircularSetup& setup);
+/// None of a positioning run, whose plan says all.
+std::vector<ChainedRow> rows_of(const TestSetup& setup);
 ChainedRow row_of(const StreamSetup& stream);
 ChainedRow row_of(const StreamBlock& block);
 ChainedRow row_of(const PreflightRecord& check);

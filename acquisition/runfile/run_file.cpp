@@ -63,7 +63,7 @@ Result<void> check_before_writing(const ChainedRow& row) {
 /// What a circular test adds; the chunks are compressed here, on the journal's own thread.
 std::vector<ChainedRow> circular_rows(const RunBatch& batch) {
     std::vector<ChainedRow> rows;
-    if (batch.circular) rows = rows_of(*batch.circular);
+    if (batch.circular) rows = rows_of(TestSetup{*batch.circular});
     for (const auto& stream : batch.streams)
         rows.push_back(row_of(stream));
     for (const auto& chunk : batch.chunks)

@@ -1,5 +1,5 @@
 #pragma once
-// schema.sql beside this file as text, put into the program by CMake.
+// schema.sql beside this file, and the tables of setups/, as text; put into the program by CMake.
 
 namespace axiscal {
 

@@ -1,5 +1,6 @@
 -- Schema of an axiscal run file. docs/run-file.md explains tables, units and the hash chain.
 -- Columns of type ANY hold IEEE doubles: STRICT's REAL would turn a negative zero into zero.
+-- A line that is the name of a file stands for the tables in it, those of one kind of test.
 -- The header: written when the run is armed.
 CREATE TABLE run(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, software_version TEXT NOT NULL,
     station TEXT NOT NULL, station_config TEXT NOT NULL, config_hash TEXT NOT NULL,
@@ -83,16 +84,8 @@ CREATE TABLE alignment(link INTEGER PRIMARY KEY, began_utc_ns INTEGER NOT NULL,
 CREATE TABLE alignment_place(link INTEGER PRIMARY KEY, begin_m ANY NOT NULL, end_m ANY NOT NULL,
     readings INTEGER NOT NULL, weakest_percent ANY NOT NULL, mean_percent ANY NOT NULL,
     last_percent ANY NOT NULL, hash BLOB NOT NULL) STRICT;
--- Of a drift test; of a probing test.
-CREATE TABLE drift(link INTEGER PRIMARY KEY, duration_ns INTEGER NOT NULL,
-    interval_ns INTEGER NOT NULL, place_m ANY NOT NULL, of_bar INTEGER NOT NULL,
-    hash BLOB NOT NULL) STRICT;
-CREATE TABLE probing(link INTEGER PRIMARY KEY, feed_mm_per_min ANY NOT NULL, probe TEXT NOT NULL,
-    signal_path TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
-CREATE TABLE probing_touch(link INTEGER PRIMARY KEY, direction_x ANY NOT NULL,
-    direction_y ANY NOT NULL, direction_z ANY NOT NULL, reference INTEGER NOT NULL,
-    approach_m ANY NOT NULL, x_m ANY NOT NULL, y_m ANY NOT NULL, z_m ANY NOT NULL,
-    hash BLOB NOT NULL) STRICT;
+-- setups/drift.sql
+-- setups/probing.sql
 -- The drift test that a budget's E_VE comes from.
 CREATE TABLE eve_source(link INTEGER PRIMARY KEY, run_id TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
 -- The run: what was captured, what was decided, how it ended. u_t_ns: u(t) of the samples;
@@ -115,24 +108,8 @@ CREATE TABLE environment(link INTEGER PRIMARY KEY, channel INTEGER NOT NULL,
 CREATE TABLE event(link INTEGER PRIMARY KEY, kind TEXT NOT NULL, at_ns INTEGER NOT NULL,
     utc_ns INTEGER NOT NULL, text TEXT NOT NULL, fault TEXT NOT NULL, sequence INTEGER NOT NULL,
     hash BLOB NOT NULL) STRICT;
--- A circular test: its plan, and channels recorded at their full rate. docs/run-file.md explains the
--- bytes of stream_block.data.
-CREATE TABLE circular(link INTEGER PRIMARY KEY, plane TEXT NOT NULL, radius_mm ANY NOT NULL,
-    feed_mm_per_s ANY NOT NULL, senses TEXT NOT NULL, repeats INTEGER NOT NULL,
-    warm_up INTEGER NOT NULL, start_deg ANY NOT NULL, arc_deg ANY NOT NULL,
-    overshoot_deg ANY NOT NULL, feed_in_mm ANY NOT NULL, feed_in_outside INTEGER NOT NULL,
-    centre_x_mm ANY NOT NULL, centre_y_mm ANY NOT NULL, centre_z_mm ANY NOT NULL,
-    tool_offset TEXT NOT NULL, work_offset TEXT NOT NULL, sample_rate_hz ANY NOT NULL,
-    low_pass_hz ANY, averaged INTEGER NOT NULL, start_from TEXT NOT NULL,
-    trigger_delay_s ANY NOT NULL, hash BLOB NOT NULL) STRICT;
-CREATE TABLE circular_bar(link INTEGER PRIMARY KEY, instrument TEXT NOT NULL,
-    sign INTEGER NOT NULL, length_mm ANY NOT NULL, bar_alpha_per_K ANY, machine_alpha_per_K ANY,
-    temperature_channel INTEGER, hash BLOB NOT NULL) STRICT;
-CREATE TABLE circular_uncertainty(link INTEGER PRIMARY KEY, device_width_um ANY,
-    calibration_U_um ANY, calibration_k ANY, repeatability_um ANY, eve_um ANY,
-    centre_width_um ANY, machine_temperature_width_K ANY, bar_temperature_width_K ANY,
-    machine_alpha_width_per_K ANY, bar_alpha_width_per_K ANY, runs INTEGER NOT NULL,
-    hash BLOB NOT NULL) STRICT;
+-- setups/circular.sql
+-- Channels recorded at their full rate. docs/run-file.md explains the bytes of stream_block.data.
 CREATE TABLE stream(link INTEGER PRIMARY KEY, id INTEGER NOT NULL UNIQUE,
     channel INTEGER NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL,
     nominal_rate_hz ANY NOT NULL, hash BLOB NOT NULL) STRICT;

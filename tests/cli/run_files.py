@@ -3,6 +3,7 @@
 A run is a list of (table, values) in the order of the chain; nothing of the product is used.
 """
 import contextlib
+import glob
 import hashlib
 import os
 import re
@@ -10,7 +11,7 @@ import sqlite3
 import struct
 
 IDENTITY, FORMAT = 0x4158434C, 1
-NAMES_OF_COLUMNS = "record_columns.hpp"
+NAMES_OF_COLUMNS = "record_columns.hpp", "setups/*.cpp"
 
 
 def canonical(table, values):
@@ -32,11 +33,29 @@ def canonical(table, values):
     return out
 
 
+def texts_of(source, pattern):
+    """{name: text} of files of acquisition/runfile, sorted."""
+    home = os.path.join(source, "acquisition", "runfile")
+    texts = {}
+    for path in sorted(glob.glob(os.path.join(home, pattern))):
+        with open(path, encoding="utf-8") as file:
+            texts[os.path.relpath(path, home)] = file.read()
+    return texts
+
+
+def schema_of(source):
+    """schema.sql with the tables of each kind where it names their file, else at its end."""
+    (schema,) = texts_of(source, "schema.sql").values()
+    for name, tables in texts_of(source, "setups/*.sql").items():
+        line = f"-- {name}\n"
+        schema = schema.replace(line, tables) if line in schema else schema + tables
+    return schema
+
+
 def new_file(path, source):
     """An empty run file, with every table."""
     base = sqlite3.connect(path)
-    with open(os.path.join(source, "acquisition", "runfile", "schema.sql"), encoding="utf-8") as schema:
-        base.executescript("\n".join(l for l in schema.read().splitlines() if not l.startswith("--")))
+    base.executescript("\n".join(l for l in schema_of(source).splitlines() if not l.startswith("--")))
     base.execute(f"PRAGMA application_id={IDENTITY}")
     base.execute(f"PRAGMA user_version={FORMAT}")
     return base
@@ -56,8 +75,8 @@ def tables_of(base):
 
 def tables_of_program(source):
     """The tables of the chain, as the program knows them."""
-    with open(os.path.join(source, "acquisition", "runfile", NAMES_OF_COLUMNS), encoding="utf-8") as text:
-        return re.findall(r'^    Table\{"(\w+)"', text.read(), re.M)
+    return [name for pattern in NAMES_OF_COLUMNS for text in texts_of(source, pattern).values()
+            for name in re.findall(r'\bTable\{"(\w+)"', text)]
 
 
 def rows_of(base):

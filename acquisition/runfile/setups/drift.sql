@@ -1,0 +1,3 @@
+CREATE TABLE drift(link INTEGER PRIMARY KEY, duration_ns INTEGER NOT NULL,
+    interval_ns INTEGER NOT NULL, place_m ANY NOT NULL, of_bar INTEGER NOT NULL,
+    hash BLOB NOT NULL) STRICT;
