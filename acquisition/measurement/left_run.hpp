@@ -22,7 +22,6 @@ struct LeftClosing {
     std::string reason;
     Fault fault = Fault::none;
     As as = As::incomplete;
-    bool may_stay_open = false; ///< nobody is told, and nothing waits, where it cannot be closed
 };
 
 struct LeftRun {

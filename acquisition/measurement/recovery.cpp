@@ -93,10 +93,8 @@ Task<Result<void>> Recovery::resume_or_close(std::string path) {
     }
     AXISCAL_CO_TRY(TakenOver taken, co_await take_over_left(context_, std::move(left)));
     if (taken.test) co_return co_await go_on(std::move(taken), opened_utc_ns);
-    const bool may_stay_open = taken.closing.may_stay_open;
     Result<void> closed = co_await close(std::move(path), std::move(taken.closing));
     if (!by_cnc) why_not_.reset(); // no CNC waits for it
-    if (may_stay_open) co_return Result<void>{};
     co_return closed;
 }
 

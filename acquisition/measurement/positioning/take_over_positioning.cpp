@@ -36,7 +36,6 @@ Task<Result<TakenOver>> take_over_positioning(PositioningContext context, LeftRu
     TakenOver taken;
     if (!context.roles.laser) {
         taken.closing = left.closed_for(why_not_without_counter(context), Fault::bad_configuration);
-        taken.closing.may_stay_open = true;
         co_return taken;
     }
     StationNow now = co_await station_after_restart(context, left.contents.run);

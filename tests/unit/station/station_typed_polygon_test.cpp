@@ -1,6 +1,9 @@
 // A rotary axis at the station, before a polygon whose readings are typed.
 #include "analysis/positioning/positioning_certificate.hpp"
 #include "rotary_bench.hpp"
+#include "tests/support/full_disk.hpp"
+
+#include <optional>
 
 namespace axiscal::station_typed_polygon_test {
 namespace {
@@ -66,6 +69,27 @@ TEST(StationRotary, WhatWasTypedIsNotGoneOnWithAfterARestart) {
     const Life again{shop};
     EXPECT_FALSE(again.status().run_open);
     EXPECT_EQ(again.notes_with("was typed before a restart"), 1);
+}
+
+TEST(StationRotary, OnAFullDiskWhatWasTypedIsClosedWhenThereIsRoom) {
+    PolygonShop shop;
+    {
+        Life life{shop};
+        ASSERT_TRUE(life.arm());
+        ASSERT_TRUE(life.station->type_reading(3));
+        life.run(1s);
+    }
+    std::optional<Life> again;
+    {
+        const FullDisk full;
+        again.emplace(shop);
+        again->run(30s);
+        EXPECT_EQ(again->port->runs, 0) << "its file is still open";
+        EXPECT_EQ(again->notes_with("cannot be taken over yet"), 1);
+    }
+    again->run_until([&] { return again->port->runs == 1; });
+    EXPECT_TRUE(summarize_run_file(shop.run_files().at(0))->closed);
+    EXPECT_EQ(again->notes_with("was typed before a restart"), 1);
 }
 
 TEST(StationRotary, TypedReadingsAreNotRecordedAgainstTime) {
