@@ -1,6 +1,6 @@
 #include "acquisition/measurement/order_checks.hpp"
 
-#include "acquisition/measurement/ordered_kinds.hpp"
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/measurement/preflight_facts.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 /// Nothing where the station file points to no drift test.
 Task<Result<std::optional<FoundEve>>> eve_for(OrderContext context, TestKind kind) {
-    WantedDrift wanted = drift_wanted_by(kind, context);
+    WantedDrift wanted = kind_row(kind).wanted_drift(context);
     if (wanted.which.empty()) co_return std::optional<FoundEve>{};
     const AxisKind axis = wanted.of_bar ? AxisKind::linear : context.config.cycle.axis_kind;
     std::string runs_folder = context.config.state_directory + "/runs";
@@ -27,8 +27,8 @@ Result<std::vector<PreflightRecord>> judge_order(const OrderContext& context,
                                                  const std::optional<FoundEve>& eve) {
     PreflightFacts facts = preflight_facts(context, request);
     if (eve) {
-        const TestKind kind = kind_that_is_checked(context, request);
-        AXISCAL_TRY(facts.eve, eve_facts_of_kind(kind, context, request, *eve));
+        const MeasurementKind& kind = kind_row(kind_that_is_checked(context, request));
+        AXISCAL_TRY(facts.eve, kind.eve_facts(context, request, *eve));
     }
     auto checks = judge_preflight(facts);
     AXISCAL_CHECK(override_checks(checks, request.overrides));

@@ -5,7 +5,7 @@
 #include "acquisition/live/roles.hpp"
 #include "acquisition/live/supervisor.hpp"
 #include "acquisition/measurement/latest_tests.hpp"
-#include "acquisition/measurement/ordered_kinds.hpp"
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
 
 #include <algorithm>
@@ -104,8 +104,8 @@ void add_strengths(const OrderContext& context, int length, PreflightFacts& fact
 
 PreflightFacts preflight_facts(const OrderContext& context, const ArmRequest& request) {
     PreflightFacts facts = facts_of_station(context, request);
-    const TestKind kind = kind_that_is_checked(context, request);
-    add_instruments(context, add_facts_of_kind(kind, context, facts), facts);
+    const MeasurementKind& kind = kind_row(kind_that_is_checked(context, request));
+    add_instruments(context, kind.add_facts(context, facts), facts);
     return facts;
 }
 

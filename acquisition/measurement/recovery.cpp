@@ -4,9 +4,8 @@
 #include "acquisition/live/notices.hpp"
 #include "acquisition/measurement/another_boot.hpp"
 #include "acquisition/measurement/certificates.hpp"
-#include "acquisition/measurement/left_kinds.hpp"
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
-#include "acquisition/measurement/positioning/take_over_positioning.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -74,13 +73,14 @@ void Recovery::keep_hold_of_broken_off(const StoredRuns& stored) {
     if (!stored.newest || tests_.run_open()) return;
     const auto now = std::ranges::find(stored.looked_into, stored.newest->path, &RunSummary::path);
     const RunSummary& last = now != stored.looked_into.end() ? *now : *stored.newest;
-    left_broken_off_ = last.closed && !last.complete && is_driven_by_cnc(last.kind) &&
+    left_broken_off_ = last.closed && !last.complete && kind_row(last.kind).driven_by_cnc &&
                        last.closing_reason != ended_by_cnc;
 }
 
 Task<Result<void>> Recovery::resume_or_close(std::string path) {
     AXISCAL_CO_TRY(RunFileContents contents, read_run_file_contents(path));
-    const bool by_cnc = is_driven_by_cnc(contents.run.kind);
+    const MeasurementKind& kind = kind_row(contents.run.kind);
+    const bool by_cnc = kind.driven_by_cnc;
     const std::int64_t opened_utc_ns = contents.run.opened.utc_ns;
     // Reopened for points to be taken again: what was measured before still makes a whole run.
     const bool whole =
@@ -91,7 +91,7 @@ Task<Result<void>> Recovery::resume_or_close(std::string path) {
             left.closed_for("Another run was open too; only one can go on.", Fault::busy);
         co_return co_await close(std::move(path), std::move(closing));
     }
-    AXISCAL_CO_TRY(TakenOver taken, co_await take_over_left(context_, std::move(left)));
+    AXISCAL_CO_TRY(TakenOver taken, co_await kind.take_over(context_, std::move(left)));
     if (taken.test) co_return co_await go_on(std::move(taken), opened_utc_ns);
     Result<void> closed = co_await close(std::move(path), std::move(taken.closing));
     if (!by_cnc) why_not_.reset(); // no CNC waits for it
@@ -158,18 +158,19 @@ Task<Result<RunSummary>> Recovery::newest_closed_run() {
                        "the last run, " + newest.run_id + ", was " +
                            (newest.closed ? "closed as incomplete" : "left open") +
                            ": arm a new one");
-    if (auto may = may_be_added_to(newest); !may) co_return tl::unexpected<Error>(may.error());
+    const auto refuse_addition = kind_row(newest.kind).refuse_addition;
+    if (refuse_addition != nullptr) co_return refuse_addition(newest);
     co_return newest;
 }
 
-/// Positioning runs alone may be added to.
 Task<Result<void>> Recovery::take_over_closed_run() {
     if (somebody_else_began()) co_return Result<void>{};
     AXISCAL_CO_TRY(const RunSummary newest, co_await newest_closed_run());
     if (somebody_else_began()) co_return fail(Fault::busy, "somebody else is at it just now");
     AXISCAL_CO_TRY(RunFileContents contents, co_await context_.journal.contents(newest.path));
-    auto test = co_await take_over_closed_positioning(context_, newest.path, std::move(contents),
-                                                      set_up_since_start_, done_of_closed_);
+    const MeasurementKind& kind = kind_row(newest.kind);
+    auto test = co_await kind.take_over_closed(context_, newest.path, std::move(contents),
+                                               set_up_since_start_, done_of_closed_);
     if (somebody_else_began()) co_return fail(Fault::busy, "somebody else is at it just now");
     tests_.put_on_closed(std::move(test));
     co_return Result<void>{};

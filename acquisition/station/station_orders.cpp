@@ -2,8 +2,8 @@
 #include "acquisition/station/station.hpp"
 
 #include "acquisition/measurement/drift/open_drift.hpp"
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/measurement/order_checks.hpp"
-#include "acquisition/measurement/ordered_kinds.hpp"
 
 #include <utility>
 

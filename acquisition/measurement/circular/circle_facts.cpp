@@ -27,12 +27,14 @@ WantedDrift drift_for_circles(const OrderContext& context) {
                        bar.instrument_name + "/" + bar.shown}; // as in a run file
 }
 
-EveFacts eve_facts_of_circles(const StationConfig& config, const FoundEve& found) {
+Result<EveFacts> eve_facts_of_circles(const OrderContext& context,
+                                      const ArmRequest& /*request*/,
+                                      const FoundEve& found) {
     EveFacts facts;
     facts.run_id = found.run_id;
     facts.lasted = found.lasted;
     facts.order = WantedDrift{{}, true, {}}.order();
-    facts.run_takes = least_time_of(config.circular->setup.plan);
+    facts.run_takes = least_time_of(context.config.circular->setup.plan);
     return facts;
 }
 

@@ -57,13 +57,15 @@ std::vector<int> add_axis_facts(const OrderContext& context, PreflightFacts& fac
     return channels;
 }
 
-WantedDrift drift_for_axis(const StationConfig& config) {
+WantedDrift drift_for_axis(const OrderContext& context) {
+    const StationConfig& config = context.config;
     const std::string& stated = config.statements.axis;
     return WantedDrift{config.eve_run, false, stated.empty() ? config.axis.name : stated};
 }
 
 Result<EveFacts>
-eve_facts_of_axis(const StationConfig& config, const ArmRequest& request, const FoundEve& found) {
+eve_facts_of_axis(const OrderContext& context, const ArmRequest& request, const FoundEve& found) {
+    const StationConfig& config = context.config;
     AXISCAL_TRY(const RunPlan plan, plan_for(config, request));
     EveFacts facts;
     facts.run_id = found.run_id;

@@ -6,7 +6,6 @@
 #include "acquisition/measurement/order_context.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "analysis/quantity/result.hpp"
-#include "config/station_config.hpp"
 
 #include <vector>
 
@@ -17,9 +16,9 @@ struct WantedDrift;
 /// @returns the channels of the instruments that it uses
 std::vector<int> add_axis_facts(const OrderContext& context, PreflightFacts& facts);
 
-WantedDrift drift_for_axis(const StationConfig& config);
+WantedDrift drift_for_axis(const OrderContext& context);
 /// @errors as plan_for.
 Result<EveFacts>
-eve_facts_of_axis(const StationConfig& config, const ArmRequest& request, const FoundEve& found);
+eve_facts_of_axis(const OrderContext& context, const ArmRequest& request, const FoundEve& found);
 
 } // namespace axiscal
