@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -57,13 +60,16 @@ Result<void> read_statements(const Json& given, ArmRequest& request) {
     return {};
 }
 
-Result<void> read_overrides(const Json& given, ArmRequest& request) {
-    if (!given.is_object())
-        return refuse(Fault::bad_request, "overrides", "must be an object of reasons by check");
-    for (const auto& [name, reason] : given.items()) {
-        if (!reason.is_string())
-            return refuse(Fault::bad_request, "overrides." + name, "must be a text");
-        request.overrides[name] = valid_text(reason.get<std::string>());
+/// @param wanted  "must be an object of reasons by check"
+Result<void> read_texts(const std::string& key,
+                        const Json& given,
+                        std::string wanted,
+                        std::map<std::string, std::string>& texts) {
+    if (!given.is_object()) return refuse(Fault::bad_request, key, std::move(wanted));
+    for (const auto& [name, text] : given.items()) {
+        if (!text.is_string())
+            return refuse(Fault::bad_request, key + "." + name, "must be a text");
+        texts[name] = valid_text(text.get<std::string>());
     }
     return {};
 }
@@ -73,11 +79,10 @@ Result<void> read_orderer(const Json& value, Orderer& by) {
     return {};
 }
 
-/// To people a circular test is one of the passes; only here it is told from those of the axis.
+/// To people each kind of test is one of the passes; only here it is told from those of the axis.
 void read_pass(const std::string& pass, ArmRequest& request) {
     request.pass = valid_text(pass);
-    request.kind =
-        request.pass == name_of(TestKind::circular) ? TestKind::circular : TestKind::positioning;
+    request.kind = kind_named(request.pass).value_or(TestKind::positioning);
 }
 
 Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
@@ -90,15 +95,18 @@ Result<void> read_arm_field(const std::string& key, const Json& value, ArmReques
     if (key == "datum_by_cnc" && value.is_boolean())
         return request.datum_by_cnc = value.get<bool>(), Result<void>{};
     if (key == "statements") return read_statements(value, request);
-    if (key == "overrides") return read_overrides(value, request);
+    if (key == "overrides")
+        return read_texts(key, value, "must be an object of reasons by check", request.overrides);
+    if (key == "options")
+        return read_texts(key, value, "must be an object of texts by name", request.options);
     if (key == "by") return read_orderer(value, request.by);
     const bool known = key == "datum_mm" || key == "pass" || key == "seed" || key == "datum_by_cnc";
     return refuse(Fault::bad_request, key,
                   known ? std::string{"has the wrong type"}
                         : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
-                          "overrides, by" +
+                          "overrides, options, by" +
                               did_you_mean(key, {"datum_mm", "pass", "seed", "datum_by_cnc",
-                                                 "statements", "overrides", "by"}));
+                                                 "statements", "overrides", "options", "by"}));
 }
 
 Result<Json> parse_object(const std::string& body) {

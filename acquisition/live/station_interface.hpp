@@ -105,11 +105,12 @@ struct StationStatus {
 struct ArmRequest {
     std::optional<double> datum_mm;        ///< coordinate where the axis stands now
     TestKind kind = TestKind::positioning; ///< of what is armed: a drift test is ordered otherwise
-    std::string pass = "whole";            ///< of a positioning run
+    std::string pass = "whole";            ///< of a positioning run; of another kind its name
     std::optional<std::uint64_t> seed;
     bool datum_by_cnc = false;                     ///< wait for the CNC's prepare command instead
     std::map<std::string, std::string> statements; ///< "operator", "state", "customer", ...
     std::map<std::string, std::string> overrides;  ///< reason by name of a pre-flight check
+    std::map<std::string, std::string> options;    ///< what one kind of test alone is told, by name
     Orderer by;
     std::function<bool()> has_gone; ///< nobody waits for the answer any more; empty: stays
 };

@@ -11,12 +11,26 @@ bool has_what_it_needs(TestKind kind, const OrderContext& context) {
     return is_set_up != nullptr && is_set_up(context);
 }
 
+const MeasurementKind& row_to_arm(const ArmRequest& request) {
+    const MeasurementKind& asked = kind_row(request.kind);
+    return asked.open != nullptr ? asked : kind_row(TestKind::positioning);
+}
+
 } // namespace
 
+Result<void> check_options(const ArmRequest& request) {
+    const auto taken = row_to_arm(request).options;
+    for (const auto& [name, value] : request.options)
+        if (std::ranges::find(taken, name) == taken.end())
+            return refuse(Fault::bad_request, "options." + name,
+                          "is no option of what is armed by pass '" + request.pass + "'");
+    return {};
+}
+
 Task<Result<std::string>> open_ordered(OrderContext context, ArmRequest request) {
-    const MeasurementKind& row = kind_row(request.kind);
-    if (row.open == nullptr)
-        co_return refuse(Fault::bad_request, "pass", "is of a test that is not armed");
+    const auto checked = check_options(request);
+    if (!checked) co_return tl::unexpected<Error>(checked.error());
+    const MeasurementKind& row = row_to_arm(request);
     co_return co_await row.open(context, std::move(request));
 }
 

@@ -17,7 +17,9 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
@@ -42,6 +44,8 @@ struct MeasurementKind {
 
     // How one is armed. All are null of a kind that is not: a drift test is ordered by
     // open_drift(). What follows is_set_up is asked only where that holds.
+    /// Names of ArmRequest::options that it takes; open() judges their values.
+    std::span<const std::string_view> options = {};
     /// The station has what this kind is measured with.
     bool (*is_set_up)(const OrderContext& context) = nullptr;
     /// As StationInterface::arm. Judges by itself whether the station has what it needs.
@@ -61,7 +65,11 @@ struct MeasurementKind {
 /// Made from kind_rows.cpp.in.
 const MeasurementKind& kind_row(TestKind kind);
 
-/// As StationInterface::arm. @errors Fault::bad_request for a kind that is not armed.
+/// @errors Fault::bad_request for an option that the kind does not take.
+Result<void> check_options(const ArmRequest& request);
+
+/// As StationInterface::arm. A kind that is not armed is refused as a pass that the axis does not
+/// plan. @errors also those of check_options().
 Task<Result<std::string>> open_ordered(OrderContext context, ArmRequest request);
 
 /// Whose readings the pre-flight checks look at: those of the kind that is asked for where it is

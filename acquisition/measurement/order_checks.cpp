@@ -48,6 +48,8 @@ Task<Result<Admitted>> admit(OrderContext context, const ArmRequest& request) {
 
 /// Where the drift test is missing its check fails, and no reason helps: arming finds no E_VE.
 Task<Result<std::vector<PreflightRecord>>> preflight_of(OrderContext context, ArmRequest request) {
+    const auto checked = check_options(request);
+    if (!checked) co_return tl::unexpected<Error>(checked.error());
     const auto eve = co_await eve_for(context, kind_that_is_checked(context, request));
     if (eve) co_return judge_order(context, request, *eve);
     PreflightFacts facts = preflight_facts(context, request);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace axiscal {
@@ -24,5 +25,12 @@ constexpr std::string_view name_of(TestKind kind) {
 /// In their order.
 inline constexpr std::array all_test_kinds{TestKind::positioning, TestKind::circular,
                                            TestKind::drift, TestKind::probing};
+
+/// Nothing where no kind has this name.
+constexpr std::optional<TestKind> kind_named(std::string_view name) {
+    for (const TestKind kind : all_test_kinds)
+        if (name == name_of(kind)) return kind;
+    return std::nullopt;
+}
 
 } // namespace axiscal

@@ -332,6 +332,13 @@ TEST_F(StationRuns, ArmingNeedsLaserBeamAndEnvironment) {
     ArmRequest other_pass;
     other_pass.pass = "stretch";
     EXPECT_EQ(life.arm(other_pass).error().fault, Fault::bad_request);
+    ArmRequest not_armed; // as of "pass": "drift"
+    not_armed.kind = TestKind::drift;
+    not_armed.pass = "drift";
+    EXPECT_NE(life.arm(not_armed).error().detail.find("'drift' is not planned"), std::string::npos);
+    ArmRequest of_another_kind;
+    of_another_kind.options["mirror"] = "reversed";
+    EXPECT_EQ(life.arm(of_another_kind).error().field, "options.mirror");
     ArmRequest unknown;
     unknown.statements["operatr"] = "typed badly";
     EXPECT_EQ(life.arm(unknown).error().field, "statements.operatr");
