@@ -228,9 +228,14 @@ private:
 
 Result<std::vector<TableRows>> open_tables(const Database& database, ChainReport& report) {
     std::vector<TableRows> tables;
-    tables.reserve(chained_tables().size());
+    AXISCAL_TRY(const auto present, chained_tables_in(database));
+    tables.reserve(present.size());
     for (const Table& table : chained_tables()) {
         const std::string name{table.name};
+        if (std::ranges::find(present, &table) == present.end()) {
+            report.rows.emplace_back(name, 0);
+            continue;
+        }
         AXISCAL_TRY(const auto count, database.integer_of("SELECT count(*) FROM " + name));
         report.rows.emplace_back(name, count);
         AXISCAL_TRY(auto rows, TableRows::open(database, table));

@@ -24,6 +24,9 @@ struct SetupRows {
 
 /// One for each kind that has a set-up. (Made from schema.cpp.in.)
 std::span<const SetupRows* const> setup_rows();
+/// Those of them that schema.sql does not name: kinds that came after format 1. A run file that was
+/// made before one of them has none of its tables.
+std::span<const SetupRows* const> later_setup_rows();
 
 /// The set-up, made where none is there yet: the writer checks each row by itself.
 template <class Setup> Setup& setup_of(RecordedRun& run, RowReader& in) {
