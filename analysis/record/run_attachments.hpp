@@ -8,6 +8,7 @@
 #include "analysis/record/alignment_record.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/probing_record.hpp"
+#include "analysis/record/straightness_setup.hpp"
 #include "analysis/record/synchronisation.hpp"
 #include "analysis/record/test_kind.hpp"
 
@@ -34,14 +35,16 @@ struct DriftSetup {
 /// What only RunRecord::kind has, one alternative a TestKind in its order. Of a positioning run the
 /// plan says all; that of a circular test comes with its first block, and nothing stands for it
 /// before. `judged` of each: the figures of its kind that a limit can name.
-using TestSetup = std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord>;
+using TestSetup =
+    std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord, StraightnessSetup>;
 static_assert(std::variant_size_v<TestSetup> == all_test_kinds.size());
 
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
     TestSetup setup;
     /// Id of the drift test that UncertaintySetup::eve comes from, of a circular test
-    /// CircularUncertaintyStatement::eve_um; or empty.
+    /// CircularUncertaintyStatement::eve_um, of a straightness StraightnessStatement::eve or
+    /// eve_angle; or empty.
     std::string eve_source;
     std::vector<SynchronisationRecord> synchronisation; ///< of datums and points, as they came
 };

@@ -3,6 +3,7 @@
 
 #include "analysis/quantity/quantity.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +55,20 @@ struct StraightnessSetup {
     Angle angle_resolution;  ///< angle steps: least step of the angle
     std::string place;       ///< where the optics stood, and which part moved; printed
     StraightnessStatement uncertainty;
+
+    /// Named apart from R, B and B_mean of a positioning: a limit of one must not judge the other.
+    static constexpr std::array<std::string_view, 12> judged{"straightness_end_points",
+                                                             "straightness_end_points_forward",
+                                                             "straightness_end_points_backward",
+                                                             "straightness_least_squares",
+                                                             "straightness_least_squares_forward",
+                                                             "straightness_least_squares_backward",
+                                                             "straightness_minimum_zone",
+                                                             "straightness_minimum_zone_forward",
+                                                             "straightness_minimum_zone_backward",
+                                                             "straightness_B",
+                                                             "straightness_B_mean",
+                                                             "straightness_R"};
 };
 
 } // namespace axiscal

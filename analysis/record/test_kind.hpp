@@ -9,8 +9,9 @@
 namespace axiscal {
 
 /// positioning: ISO 230-2, a linear or a rotary axis; circular: ISO 230-4; drift: ISO/TR 230-9 and
-/// ISO 230-3, an axis or a ballbar at rest; probing: ISO 230-10.
-enum class TestKind : std::uint8_t { positioning, circular, drift, probing };
+/// ISO 230-3, an axis or a ballbar at rest; probing: ISO 230-10; straightness: ISO 230-1, the
+/// motion of a linear axis in one direction across it.
+enum class TestKind : std::uint8_t { positioning, circular, drift, probing, straightness };
 
 constexpr std::string_view name_of(TestKind kind) {
     switch (kind) {
@@ -18,13 +19,15 @@ constexpr std::string_view name_of(TestKind kind) {
     case TestKind::circular: return "circular";
     case TestKind::drift: return "drift";
     case TestKind::probing: return "probing";
+    case TestKind::straightness: return "straightness";
     }
     return "?";
 }
 
 /// In their order.
 inline constexpr std::array all_test_kinds{TestKind::positioning, TestKind::circular,
-                                           TestKind::drift, TestKind::probing};
+                                           TestKind::drift, TestKind::probing,
+                                           TestKind::straightness};
 
 /// Nothing where no kind has this name.
 constexpr std::optional<TestKind> kind_named(std::string_view name) {

@@ -265,6 +265,19 @@ def probing(reference):
     return rows + [("event", ["note", 10**9, 10**18, "From the log of the control.", "none", 0]), closing_of(reference)]
 
 
+def straightness(reference):
+    """The reference run, as if its laser had looked through a Wollaston prism: what it counts is across the axis."""
+    rows = with_synchronisation(read(reference))
+    next(values for table, values in rows if table == "test")[0] = "straightness"
+    for table, values in rows:
+        if table == "point":
+            values[14] = 0.0  # nothing across shows from which side the axis came
+    put_behind(rows, "channel", [
+        ("straightness", ["wollaston", "Y", 1, 36.012, 1e-10, "normal", "", 0.0, 0.0, "prism on the table"]),
+        ("straightness_uncertainty", [0.005, None, 2.0, 0.15, None, 2.0, None, 2.0, 4e-7, None])])
+    return rows
+
+
 def drift(reference):
     """A minute of readings of an axis at rest."""
     rows = header_without_plan(reference, "drift")

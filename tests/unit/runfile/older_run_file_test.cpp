@@ -1,13 +1,17 @@
 // Which tables a run file may lack: those of a kind of test that came after format 1, all together.
 #include "acquisition/runfile/run_file.hpp"
 
+#include "acquisition/runfile/run_file_verify.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/unit/runfile/random_run.hpp"
 #include "tests/unit/runfile/written_run.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <utility>
 
 namespace axiscal::older_run_file_test {
 namespace {
@@ -15,6 +19,7 @@ namespace {
 using testing::RandomRun;
 using testing::refusal_of;
 using testing::run_sql;
+using testing::same_bits;
 using testing::ScratchFolder;
 using testing::write_run;
 
@@ -38,6 +43,66 @@ TEST(OlderRunFile, HasAllTablesOfFormatOne) {
         const auto path = written(scratch, change);
         EXPECT_EQ(refusal_of(path), path + ": " + other_tables) << change;
     }
+}
+
+constexpr const char* before_straightness =
+    "DROP TABLE straightness; DROP TABLE straightness_uncertainty";
+
+TEST(OlderRunFile, IsReadWithoutTheTablesOfALaterKind) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    RandomRun random{42};
+    const RunRecord written_run = write_run(path, random, 3);
+    run_sql(path, before_straightness);
+    const auto read = read_run_file(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_TRUE(same_bits(written_run, *read));
+    const auto summary = summarize_run_file(path);
+    ASSERT_TRUE(summary) << describe(summary.error());
+    EXPECT_EQ(summary->run_id, written_run.run_id);
+    const auto chain = verify_chain(path);
+    ASSERT_TRUE(chain) << describe(chain.error());
+    EXPECT_TRUE(chain->intact());
+    const std::pair<std::string, std::int64_t> no_rows{"straightness", 0};
+    EXPECT_EQ(std::ranges::count(chain->rows, no_rows), 1);
+}
+
+TEST(OlderRunFile, HasAllTablesOfALaterKindOrNone) {
+    const ScratchFolder scratch;
+    const std::string none = before_straightness;
+    for (const std::string& change :
+         {std::string{"DROP TABLE straightness"},
+          std::string{"DROP TABLE straightness_uncertainty"},
+          std::string{"ALTER TABLE straightness ADD COLUMN more TEXT"},
+          std::string{"ALTER TABLE straightness RENAME COLUMN factor TO factors"},
+          std::string{"CREATE INDEX i ON straightness(factor)"},
+          none + "; CREATE TABLE straightness(link INTEGER PRIMARY KEY, hash BLOB NOT NULL) STRICT",
+          none + "; CREATE VIEW straightness AS SELECT 1",
+          none + "; CREATE TABLE \"STRAIGHTNESS\"(link INTEGER PRIMARY KEY)"}) {
+        const auto path = written(scratch, change);
+        EXPECT_EQ(refusal_of(path), path + ": " + other_tables) << change;
+    }
+}
+
+TEST(OlderRunFile, IsNoneWhereADroppedTableHeldRows) {
+    const ScratchFolder scratch;
+    const auto path = scratch.file("r.axiscal");
+    RandomRun random{43};
+    RunRecord run = random.header();
+    run.kind = TestKind::straightness;
+    RunAttachments beside;
+    beside.setup = StraightnessSetup{};
+    auto writer = RunFileWriter::create(path, run, beside).value();
+    ASSERT_TRUE(writer.close(true, "done", random.tie()));
+    ASSERT_TRUE(read_run_file(path));
+    run_sql(path, before_straightness);
+    EXPECT_NE(refusal_of(path).find("is missing: the file was changed"), std::string::npos)
+        << refusal_of(path);
+    const auto chain = verify_chain(path);
+    ASSERT_TRUE(chain) << describe(chain.error());
+    ASSERT_EQ(chain->findings.size(), 2U); // the set-up and its statement
+    for (const RowFinding& found : chain->findings)
+        EXPECT_EQ(found.damage, RowDamage::missing) << found.sentence;
 }
 
 } // namespace

@@ -51,7 +51,7 @@ public:
         for (int i = 0; i < pick(4); ++i)
             fill_calibration(run.calibrations.emplace_back(), i);
         if (pick(2) == 0) fill_rotary(run.rotary.emplace());
-        run.kind = static_cast<TestKind>(pick(4));
+        run.kind = static_cast<TestKind>(pick(5));
         return run;
     }
 
@@ -72,6 +72,8 @@ public:
                                            length(),
                                            {length(), length(), length()}});
         }
+        if (kind == TestKind::straightness)
+            fill_straightness(beside.setup.emplace<StraightnessSetup>());
         if (pick(2) == 0) beside.eve_source = text();
         return beside;
     }
@@ -189,6 +191,22 @@ private:
         rotary.run_out = text();
         for (int i = pick(9); i > 0; --i)
             rotary.deviations_arcsec.push_back(number());
+    }
+
+    void fill_straightness(StraightnessSetup& setup) {
+        setup.method = static_cast<StraightnessMethod>(pick(2));
+        setup.across = text(), setup.sign = pick(2) == 0 ? 1 : -1;
+        setup.factor = number(), setup.resolution = length();
+        setup.mirror = static_cast<MirrorPosition>(pick(2));
+        setup.reversal_of = text(), setup.base = length();
+        setup.angle_resolution = Angle::from_si(number());
+        setup.place = text();
+        StraightnessStatement& stated = setup.uncertainty;
+        stated.factor_U = perhaps<Ratio>(), stated.factor_limit = perhaps<Ratio>();
+        if (pick(2) == 0) stated.mirror_limit_um_per_m2 = number();
+        stated.angle_U = perhaps<Angle>(), stated.base_U = perhaps<Length>();
+        stated.factor_k = number(), stated.angle_k = number(), stated.base_k = number();
+        stated.eve = perhaps<Length>(), stated.eve_angle = perhaps<Angle>();
     }
 
     void fill_tolerances(ToleranceRecord& set) {

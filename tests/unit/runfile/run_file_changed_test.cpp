@@ -146,6 +146,23 @@ TEST(RunFile, ChainsTheTouchesOfAProbingTest) {
                    {"UPDATE probing_touch SET x_m = 1.0", "DELETE FROM probing"});
 }
 
+StraightnessSetup some_straightness() {
+    StraightnessSetup setup;
+    setup.across = "Y";
+    setup.factor = 36.012;
+    setup.uncertainty.eve = um(0.4);
+    return setup;
+}
+
+TEST(RunFile, ChainsTheSetUpOfAStraightnessTest) {
+    expect_chained(TestKind::straightness, some_straightness(),
+                   {"UPDATE straightness SET factor = 36.0", "UPDATE straightness SET sign = -1",
+                    "UPDATE straightness SET mirror = 'reversed'",
+                    "UPDATE straightness SET mirror = 'turned'",
+                    "UPDATE straightness_uncertainty SET eve_m = NULL",
+                    "DELETE FROM straightness_uncertainty", "DELETE FROM straightness"});
+}
+
 TEST(RunFile, RefusesTheSetUpOfAnotherKindOfTest) {
     const ScratchFolder scratch;
     const auto path = scratch.file("r.axiscal");
