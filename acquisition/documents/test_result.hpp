@@ -5,6 +5,7 @@
 #include "acquisition/documents/drift/drift_paper.hpp"
 #include "acquisition/documents/positioning/positioning_paper.hpp"
 #include "acquisition/documents/probing/probing_paper.hpp"
+#include "acquisition/documents/straightness/straightness_paper.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,8 @@
 namespace axiscal {
 
 /// The one list of the kinds that have a paper: see paper.hpp.
-using TestResult = std::variant<Certificate, CircularCertificate, DriftResult, ProbingResult>;
+using TestResult =
+    std::variant<Certificate, CircularCertificate, DriftResult, ProbingResult, StraightnessResult>;
 
 /// The certificate's document, and its text: indented, valid UTF-8, one line feed at the end.
 nlohmann::ordered_json json_of(const TestResult& result);

@@ -157,6 +157,9 @@ Result<Json> budget_summary(const TestResult& result) {
         return summary_of(*certificate);
     if (const auto* certificate = std::get_if<CircularCertificate>(&result))
         return summary_of(*certificate);
+    if (std::holds_alternative<StraightnessResult>(result))
+        return fail(Fault::refused, "the budget of a straightness test stands in its certificate: "
+                                    "'axiscal export' writes it");
     return fail(Fault::refused, "a drift or probing test has no uncertainty budget");
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+// The pages of a straightness certificate, in the order in which they are bound.
+
+#include "acquisition/documents/pdf/sheet.hpp"
+#include "acquisition/documents/straightness/straightness_document.hpp"
+
+#include <vector>
+
+namespace axiscal {
+
+/// Page 1: who, what, with what, the figure with the other two references, the plots, the
+/// signatures.
+/// @returns stated fields that did not fit and must be printed in full by the condition pages.
+std::vector<StatedField> draw_straightness_front_page(Sheet& sheet,
+                                                      const StraightnessResult& result);
+
+/// Every figure, means and residuals by target, every deviation.
+void draw_straightness_targets(Sheet& sheet, const StraightnessResult& result);
+
+/// Limits, the budget against each reference, the slopes of the lines.
+void draw_straightness_uncertainty(Sheet& sheet, const StraightnessResult& result);
+
+/// Optics, cycle, certificates of channels, remarks, events.
+void draw_straightness_conditions(Sheet& sheet,
+                                  const StraightnessResult& result,
+                                  const std::vector<StatedField>& shortened);
+
+} // namespace axiscal
