@@ -1,8 +1,12 @@
+#include "analysis/record/run_attachments.hpp"
 #include "config/share_address.hpp"
 #include "config/station_readers.hpp"
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <cstddef>
+#include <utility>
+#include <variant>
 
 namespace axiscal {
 namespace {
@@ -157,6 +161,21 @@ void refuse_drift_test_of_polygon(Settings uncertainty, const StationConfig& con
                                       "autocollimator shows of the standing axis");
 }
 
+/// Asked for also where the file has none, so that a misspelt one is told its right name.
+template <class Setup> void keep_section_of(TestKind kind, Settings& root, StationConfig& config) {
+    if constexpr (requires { Setup::section; }) {
+        if (root.has(Setup::section))
+            config.kind_sections.push_back(KindSection{kind, root.table(Setup::section), {}});
+    }
+}
+
+template <std::size_t... kinds>
+void keep_kind_sections(Settings root, StationConfig& config, std::index_sequence<kinds...>) {
+    (keep_section_of<std::variant_alternative_t<kinds, TestSetup>>(all_test_kinds[kinds], root,
+                                                                   config),
+     ...);
+}
+
 } // namespace
 
 StationConfig read_station(SettingsDocument& document) {
@@ -179,6 +198,7 @@ StationConfig read_station(SettingsDocument& document) {
         read_cycle(root.table("cycle"), units, config.cycle);
         read_capture(root.table("capture"), units, config.cycle, config.capture);
     }
+    keep_kind_sections(root, config, std::make_index_sequence<all_test_kinds.size()>{});
     config.preflight = read_preflight(root.table("preflight"));
     config.environment = read_environment(root.table("environment"));
     read_trigger(root.table("trigger"), units, config.cycle, config.capture.timeout,

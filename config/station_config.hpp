@@ -3,12 +3,14 @@
 
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_record.hpp"
+#include "analysis/record/test_kind.hpp"
 #include "config/address_range.hpp"
 #include "config/environment_limits.hpp"
 #include "config/instrument_config.hpp"
 #include "config/preflight_config.hpp"
 #include "config/settings.hpp"
 
+#include <any>
 #include <optional>
 #include <string>
 #include <utility>
@@ -172,6 +174,13 @@ struct PublishConfig {
     int alarm_count = 10;                          ///< of waiting results
 };
 
+/// A table that only one kind of test has: its set-up (TestSetup) names it, `section`.
+struct KindSection {
+    TestKind kind = TestKind::positioning;
+    Settings table;  ///< read by the kind, then finish() refuses the rest
+    std::any config; ///< what the kind read of it: config_of(). Empty: nobody did
+};
+
 struct StationConfig {
     std::string file, text; ///< path and whole text
     std::string station = "station";
@@ -199,6 +208,7 @@ struct StationConfig {
     std::vector<InstrumentConfig> instruments;
     /// The driver's own keys of instruments[i]; read by the driver, then finish() refuses the rest.
     std::vector<Settings> instrument_options;
+    std::vector<KindSection> kind_sections; ///< those that stand in the file
     /// What a person should know although it is allowed (a single material sensor); by line.
     std::vector<Refusal> warnings;
 
@@ -209,8 +219,8 @@ struct StationConfig {
     }
 };
 
-/// Reads every key of the station but the drivers' own. Refusals stay in `document`; the returned
-/// struct is usable only when document.finish() is empty afterwards.
+/// Reads every key of the station but those of drivers and of single kinds of test. Refusals stay
+/// in `document`; the returned struct is usable only when document.finish() is empty afterwards.
 StationConfig read_station(SettingsDocument& document);
 
 } // namespace axiscal

@@ -2,54 +2,9 @@
 // The station file table by table. Internal to config/. Pure.
 
 #include "config/measure.hpp"
-#include "config/station_config.hpp"
+#include "config/section_readers.hpp"
 
 namespace axiscal {
-
-/// Coordinates in the axis's own unit: mm on a linear axis, deg on a rotary one, where 1 mm stands
-/// for 1 degree (RunPlan).
-class AxisUnits {
-public:
-    explicit AxisUnits(AxisKind kind)
-        : rotary_{kind == AxisKind::rotary} {}
-    Length coordinate(Settings& table,
-                      std::string_view key,
-                      Length low,
-                      Length high,
-                      std::optional<Length> fallback = {}) const;
-    std::optional<Length>
-    optional_coordinate(Settings& table, std::string_view key, Length low, Length high) const;
-    std::vector<Length>
-    coordinates(Settings& table, std::string_view key, Length low, Length high) const;
-    Speed speed(Settings& table,
-                std::string_view key,
-                Speed low,
-                Speed high,
-                std::optional<Speed> fallback = {}) const;
-    /// "1000 mm/min" | "360 deg/min"
-    [[nodiscard]] std::string write_speed(Speed speed) const;
-    /// "0.7 mm" | "0.7 deg"
-    [[nodiscard]] std::string write_coordinate(Length coordinate) const;
-
-private:
-    bool rotary_;
-};
-
-/// Beyond any axis: 100 m, or 100 000 degrees.
-inline constexpr Length farthest = metre(100);
-
-/// Which certificate an instrument, a channel or an artefact has and from when to when it holds;
-/// refuses one that ends before it begins. `Certified`: certificate_number, calibrated_on, due_on.
-template <class Certified> void read_certificate_dates(Settings& table, Certified& stated) {
-    stated.certificate_number = table.text("certificate_number", "");
-    stated.calibrated_on = table.date("calibrated_on", "");
-    stated.due_on = table.date("due_on", "");
-    if (!stated.due_on.empty() && stated.due_on < stated.calibrated_on)
-        table.refuse("due_on", "is before calibrated_on: exchange or correct the dates");
-}
-
-/// Two keys that say one thing: refuses the second where both are stated.
-void refuse_beside(Settings& table, std::string_view first, std::string_view second);
 
 /// Fills config.instruments and config.instrument_options.
 void read_instruments(Settings root, StationConfig& config);
@@ -64,8 +19,6 @@ void read_machine_of_circles(Settings circular, StationConfig& config);
 void read_ballbar(Settings root, StationConfig& config);
 /// The bar's certificate in [ballbar] and the cycle in [circular]; after read_ballbar.
 void read_circular(Settings root, StationConfig& config);
-/// The channel named by `key` ("instrument/channel"), checked against [[instrument]].
-RoleConfig read_role(Settings& table, std::string_view key, const StationConfig& config);
 void read_cycle(Settings cycle, AxisUnits units, CycleConfig& config);
 void read_capture(Settings capture,
                   AxisUnits units,

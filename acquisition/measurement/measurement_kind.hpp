@@ -12,9 +12,11 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "analysis/quantity/result.hpp"
 #include "analysis/record/test_kind.hpp"
+#include "config/station_config.hpp"
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/trigger/journal_receipt.hpp"
 
+#include <any>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +29,10 @@ namespace axiscal {
 struct MeasurementKind {
     /// One of them goes on at most, and a CNC may wait for it at a request.
     bool driven_by_cnc = true;
+
+    /// Reads the table of the station file that only this kind has: what config_of() gives.
+    /// Refusals stay in the table. Null: its set-up names no `section`.
+    std::any (*read)(Settings section, const StationConfig& station) = nullptr;
 
     /// Of one that an earlier daemon left open. May wait until its instruments speak.
     /// @errors as Journal::reopen.

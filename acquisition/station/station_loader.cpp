@@ -1,5 +1,6 @@
 #include "acquisition/station/station_loader.hpp"
 
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/run/cycle_plan.hpp"
 #include "acquisition/run/rotary_plan.hpp"
 #include "analysis/positioning/chosen_standards.hpp"
@@ -52,6 +53,14 @@ void load_tapes(LoadedStation& station) {
             station.tapes.emplace(config.name, *std::move(tape));
         else
             options.refuse("tape", tape.error().detail);
+    }
+}
+
+/// Of a kind that reads none finish() refuses each key.
+void read_kind_sections(StationConfig& config) {
+    for (KindSection& section : config.kind_sections) {
+        const MeasurementKind& row = kind_row(section.kind);
+        if (row.read != nullptr) section.config = row.read(section.table, config);
     }
 }
 
@@ -189,6 +198,7 @@ tl::expected<LoadedStation, std::vector<Refusal>> load_station(const std::string
     refuse_shared_wires(station.config.instruments, station.config.instrument_options,
                         station.config.trigger.serial_path);
     load_tapes(station);
+    read_kind_sections(station.config);
     std::vector<Refusal> refusals = refusals_of(*document, station);
     if (!refusals.empty()) return tl::unexpected(std::move(refusals));
     return station;

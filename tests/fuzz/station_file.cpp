@@ -16,6 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     StationConfig config = read_station(*document);
     for (Settings& options : config.instrument_options)
         options.accept_rest();
+    for (KindSection& section : config.kind_sections)
+        section.table.accept_rest();
     const auto refusals = document->finish();
     for (const auto& refusal : refusals)
         fuzz::require(!refusal.reason.empty(), "a refusal has a reason");

@@ -130,7 +130,9 @@ int read_config(Options& options) {
         std::cerr << describe(document.error()) << '\n';
         return exit_refused;
     }
-    const StationConfig station = read_station(*document);
+    StationConfig station = read_station(*document);
+    for (KindSection& section : station.kind_sections)
+        section.table.accept_rest(); // as the drivers' keys axiscald's to judge
     bool refused = false;
     for (const auto& refusal : document->finish()) {
         if (!concerns_publishing(refusal)) continue;

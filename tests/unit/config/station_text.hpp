@@ -36,13 +36,15 @@ struct StationReading {
     std::string told;               ///< refusals, one a line; empty: accepted
 };
 
-/// Reads `text`; the drivers' own keys are none of these tests' business.
+/// Reads `text`; the keys of drivers and of single kinds of test are none of these tests' business.
 inline StationReading read_text(const std::string& text) {
     auto document = document_of(text);
     StationReading reading;
     reading.config = read_station(document);
     for (Settings& options : reading.config.instrument_options)
         options.accept_rest();
+    for (KindSection& section : reading.config.kind_sections)
+        section.table.accept_rest();
     reading.told = told(document);
     reading.asked = document.asked_keys();
     return reading;
