@@ -83,4 +83,9 @@ std::shared_ptr<const ReadingRule> against_artefact(RotarySetup setup, int sign)
     return std::make_shared<const AgainstArtefact>(std::move(setup), sign);
 }
 
+std::shared_ptr<const ReadingRule> positions_of(const RunRecord& header) {
+    return header.rotary ? against_artefact(*header.rotary, header.laser.sign)
+                         : along_the_axis(header.laser);
+}
+
 } // namespace axiscal

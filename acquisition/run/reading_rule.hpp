@@ -1,6 +1,6 @@
 #pragma once
-// What a captured reading says of the axis: where it stands and how it came there. One rule for
-// each way of measuring an axis; the run machine knows none of them. Pure.
+// What a captured reading says of the axis: where it stands, how it came there, and what people are
+// shown of it. One rule for each way of measuring an axis; whoever asks knows none of them. Pure.
 
 #include "analysis/quantity/result.hpp"
 #include "analysis/record/run_record.hpp"
@@ -35,6 +35,16 @@ public:
     [[nodiscard]] virtual bool sees_every_place() const = 0;
     /// What else may stand `beside` the target by so much, as the end of a sentence; or nothing.
     [[nodiscard]] virtual std::string hint(Length beside) const = 0;
+    /// A reading shows where the axis stands, if only near the target. Else the claim of the CNC is
+    /// the position, and people are shown no other.
+    [[nodiscard]] virtual bool shows_place() const { return true; }
+    /// What people are shown of a reading at `target`. @param position  that position_of() gave
+    [[nodiscard]] virtual Length deviation_of(const DatumRecord& /*datum*/,
+                                              Length /*reading*/,
+                                              Length position,
+                                              Length target) const {
+        return position - target;
+    }
 };
 
 /// A laser or a scale along a linear axis: live_position().
@@ -43,5 +53,8 @@ std::shared_ptr<const ReadingRule> along_the_axis(LaserSetup laser);
 /// A rotary axis against an indexing table or a polygon: rotary_position().
 /// @param sign  LaserSetup::sign
 std::shared_ptr<const ReadingRule> against_artefact(RotarySetup setup, int sign);
+
+/// The one of these two by which the positions of this run are read.
+std::shared_ptr<const ReadingRule> positions_of(const RunRecord& header);
 
 } // namespace axiscal

@@ -67,6 +67,7 @@ public:
 
     RunActions handle(const RunInput& input);
     [[nodiscard]] RunView view() const;
+    [[nodiscard]] const ReadingRule& reading() const { return *setup_.reading; }
     /// What a step of the plan, or behind it of a retake, is planned to be.
     [[nodiscard]] PlannedPoint planned_at(int step) const;
 

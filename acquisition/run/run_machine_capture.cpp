@@ -261,7 +261,7 @@ void RunMachine::accept_point(const Capture& capture, RunActions& out) {
     point.n = capture.n;
     point.approach_travel = setup_.reading->way_of_reading(way.value_or(Length{}));
     point.datum_id = datum_->id;
-    point.live_deviation = position - target;
+    point.live_deviation = setup_.reading->deviation_of(*datum_, capture.mean, position, target);
     point.samples = capture.samples;
     last_position_ = position;
     last_deviation_ = point.live_deviation;

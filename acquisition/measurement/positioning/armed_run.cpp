@@ -36,6 +36,7 @@ Result<ArmedRun> armed_run(const RunHeaderParts& parts,
     AXISCAL_TRY(armed.header, make_run_header(parts, request));
     AXISCAL_CHECK(check_number_is_free(parts.config.state_directory,
                                        armed.header.statements.certificate_number));
+    armed.reading = positions_of(armed.header);
     armed.datum_by_cnc = request.datum_by_cnc;
     if (!eve) return armed;
     if (!armed.header.uncertainty) armed.header.uncertainty.emplace();

@@ -49,10 +49,11 @@ Task<double> laser_rate_hz(CncContext context, MonotonicTime limit) {
 
 } // namespace
 
-RunSetup run_setup_of(const CncContext& context, const RunRecord& header) {
+RunSetup run_setup_of(const CncContext& context,
+                      const RunRecord& header,
+                      std::shared_ptr<const ReadingRule> reading) {
     return {header.plan,
-            header.rotary ? against_artefact(*header.rotary, header.laser.sign)
-                          : along_the_axis(header.laser),
+            std::move(reading),
             serial_of_axis(context.config, context.roles, context.instruments),
             context.config.capture.timeout,
             {}};

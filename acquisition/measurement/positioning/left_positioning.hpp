@@ -4,19 +4,24 @@
 
 #include "acquisition/measurement/cnc_answer.hpp"
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
+#include "acquisition/run/reading_rule.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "analysis/record/run_record.hpp"
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/trigger/journal_receipt.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace axiscal {
 
 /// What a run machine needs to know of a run, without what was added to it.
-RunSetup run_setup_of(const CncContext& context, const RunRecord& header);
+/// @param reading  never null
+RunSetup run_setup_of(const CncContext& context,
+                      const RunRecord& header,
+                      std::shared_ptr<const ReadingRule> reading);
 
 /// Returns when what measures the axis reads well and the index of air is known, at the latest
 /// after return_limit: a request may stand in the CNC already, and must not meet sensors that have

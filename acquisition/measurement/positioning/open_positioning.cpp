@@ -6,7 +6,6 @@
 #include "acquisition/measurement/beam_watch.hpp"
 #include "acquisition/measurement/held.hpp"
 #include "acquisition/measurement/order_checks.hpp"
-#include "acquisition/measurement/positioning/armed_run.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
 #include "acquisition/measurement/positioning/positioning_measurement.hpp"
 
@@ -31,19 +30,20 @@ Result<void> reference_speaks(const OrderContext& context, MonotonicTime now) {
 
 /// An alignment that is going on ends here: not before all else fits.
 /// @param request  the caller keeps it
-Task<Result<ArmedRun>> order_run(OrderContext context, ArmRequest& request) {
+Task<Result<ArmedRun>> order_run(OrderContext context, const ArmRequest& request) {
     AXISCAL_CO_TRY(RunPlan plan, plan_for(context.config, request));
     AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
     const RunHeaderParts parts = header_parts(context, TestKind::positioning, std::move(plan));
     AXISCAL_CO_TRY(ArmedRun armed, armed_run(parts, request, admitted.eve));
     armed.checks = std::move(admitted.checks);
     armed.attachments.alignment = context.beam.for_run();
-    if (!request.datum_by_cnc) armed.orderer_has_gone = std::move(request.has_gone);
     co_return armed;
 }
 
-Task<Result<std::string>> open_and_tie(OrderContext context, ArmRequest request) {
-    AXISCAL_CO_TRY(ArmedRun armed, co_await order_run(context, request));
+} // namespace
+
+Task<Result<std::string>> open_and_tie(OrderContext context, ArmRequest request, ArmedRun armed) {
+    if (!request.datum_by_cnc) armed.orderer_has_gone = std::move(request.has_gone);
     AXISCAL_CO_TRY(const std::shared_ptr<PositioningMeasurement> test,
                    co_await PositioningMeasurement::open(context, std::move(armed)));
     begin_before_cnc(context, test, test->header().opened.utc_ns, request.by);
@@ -52,8 +52,6 @@ Task<Result<std::string>> open_and_tie(OrderContext context, ArmRequest request)
         co_return tl::unexpected<Error>(tied.error());
     co_return test->run().run_id;
 }
-
-} // namespace
 
 Result<void> axis_is_ready(const OrderContext& context) {
     AXISCAL_CHECK(plays_no_tape(context.config));
@@ -73,7 +71,8 @@ Result<void> axis_is_ready(const OrderContext& context) {
 Task<Result<std::string>> open_positioning(OrderContext context, ArmRequest request) {
     if (auto ready = axis_is_ready(context); !ready) co_return tl::unexpected<Error>(ready.error());
     const Held arming{context.under_way.arming};
-    co_return co_await open_and_tie(context, std::move(request));
+    AXISCAL_CO_TRY(ArmedRun armed, co_await order_run(context, request));
+    co_return co_await open_and_tie(context, std::move(request), std::move(armed));
 }
 
 } // namespace axiscal

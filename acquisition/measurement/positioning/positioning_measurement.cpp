@@ -8,7 +8,6 @@
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
 #include "acquisition/preflight/environment_limits.hpp"
-#include "acquisition/run/live_position.hpp"
 #include "acquisition/run/resume.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -30,7 +29,7 @@ PositioningMeasurement::open(PositioningContext context, ArmedRun armed) {
         why.detail += " " + way_out(why.cause, context.config.state_directory);
         co_return tl::unexpected<Error>(std::move(why));
     }
-    RunMachine machine{run_setup_of(context, armed.header)};
+    RunMachine machine{run_setup_of(context, armed.header, std::move(armed.reading))};
     auto test = std::make_shared<PositioningMeasurement>(context, std::move(armed.header),
                                                          std::move(path), std::move(machine));
     test->limits_waived_ = waives_limits(armed.checks);
@@ -112,10 +111,9 @@ void PositioningMeasurement::take_reading(const Sample& sample) {
         return;
     }
     const auto value = sample.value();
-    if (!value || header_.rotary) return; // whose halts no port judges
-    const Length position = live_position(header_.laser, *datum_, metre(*value),
-                                          context_.readings.last_scale_minus_1());
-    context_.port.publish_position(sample.at, position.in(mm));
+    if (!value) return;
+    if (const auto place = place_of(metre(*value))) // else no port judges its halts
+        context_.port.publish_position(sample.at, place->in(mm));
 }
 
 /// While no run is open nobody captures; the counter's zero is watched by its readings: since the

@@ -1,6 +1,7 @@
 #pragma once
 // The positioning run: the axis is captured at each target, when the CNC or a person asks for it.
-// RunMachine decides what is taken; here it is carried out and made durable.
+// RunMachine decides what is taken, its ReadingRule what a reading says; here it is carried out and
+// made durable.
 
 #include "acquisition/capture/capture.hpp"
 #include "acquisition/capture/stillness.hpp"
@@ -40,16 +41,22 @@ public:
     static Task<Result<std::shared_ptr<PositioningMeasurement>>> open(PositioningContext context,
                                                                       ArmedRun armed);
     /// Of a run that an earlier daemon left open; go_on() records.
-    /// @param proof  why its datum holds, for the record. @errors as Journal::reopen.
-    static Task<Result<std::shared_ptr<PositioningMeasurement>>> reopen(PositioningContext context,
-                                                                        std::string path,
-                                                                        RunFileContents contents,
-                                                                        std::string proof);
+    /// @param reading  as ArmedRun::reading
+    /// @param proof    why its datum holds, for the record. @errors as Journal::reopen.
+    static Task<Result<std::shared_ptr<PositioningMeasurement>>>
+    reopen(PositioningContext context,
+           std::string path,
+           RunFileContents contents,
+           std::shared_ptr<const ReadingRule> reading,
+           std::string proof);
     /// Of a complete run that an earlier daemon closed: it can be added to.
-    static std::shared_ptr<PositioningMeasurement> of_closed(const PositioningContext& context,
-                                                             std::string path,
-                                                             RunFileContents contents,
-                                                             ClosedBefore before);
+    /// @param reading  as ArmedRun::reading
+    static std::shared_ptr<PositioningMeasurement>
+    of_closed(const PositioningContext& context,
+              std::string path,
+              RunFileContents contents,
+              std::shared_ptr<const ReadingRule> reading,
+              ClosedBefore before);
     /// By these three alone.
     /// @param header  without points
     PositioningMeasurement(const PositioningContext& context,
@@ -99,8 +106,8 @@ public:
     void put_on_axis(AxisView& axis, Length reading) const override;
     void put_on_port(PortStatus& status) const override;
     void put_on_status(StationStatus& shown) const override;
-    /// Where the axis stands, while the datum of the closed run holds; not of a rotary axis, which
-    /// may be behind any position of its table.
+    /// Where the axis stands, while the datum of the closed run holds; not where a reading shows it
+    /// near a target alone, or not at all.
     [[nodiscard]] std::optional<Length> place_now() const override;
 
 private:
@@ -204,7 +211,8 @@ private:
 
     // positioning_view.cpp
     [[nodiscard]] Length target_of(const PlannedPoint& point) const;
-    [[nodiscard]] std::optional<double> position_now_mm(Length reading) const;
+    [[nodiscard]] std::optional<Length> place_of(Length reading) const;
+    [[nodiscard]] std::optional<Length> place_near(Length target, Length reading) const;
     [[nodiscard]] std::string state_text(const RunView& view) const;
     void tell_trouble(RunStatus& run, const RunView& view) const;
     [[nodiscard]] std::optional<double> seconds_left(const RunView& view) const;

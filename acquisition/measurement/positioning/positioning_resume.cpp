@@ -11,8 +11,12 @@
 
 namespace axiscal {
 
-Task<Result<std::shared_ptr<PositioningMeasurement>>> PositioningMeasurement::reopen(
-    PositioningContext context, std::string path, RunFileContents contents, std::string proof) {
+Task<Result<std::shared_ptr<PositioningMeasurement>>>
+PositioningMeasurement::reopen(PositioningContext context,
+                               std::string path,
+                               RunFileContents contents,
+                               std::shared_ptr<const ReadingRule> reading,
+                               std::string proof) {
     if (auto reopened = co_await context.journal.reopen(path); !reopened)
         co_return tl::unexpected<Error>(reopened.error());
     const auto newest = context.readings.reference().newest();
@@ -21,7 +25,7 @@ Task<Result<std::shared_ptr<PositioningMeasurement>>> PositioningMeasurement::re
     header.points.clear();
     const bool waived = waives_limits(contents.revisions.preflight);
     const std::size_t answers = contents.revisions.answers.size();
-    RunSetup setup = run_setup_of(context, contents.run);
+    RunSetup setup = run_setup_of(context, contents.run, std::move(reading));
     setup.revisions = std::move(contents.revisions);
     RunMachine machine{std::move(setup), contents.run, epoch, context.scheduler.now()};
     auto test = std::make_shared<PositioningMeasurement>(context, std::move(header),
@@ -68,8 +72,9 @@ std::shared_ptr<PositioningMeasurement>
 PositioningMeasurement::of_closed(const PositioningContext& context,
                                   std::string path,
                                   RunFileContents contents,
+                                  std::shared_ptr<const ReadingRule> reading,
                                   ClosedBefore before) {
-    RunSetup setup = run_setup_of(context, contents.run);
+    RunSetup setup = run_setup_of(context, contents.run, std::move(reading));
     const std::size_t answers = contents.revisions.answers.size();
     const bool waived = waives_limits(contents.revisions.preflight);
     setup.revisions = std::move(contents.revisions);

@@ -2,11 +2,8 @@
 #include "acquisition/capture/wording.hpp"
 #include "acquisition/live/live_readings.hpp"
 #include "acquisition/measurement/positioning/positioning_measurement.hpp"
-#include "acquisition/run/live_position.hpp"
-#include "analysis/rotary/rotary_position.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace axiscal {
@@ -29,40 +26,42 @@ void PositioningMeasurement::put_on_port(PortStatus& status) const {
 
 void PositioningMeasurement::put_on_axis(AxisView& axis, Length reading) const {
     if (!datum_ || !is_open()) return;
-    axis.position_mm = position_now_mm(reading);
+    const ReadingRule& rule = machine_.reading();
     const auto next = machine_.view().next;
-    if (!axis.position_mm || !next) return;
-    const double deviation_um = (*axis.position_mm - target_of(*next).in(mm)) * 1e3;
-    if (std::abs(deviation_um) <= header_.plan.near_tolerance.in(um))
-        axis.deviation_um = deviation_um;
+    if (const auto place = place_of(reading)) axis.position_mm = place->in(mm);
+    if (!next) return;
+    const auto place = place_near(target_of(*next), reading);
+    if (!place) return;
+    if (rule.shows_place()) axis.position_mm = place->in(mm);
+    axis.deviation_um = rule.deviation_of(*datum_, reading, *place, target_of(*next)).in(um);
 }
 
 Length PositioningMeasurement::target_of(const PlannedPoint& point) const {
     return header_.plan.targets[static_cast<std::size_t>(point.target_index)];
 }
 
-/// Where the indexing table stands shows only near the next target: elsewhere a rotary axis has no
-/// position that could be told.
-std::optional<double> PositioningMeasurement::position_now_mm(Length reading) const {
-    const double scale = context_.readings.last_scale_minus_1();
-    if (!header_.rotary) return live_position(header_.laser, *datum_, reading, scale).in(mm);
-    const auto next = machine_.view().next;
-    if (!next) return std::nullopt;
-    const Length target = target_of(*next);
-    const int index = artefact_index(*header_.rotary, datum_->coordinate, target);
-    const auto position =
-        rotary_position(*header_.rotary, header_.laser.sign, *datum_, reading, scale, index);
-    if (!position || abs(*position - target) > header_.plan.near_tolerance) return std::nullopt;
-    return position->in(mm);
+/// Nothing where the reading does not show it far from any target.
+std::optional<Length> PositioningMeasurement::place_of(Length reading) const {
+    const ReadingRule& rule = machine_.reading();
+    if (!rule.sees_every_place()) return std::nullopt;
+    const auto place = rule.position_of(*datum_, reading, context_.readings.last_scale_minus_1(),
+                                        datum_->coordinate);
+    return place ? std::optional{*place} : std::nullopt;
+}
+
+/// Nothing unless it is near.
+std::optional<Length> PositioningMeasurement::place_near(Length target, Length reading) const {
+    const auto place = machine_.reading().position_of(
+        *datum_, reading, context_.readings.last_scale_minus_1(), target);
+    if (!place || abs(*place - target) > header_.plan.near_tolerance) return std::nullopt;
+    return *place;
 }
 
 std::optional<Length> PositioningMeasurement::place_now() const {
-    if (!datum_ || header_.rotary || !set_up_.lost().empty() || !datum_stands())
-        return std::nullopt;
+    if (!datum_ || !set_up_.lost().empty() || !datum_stands()) return std::nullopt;
     const auto reading = context_.readings.reference().newest();
     if (!reading || !reading->value()) return std::nullopt;
-    return live_position(header_.laser, *datum_, metre(*reading->value()),
-                         context_.readings.last_scale_minus_1());
+    return place_of(metre(*reading->value()));
 }
 
 RunStatus PositioningMeasurement::status() const {

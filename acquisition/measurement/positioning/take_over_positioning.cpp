@@ -33,6 +33,13 @@ std::string what_is_outside(const CncContext& context, const RunFileContents& co
 } // namespace
 
 Task<Result<TakenOver>> take_over_positioning(PositioningContext context, LeftRun left) {
+    auto reading = positions_of(left.contents.run);
+    return take_over_read_by(context, std::move(left), std::move(reading));
+}
+
+Task<Result<TakenOver>> take_over_read_by(PositioningContext context,
+                                          LeftRun left,
+                                          std::shared_ptr<const ReadingRule> reading) {
     TakenOver taken;
     if (!context.roles.laser) {
         taken.closing = left.closed_for(why_not_without_counter(context), Fault::bad_configuration);
@@ -47,7 +54,7 @@ Task<Result<TakenOver>> take_over_positioning(PositioningContext context, LeftRu
     }
     AXISCAL_CO_TRY(taken.test, co_await PositioningMeasurement::reopen(
                                    context, std::move(left.path), std::move(left.contents),
-                                   std::move(verdict.sentence)));
+                                   std::move(reading), std::move(verdict.sentence)));
     co_return taken;
 }
 
@@ -57,10 +64,22 @@ take_over_closed_positioning(PositioningContext context,
                              RunFileContents contents,
                              const SetUpWatch& set_up,
                              const std::optional<JournalReceipt>& told) {
+    auto reading = positions_of(contents.run);
+    return take_over_closed_read_by(context, std::move(path), std::move(contents),
+                                    std::move(reading), set_up, told);
+}
+
+Task<std::shared_ptr<Measurement>>
+take_over_closed_read_by(PositioningContext context,
+                         std::string path,
+                         RunFileContents contents,
+                         std::shared_ptr<const ReadingRule> reading,
+                         const SetUpWatch& set_up,
+                         const std::optional<JournalReceipt>& told) {
     ClosedBefore before = co_await judge_closed_run(context, set_up, contents.run);
     before.last_receipt = told;
     co_return PositioningMeasurement::of_closed(context, std::move(path), std::move(contents),
-                                                std::move(before));
+                                                std::move(reading), std::move(before));
 }
 
 } // namespace axiscal

@@ -5,6 +5,7 @@
 #include "acquisition/measurement/left_run.hpp"
 #include "acquisition/measurement/positioning/positioning_port.hpp"
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
+#include "acquisition/run/reading_rule.hpp"
 #include "analysis/quantity/result.hpp"
 #include "drivers/loop/scheduler.hpp"
 #include "drivers/trigger/journal_receipt.hpp"
@@ -27,5 +28,18 @@ take_over_closed_positioning(PositioningContext context,
                              RunFileContents contents,
                              const SetUpWatch& set_up,
                              const std::optional<JournalReceipt>& told);
+
+// The same of another test whose points are taken as those of a positioning run.
+/// @param reading  as ArmedRun::reading
+Task<Result<TakenOver>> take_over_read_by(PositioningContext context,
+                                          LeftRun left,
+                                          std::shared_ptr<const ReadingRule> reading);
+Task<std::shared_ptr<Measurement>>
+take_over_closed_read_by(PositioningContext context,
+                         std::string path,
+                         RunFileContents contents,
+                         std::shared_ptr<const ReadingRule> reading,
+                         const SetUpWatch& set_up,
+                         const std::optional<JournalReceipt>& told);
 
 } // namespace axiscal
