@@ -200,6 +200,7 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
               {"datum_by_cnc", order.datum_by_cnc},
               {"statements", order.statements}};
     if (!order.overrides.empty()) body["overrides"] = order.overrides;
+    if (!order.options.empty()) body["options"] = order.options;
     if (!order.by.empty()) body["by"] = order.by;
     if (order.datum_mm) body["datum_mm"] = *order.datum_mm;
     if (!order.program.empty())
@@ -214,8 +215,9 @@ int command_arm(const StationClient& client, const ArmOrder& order, bool json) {
 }
 
 int command_preflight(const StationClient& client, const ArmOrder& order, bool json) {
-    const Json body{
+    Json body{
         {"pass", order.pass}, {"statements", order.statements}, {"overrides", order.overrides}};
+    if (!order.options.empty()) body["options"] = order.options;
     const auto reply = client.post("/v1/preflight", json_text(body));
     bool holds = true;
     const int code =

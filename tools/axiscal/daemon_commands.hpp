@@ -22,6 +22,7 @@ struct ArmOrder {
     std::string program; ///< file whose header names seed and pass
     bool datum_by_cnc = false;
     std::map<std::string, std::string> statements, overrides;
+    std::map<std::string, std::string> options; ///< what one kind of test alone is told
     std::string by; ///< who orders; empty: the daemon knows the user alone
 };
 int command_arm(const StationClient& client, const ArmOrder& order, bool json);

@@ -113,8 +113,12 @@ int split_statements(Options& options) {
         std::cerr << "--state-that needs KEY=TEXT, as in operator=\"Shift 2\"\n";
         return exit_usage;
     }
-    if (split_at_equals(options.overrides, options.arm.overrides)) return exit_ok;
-    std::cerr << "--override needs NAME=REASON, as in soak=\"the customer waits\"\n";
+    if (!split_at_equals(options.overrides, options.arm.overrides)) {
+        std::cerr << "--override needs NAME=REASON, as in soak=\"the customer waits\"\n";
+        return exit_usage;
+    }
+    if (split_at_equals(options.kind_options, options.arm.options)) return exit_ok;
+    std::cerr << "--option needs NAME=VALUE, as in mirror=reversed\n";
     return exit_usage;
 }
 

@@ -32,7 +32,7 @@ struct Options {
     AlignOrder align;
     DriftOrder drift;
     ProbingOrder probing;
-    std::vector<std::string> statements, overrides;
+    std::vector<std::string> statements, overrides, kind_options;
     RevisionOrder revision;
     bool exclude_instead = false;
     FindingAnswer finding_answer;
@@ -79,7 +79,7 @@ void daemon_options(CLI::App& command, Options& options);
 /// "KEY=TEXT" words into `into`. False when one has no '='.
 bool split_at_equals(const std::vector<std::string>& given,
                      std::map<std::string, std::string>& into);
-/// --state-that and --override into the arm order; tells what is wrong.
+/// --state-that, --override and --option into the arm order; tells what is wrong.
 /// @returns an exit code
 int split_statements(Options& options);
 

@@ -62,8 +62,11 @@ void arming_options(CLI::App& command, Options& options) {
                        "prints the reason");
     command
         .add_option("--pass", options.arm.pass,
-                    "whole, stretch on an axis over 2000 mm, or circular")
+                    "whole, stretch on an axis over 2000 mm, circular, or straightness")
         ->capture_default_str();
+    command.add_option("--option", options.kind_options,
+                       "NAME=VALUE that one kind of test alone is told: mirror=reversed of "
+                       "straightness");
 }
 
 /// Of every order that decides about a run.
