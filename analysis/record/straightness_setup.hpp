@@ -56,6 +56,8 @@ struct StraightnessSetup {
     std::string place;       ///< where the optics stood, and which part moved; printed
     StraightnessStatement uncertainty;
 
+    /// Of the station file.
+    static constexpr std::string_view section = "straightness";
     /// Named apart from R, B and B_mean of a positioning: a limit of one must not judge the other.
     static constexpr std::array<std::string_view, 12> judged{"straightness_end_points",
                                                              "straightness_end_points_forward",

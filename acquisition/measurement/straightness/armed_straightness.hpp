@@ -1,0 +1,36 @@
+#pragma once
+// What a straightness run begins with. As armed_run(), with the set-up of the optics.
+
+#include "acquisition/live/station_interface.hpp"
+#include "acquisition/measurement/drift/environmental_variation.hpp"
+#include "acquisition/measurement/positioning/armed_run.hpp"
+#include "acquisition/measurement/run_header.hpp"
+#include "acquisition/measurement/straightness/straightness_config.hpp"
+#include "acquisition/run/reading_rule.hpp"
+#include "analysis/quantity/result.hpp"
+#include "analysis/record/run_attachments.hpp"
+#include "config/station_config.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace axiscal {
+
+/// How the mirror stands: as was said at arming, else as the station file says.
+/// @errors Fault::bad_request for a word that is no position of it.
+Result<MirrorPosition> mirror_of(const StraightnessConfig& config, const ArmRequest& request);
+
+/// @param parts  of TestKind::straightness, with the plan
+/// @param eve    of the drift test that the table points to, if it does
+/// @errors as armed_run() and mirror_of().
+Result<ArmedRun> armed_straightness(const RunHeaderParts& parts,
+                                    const StraightnessConfig& config,
+                                    const ArmRequest& request,
+                                    const std::optional<FoundEve>& eve);
+
+/// By which the points of such a run are read, also of one that an earlier daemon left: the range
+/// of the optics is that of the station file.
+std::shared_ptr<const ReadingRule> reading_across(const StationConfig& station,
+                                                  const RunAttachments& attachments);
+
+} // namespace axiscal
