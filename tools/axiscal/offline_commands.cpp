@@ -1,6 +1,7 @@
 #include "tools/axiscal/offline_commands.hpp"
 
 #include "acquisition/documents/evaluate.hpp"
+#include "acquisition/measurement/straightness/straightness_config.hpp"
 #include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/run/cycle_plan.hpp"
@@ -73,6 +74,11 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     if (config.axis.angle) order.rotary = config.axis.angle->setup;
     if (order.shape == TriggerShape::dwell)
         order.least_halt = config.trigger.minimum_halt + config.capture.window;
+    const StraightnessConfig* const across = straightness_config_of(config);
+    if (across != nullptr && order.plan.pass == name_of(TestKind::straightness)) {
+        order.feed = across->feed;
+        order.dwell = across->dwell;
+    }
     return order;
 }
 
@@ -208,6 +214,8 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!planned) return complain(planned.error());
         passes = *std::move(planned);
     }
+    if (const StraightnessConfig* const across = straightness_config_of(config))
+        passes.push_back(across->plan);
     const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
     if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
     if (passes.empty() && dialect->name != "linuxcnc")
