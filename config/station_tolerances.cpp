@@ -17,30 +17,44 @@ double as_written(double value) {
 std::vector<std::string> all_parameters() {
     std::vector<std::string> names;
     for (const TestKind kind : all_test_kinds)
-        for (const std::string_view name : judged_parameters(kind))
+        for (const std::string_view name : judged_figures(kind).names)
             names.emplace_back(name);
     return names;
 }
 
-bool is_of(TestKind kind, std::string_view parameter) {
-    const auto known = judged_parameters(kind);
-    return std::ranges::find(known, parameter) != known.end();
+double read_length_limit(Settings& table) {
+    return as_written(table.length("limit", nm(1), metre(1)).in(um));
 }
 
-/// In um; of a rotary axis the figures of its positioning and its drift in arcsec.
-double read_limit(Settings& table, const std::string& parameter, AxisKind kind) {
-    const bool angle = kind == AxisKind::rotary && (is_of(TestKind::positioning, parameter) ||
-                                                    is_of(TestKind::drift, parameter));
-    if (!angle) return as_written(table.length("limit", nm(1), metre(1)).in(um));
+double read_axis_limit(Settings& table, AxisKind kind) {
+    if (kind == AxisKind::linear) return read_length_limit(table);
     constexpr double arcsec_per_degree = 3600;
     return as_written(table.rotary_length("limit", nm(1), metre(1)).in(mm)*arcsec_per_degree);
+}
+
+double read_slope_limit(Settings& table) {
+    constexpr double um_per_m = 1e6;
+    return as_written(table.ratio("limit", ppm(0.001), percent(10)).si() * um_per_m);
+}
+
+/// In the unit of unit_of_limits(). A figure that is none was refused; its limit is read as a
+/// length.
+double read_limit(Settings& table, const std::string& parameter, AxisKind kind) {
+    const JudgedFigures* const figures = judged_with(parameter);
+    switch (figures == nullptr ? LimitQuantity::length : figures->limit) {
+    case LimitQuantity::of_axis: return read_axis_limit(table, kind);
+    case LimitQuantity::length: break;
+    case LimitQuantity::slope: return read_slope_limit(table);
+    }
+    return read_length_limit(table);
 }
 
 void read_band(Settings& table, AxisUnits units, ToleranceLimit& limit) {
     const auto band = units.optional_coordinate(table, "travel_up_to", mm(0.001), farthest);
     if (!band) return;
     limit.travel_up_to = as_written(band->in(mm));
-    if (!limit.parameter.empty() && !is_of(TestKind::positioning, limit.parameter))
+    const JudgedFigures* const figures = judged_with(limit.parameter);
+    if (figures != nullptr && !figures->by_travel)
         table.refuse("travel_up_to",
                      limit.parameter + " has no travel: only figures of positioning have bands");
 }
@@ -123,7 +137,6 @@ Result<ToleranceRecord> load_tolerances(const std::string& path, AxisKind kind) 
     AXISCAL_TRY(SettingsDocument document, SettingsDocument::load(path));
     Settings root = document.root();
     ToleranceRecord set = read_set(root, true, kind, "limits of " + path);
-    set.unit = kind == AxisKind::rotary ? "arcsec" : "um";
     if (const auto refusals = document.finish(); !refusals.empty())
         return fail(Fault::bad_configuration, refusals.front().describe());
     return set;

@@ -8,8 +8,8 @@
 
 namespace axiscal {
 
-/// The keys of the station file's [tolerances], without that head. Limits in um, those of a rotary
-/// axis in arcsec, as `unit` says.
+/// The keys of the station file's [tolerances], without that head. Each limit is in the unit of its
+/// figure (unit_of_limits()); limits_of_kind() says which.
 /// @errors Fault::bad_configuration with file:line and the first thing that is wrong.
 Result<ToleranceRecord> load_tolerances(const std::string& path, AxisKind kind);
 

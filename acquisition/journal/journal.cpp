@@ -3,6 +3,7 @@
 #include "acquisition/journal/journal_worker.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_store.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 
 namespace axiscal {
 

@@ -10,6 +10,7 @@
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 #include "analysis/quantity/result.hpp"
 #include "analysis/record/test_kind.hpp"
 #include "config/station_config.hpp"

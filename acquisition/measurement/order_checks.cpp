@@ -4,6 +4,7 @@
 #include "acquisition/measurement/preflight_facts.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 
 #include <string>
 #include <utility>

@@ -45,8 +45,11 @@ Result<void> nothing_goes_on(const OrderContext& context) {
 }
 
 RunHeaderParts header_parts(const OrderContext& context, TestKind kind, RunPlan plan) {
-    return {context.config,  context.instruments,           context.roles,   kind,
-            std::move(plan), context.scheduler.clock_tie(), context.boot_id, context.config_hash};
+    RunHeaderParts parts{
+        context.config,  context.instruments,           context.roles,   kind,
+        std::move(plan), context.scheduler.clock_tie(), context.boot_id, context.config_hash};
+    if (context.roles.autocollimator) parts.further_channels = {*context.roles.autocollimator};
+    return parts;
 }
 
 void begin_before_cnc(const OrderContext& context,

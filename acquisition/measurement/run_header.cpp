@@ -70,10 +70,7 @@ std::optional<ScaleSetup> scale_of(const RunHeaderParts& parts) {
 /// Those of this kind of test, in the unit of its figures.
 std::optional<ToleranceRecord> tolerances_of(const StationConfig& config, TestKind kind) {
     if (!config.tolerances) return std::nullopt;
-    auto set = limits_of_kind(*config.tolerances, kind);
-    const bool angle = config.cycle.axis_kind == AxisKind::rotary && kind != TestKind::circular;
-    if (set) set->unit = angle ? "arcsec" : "um";
-    return set;
+    return limits_of_kind(*config.tolerances, kind, config.cycle.axis_kind == AxisKind::rotary);
 }
 
 /// What the device says of itself, completed by what the station file states.
@@ -93,12 +90,8 @@ std::vector<ChannelRecord> channels_of(const RunHeaderParts& parts) {
     std::vector<ChannelRecord> records;
     std::vector<int> ids = parts.roles.environment();
     if (parts.roles.laser) ids.push_back(*parts.roles.laser);
-    if (parts.kind == TestKind::circular) {
-        for (const auto& id : {parts.roles.ballbar, parts.roles.bar_temperature})
-            if (id && std::ranges::find(ids, *id) == ids.end()) ids.push_back(*id);
-    } else if (parts.roles.autocollimator) {
-        ids.push_back(*parts.roles.autocollimator);
-    }
+    for (const int id : parts.further_channels)
+        if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
     std::ranges::sort(ids);
     for (const int id : ids) {
         const StationChannel& channel = parts.supervisor.channels()[static_cast<std::size_t>(id)];
@@ -195,7 +188,6 @@ Result<RunRecord> make_run_header(const RunHeaderParts& parts, const ArmRequest&
     run.scale = scale_of(parts);
     run.uncertainty = config.uncertainty;
     run.tolerances = tolerances_of(config, parts.kind);
-    if (parts.kind == TestKind::positioning) run.standards = config.standards;
     run.statements = config.statements;
     if (run.statements.axis.empty()) run.statements.axis = config.axis.name;
     for (const auto& [key, value] : request.statements) {

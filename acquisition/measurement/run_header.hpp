@@ -6,6 +6,10 @@
 #include "acquisition/live/station_interface.hpp"
 #include "config/station_config.hpp"
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace axiscal {
 
 struct RunHeaderParts {
@@ -17,6 +21,8 @@ struct RunHeaderParts {
     ClockTie opened;
     BootId boot_id;
     std::string config_hash;
+    /// Beside those of the environment and the laser: the channels of which readings are kept.
+    std::vector<int> further_channels = {};
 };
 
 /// "<station>-20261121T100000Z-X", of the second run of that second

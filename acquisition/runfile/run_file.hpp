@@ -179,24 +179,6 @@ Result<RunSummary> summarize_run_file(const std::string& path);
 /// elsewhere. A run that was added to after its first one gets another: nothing
 /// that was issued is replaced.
 std::string certificate_name(const RunSummary& run);
-/// A stored result of a drift test.
-struct StoredDrift {
-    std::string run_id, document;
-    Duration duration{}; ///< as long as it was to last: it is complete
-    Length place;        ///< where the axis rested, as was stated; 0 for a ballbar
-};
-/// Which drift test a budget takes its E_VE from.
-struct WantedDrift {
-    std::string which;   ///< a run id, or "latest": the newest one
-    bool of_bar = false; ///< of a ballbar, else of an axis
-    std::string of;      ///< name of the axis, or channel of the ballbar: "gauge/axis 1"
-    /// The key of the station file that names it, and the order that makes another.
-    [[nodiscard]] std::string key() const;
-    [[nodiscard]] std::string order() const;
-};
-/// Only complete tests of that axis or ballbar that were evaluated count.
-/// @errors Fault::not_found, with the way out.
-Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wanted);
 /// Run files of a folder by name; unreadable ones are left out. Empty when there is no folder.
 std::vector<RunSummary> list_run_files(const std::string& folder);
 /// Brings back to one file what a power cut left between closing row and tidying; sweeps files

@@ -1,6 +1,5 @@
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/run_file_open.hpp"
-#include "acquisition/runfile/run_order.hpp"
 #include "acquisition/runfile/schema.hpp"
 #include "acquisition/runfile/setups/setup_rows.hpp"
 #include "analysis/quantity/valid_text.hpp"
@@ -403,38 +402,6 @@ std::vector<RunSummary> list_run_files(const std::string& folder) {
     }
     std::ranges::sort(summaries, {}, &RunSummary::path);
     return summaries;
-}
-
-std::string WantedDrift::key() const {
-    return of_bar ? "circular.uncertainty.eve_run" : "uncertainty.eve_run";
-}
-
-std::string WantedDrift::order() const {
-    return of_bar ? "'axiscal drift --of ballbar'" : "'axiscal drift'";
-}
-
-Result<StoredDrift> find_drift(const std::string& folder, const WantedDrift& wanted) {
-    std::vector<RunSummary> tests = list_run_files(folder);
-    std::erase_if(tests, [&](const RunSummary& run) {
-        const bool of_it = wanted.of_bar ? run.bar == wanted.of : !run.bar && run.axis == wanted.of;
-        const bool counts = run.kind == TestKind::drift && run.complete && run.evaluated && of_it;
-        return !counts || (wanted.which != "latest" && run.run_id != wanted.which);
-    });
-    const RunSummary* found = newest_run(tests, {});
-    if (!found)
-        return fail(Fault::not_found, wanted.key() + " = \"" + wanted.which +
-                                          "\" names no complete drift test of " +
-                                          (wanted.of_bar ? "ballbar " : "axis ") + wanted.of +
-                                          " in " + folder + "; " + wanted.order() + " makes one");
-    AXISCAL_TRY(StoredResult stored, read_stored_result(found->path));
-    AXISCAL_TRY(const auto database, open_run_file(found->path));
-    AXISCAL_TRY(const auto rows, rows_of(*database, "SELECT duration_ns, place_m FROM drift"));
-    const auto* duration_ns = rows.empty() ? nullptr : std::get_if<std::int64_t>(&rows[0][0]);
-    const auto* place_m = rows.empty() ? nullptr : std::get_if<double>(&rows[0][1]);
-    if (duration_ns == nullptr || place_m == nullptr)
-        return bad(found->path, "the drift test does not say how long it lasted");
-    return StoredDrift{found->run_id, std::move(stored.document), Duration{*duration_ns},
-                       metre(*place_m)};
 }
 
 } // namespace axiscal

@@ -2,6 +2,8 @@
 // What is known of a circular test before the first circle: what is driven, how it is captured, the
 // bar, and what is stated for the uncertainty. Pure data.
 
+#include "analysis/record/limit_quantity.hpp"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -88,6 +90,7 @@ struct CircularSetup {
     std::optional<int> bar_temperature_channel; ///< ChannelRecord::id
     CircularUncertaintyStatement uncertainty;
 
+    static constexpr LimitQuantity judged_in = LimitQuantity::length;
     static constexpr std::array<std::string_view, 8> judged{
         "G_ccw", "G_cw", "G_b", "F_max_ccw", "F_max_cw", "F_min_ccw", "F_min_cw", "D"};
 };

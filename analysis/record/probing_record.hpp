@@ -2,6 +2,7 @@
 // A probing test as it was made on the machine: every touch with what the control latched. Pure.
 
 #include "analysis/quantity/quantity.hpp"
+#include "analysis/record/limit_quantity.hpp"
 
 #include <array>
 #include <string>
@@ -24,6 +25,7 @@ struct ProbingRecord {
     std::string probe, signal_path;    ///< as stated: type and stylus; skip input, PLC
     std::vector<ProbingTouch> touches; ///< in the order in which they were made
 
+    static constexpr LimitQuantity judged_in = LimitQuantity::length;
     static constexpr std::array<std::string_view, 7> judged{
         "E_TD,X", "E_TD,Y", "E_TD,Z", "E_TD,XY", "E_TD,XZ", "E_TD,YZ", "E_TD,XYZ"};
 };

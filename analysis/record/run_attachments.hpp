@@ -7,6 +7,7 @@
 #include "analysis/quantity/time.hpp"
 #include "analysis/record/alignment_record.hpp"
 #include "analysis/record/circular_setup.hpp"
+#include "analysis/record/limit_quantity.hpp"
 #include "analysis/record/probing_record.hpp"
 #include "analysis/record/straightness_setup.hpp"
 #include "analysis/record/synchronisation.hpp"
@@ -29,12 +30,14 @@ struct DriftSetup {
     /// Of the ballbar at rest: LaserSetup names its instrument and says nothing else.
     bool of_bar = false;
 
+    static constexpr LimitQuantity judged_in = LimitQuantity::of_axis;
     static constexpr std::array<std::string_view, 2> judged{"E_VE", "ETVE"};
 };
 
 /// What only RunRecord::kind has, one alternative a TestKind in its order. Of a positioning run the
 /// plan says all; that of a circular test comes with its first block, and nothing stands for it
-/// before. `judged` of each: the figures of its kind that a limit can name.
+/// before. `judged` of each: the figures of its kind that a limit can name; `judged_in`: what that
+/// limit is.
 using TestSetup =
     std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord, StraightnessSetup>;
 static_assert(std::variant_size_v<TestSetup> == all_test_kinds.size());

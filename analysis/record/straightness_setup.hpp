@@ -2,6 +2,7 @@
 // How the straightness of a linear axis is measured. Pure data.
 
 #include "analysis/quantity/quantity.hpp"
+#include "analysis/record/limit_quantity.hpp"
 
 #include <array>
 #include <cstdint>
@@ -58,6 +59,7 @@ struct StraightnessSetup {
 
     /// Of the station file.
     static constexpr std::string_view section = "straightness";
+    static constexpr LimitQuantity judged_in = LimitQuantity::length;
     /// Named apart from R, B and B_mean of a positioning: a limit of one must not judge the other.
     static constexpr std::array<std::string_view, 12> judged{"straightness_end_points",
                                                              "straightness_end_points_forward",

@@ -41,28 +41,39 @@ constexpr std::array<std::string_view, 32> of_positioning{"A",
                                                           "positioning",
                                                           "lost_motion"};
 
-using JudgedParameters = std::span<const std::string_view>;
-
-/// Of each kind, in the order of TestKind.
+/// In the order of TestKind.
 template <class... Setups>
-constexpr std::array<JudgedParameters, 1 + sizeof...(Setups)>
+constexpr std::array<JudgedFigures, 1 + sizeof...(Setups)>
 judged_of_each(std::variant<std::monostate, Setups...>* /*types alone*/) {
-    return {JudgedParameters{of_positioning}, JudgedParameters{Setups::judged}...};
+    return {JudgedFigures{of_positioning, LimitQuantity::of_axis, true},
+            JudgedFigures{Setups::judged, Setups::judged_in, false}...};
+}
+
+constexpr auto judged_of_kinds = judged_of_each(static_cast<TestSetup*>(nullptr));
+
+bool knows(const JudgedFigures& figures, std::string_view parameter) {
+    return std::ranges::find(figures.names, parameter) != figures.names.end();
 }
 
 } // namespace
 
-std::span<const std::string_view> judged_parameters(TestKind kind) {
-    constexpr auto each = judged_of_each(static_cast<TestSetup*>(nullptr));
-    return each[static_cast<std::size_t>(kind)];
+const JudgedFigures& judged_figures(TestKind kind) {
+    return judged_of_kinds[static_cast<std::size_t>(kind)];
 }
 
-std::optional<ToleranceRecord> limits_of_kind(const ToleranceRecord& set, TestKind kind) {
+const JudgedFigures* judged_with(std::string_view parameter) {
+    const auto* const found = std::ranges::find_if(
+        judged_of_kinds, [&](const JudgedFigures& figures) { return knows(figures, parameter); });
+    return found == judged_of_kinds.end() ? nullptr : found;
+}
+
+std::optional<ToleranceRecord>
+limits_of_kind(const ToleranceRecord& set, TestKind kind, bool rotary) {
     ToleranceRecord own = set;
-    const auto known = judged_parameters(kind);
-    std::erase_if(own.limits, [&](const ToleranceLimit& limit) {
-        return std::ranges::find(known, limit.parameter) == known.end();
-    });
+    const JudgedFigures& figures = judged_figures(kind);
+    own.unit = unit_of_limits(figures.limit, rotary);
+    std::erase_if(own.limits,
+                  [&](const ToleranceLimit& limit) { return !knows(figures, limit.parameter); });
     return own.limits.empty() ? std::nullopt : std::optional{std::move(own)};
 }
 

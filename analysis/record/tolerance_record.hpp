@@ -2,6 +2,7 @@
 // The limits that a customer and a maker agreed on, and the rule by which a figure with an
 // uncertainty is held against them. Pure data.
 
+#include "analysis/record/limit_quantity.hpp"
 #include "analysis/record/test_kind.hpp"
 
 #include <array>
@@ -43,16 +44,25 @@ struct ToleranceLimit {
 
 struct ToleranceRecord {
     std::string name, source; ///< what the set is, where its numbers are from
-    std::string unit;         ///< of the limits: "mm" | "um" | "m" | "deg" | "arcsec"
+    std::string unit;         ///< of the limits: "mm" | "um" | "m" | "deg" | "arcsec" | "um/m"
     DecisionRule rule = DecisionRule::none;
     bool to_be_checked = false; ///< nobody has compared the numbers with their source
     std::vector<ToleranceLimit> limits;
 };
 
-/// The figures of this kind of test that a limit can name, those of every standard for positioning.
-std::span<const std::string_view> judged_parameters(TestKind kind);
+/// The figures of one kind of test that a limit can name.
+struct JudgedFigures {
+    std::span<const std::string_view> names; ///< for positioning those of every standard
+    LimitQuantity limit = LimitQuantity::length;
+    bool by_travel = false; ///< a limit may hold for axes up to a travel
+};
+const JudgedFigures& judged_figures(TestKind kind);
+/// Those that the figure is one of; null where no kind of test has it.
+const JudgedFigures* judged_with(std::string_view parameter);
 
-/// The set with the limits of this kind alone; nothing where it has none.
-std::optional<ToleranceRecord> limits_of_kind(const ToleranceRecord& set, TestKind kind);
+/// The set with the limits of this kind alone, in their unit; nothing where it has none.
+/// @param rotary  the axis turns
+std::optional<ToleranceRecord>
+limits_of_kind(const ToleranceRecord& set, TestKind kind, bool rotary);
 
 } // namespace axiscal

@@ -75,8 +75,7 @@ RunRecord header_of(const StationConfig& config, const ProbingOrder& order) {
     run.station_config = config.text;
     run.config_hash = sha256_hex(config.text);
     run.kind = TestKind::probing;
-    if (config.tolerances) run.tolerances = limits_of_kind(*config.tolerances, run.kind);
-    if (run.tolerances) run.tolerances->unit = "um";
+    if (config.tolerances) run.tolerances = limits_of_kind(*config.tolerances, run.kind, false);
     run.statements = config.statements;
     run.statements.certificate_number.clear(); // no certificate: the station's numbers are not its
     if (!order.operator_name.empty())

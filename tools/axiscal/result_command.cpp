@@ -32,7 +32,8 @@ Result<void> take_limits(const ResultRequest& request, Certificate& made) {
     if (request.tolerances.ends_with(".toml")) {
         AXISCAL_TRY(ToleranceRecord set,
                     load_tolerances(request.tolerances, made.run.plan.axis_kind));
-        const auto own = limits_of_kind(set, TestKind::positioning);
+        const bool turns = made.run.plan.axis_kind == AxisKind::rotary;
+        const auto own = limits_of_kind(set, TestKind::positioning, turns);
         if (!own)
             return fail(Fault::bad_configuration,
                         request.tolerances + " has no limit of a positioning run: A, E, M, R or B");

@@ -6,6 +6,7 @@
 #include "acquisition/measurement/drift/environmental_variation.hpp"
 #include "acquisition/measurement/order_context.hpp"
 #include "acquisition/preflight/preflight.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 #include "analysis/quantity/result.hpp"
 
 #include <vector>

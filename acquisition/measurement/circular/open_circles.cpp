@@ -26,9 +26,17 @@ Result<void> circles_are_ready(const OrderContext& context) {
     return ballbar_speaks(context);
 }
 
+RunHeaderParts parts_of_circles(const OrderContext& context) {
+    RunHeaderParts parts = header_parts(context, TestKind::circular, {});
+    parts.further_channels.clear();
+    for (const auto& channel : {context.roles.ballbar, context.roles.bar_temperature})
+        if (channel) parts.further_channels.push_back(*channel);
+    return parts;
+}
+
 Task<Result<std::string>> open_and_flush(OrderContext context, ArmRequest request) {
     AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
-    const RunHeaderParts parts = header_parts(context, TestKind::circular, {});
+    const RunHeaderParts parts = parts_of_circles(context);
     AXISCAL_CO_TRY(ArmedCircles armed,
                    armed_circles(parts, request, context.readings.bar_rate_hz(), admitted.eve));
     armed.checks = std::move(admitted.checks);

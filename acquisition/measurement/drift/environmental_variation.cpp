@@ -2,6 +2,7 @@
 
 #include "acquisition/journal/journal.hpp"
 #include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 
 #include <nlohmann/json.hpp>
 

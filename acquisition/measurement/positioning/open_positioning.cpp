@@ -35,6 +35,7 @@ Task<Result<ArmedRun>> order_run(OrderContext context, const ArmRequest& request
     AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
     const RunHeaderParts parts = header_parts(context, TestKind::positioning, std::move(plan));
     AXISCAL_CO_TRY(ArmedRun armed, armed_run(parts, request, admitted.eve));
+    armed.header.standards = context.config.standards;
     armed.checks = std::move(admitted.checks);
     armed.attachments.alignment = context.beam.for_run();
     co_return armed;

@@ -6,6 +6,7 @@
 #include "acquisition/measurement/order_context.hpp"
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/run_file.hpp"
+#include "acquisition/runfile/stored_drift.hpp"
 #include "analysis/quantity/result.hpp"
 
 namespace axiscal {

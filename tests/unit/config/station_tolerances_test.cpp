@@ -53,7 +53,7 @@ TEST(StationTolerances, EachKindOfTestTakesItsOwn) {
     const ToleranceRecord set = read_text(with_table(agreed)).config.tolerances.value();
     const auto names = [&](TestKind kind) {
         std::string all;
-        if (const auto own = limits_of_kind(set, kind))
+        if (const auto own = limits_of_kind(set, kind, false))
             for (const ToleranceLimit& limit : own->limits)
                 all += limit.parameter + " ";
         return all;
@@ -64,7 +64,7 @@ TEST(StationTolerances, EachKindOfTestTakesItsOwn) {
     EXPECT_EQ(names(TestKind::probing), "E_TD,X ");
     ToleranceRecord circles_alone = set;
     circles_alone.limits = {{"G_b", {}, 12}};
-    EXPECT_FALSE(limits_of_kind(circles_alone, TestKind::positioning));
+    EXPECT_FALSE(limits_of_kind(circles_alone, TestKind::positioning, false));
 }
 
 TEST(StationTolerances, OfARotaryAxisAreAngles) {

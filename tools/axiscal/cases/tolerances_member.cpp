@@ -15,7 +15,8 @@ double converted(double value, const std::string& from, const std::string& to) {
 }
 
 struct LimitReader {
-    TestKind kind;
+    const JudgedFigures& figures;
+    const char* unknown;  ///< of a name that is none of them
     std::string band_key; ///< empty: the figures have no bands
     std::string from, to; ///< units
 };
@@ -28,12 +29,9 @@ limit_of(const json& object, const std::string& field, const LimitReader& reader
     AXISCAL_CHECK(check_object(object, field, keys));
     ToleranceLimit limit;
     AXISCAL_TRY(limit.parameter, text_of(object, "parameter", field + ".parameter"));
-    const auto known = judged_parameters(reader.kind);
+    const auto known = reader.figures.names;
     if (std::ranges::find(known, limit.parameter) == known.end())
-        return refuse(Fault::bad_case, field + ".parameter",
-                      reader.kind == TestKind::circular
-                          ? "is no figure of a circular test; see docs/analysis/circular.md"
-                          : "is no parameter of any standard; see docs/analysis/positioning.md");
+        return refuse(Fault::bad_case, field + ".parameter", reader.unknown);
     AXISCAL_TRY(const double stated, positive_at(object, "limit", field + ".limit"));
     limit.limit = converted(stated, reader.from, reader.to);
     if (!band_key.empty() && object.contains(band_key)) {
@@ -123,12 +121,18 @@ Result<ToleranceSet> tolerance_set_of(const json& member, const CaseAxis& axis) 
     const char* const band_key = linear ? "travel_up_to_mm" : "travel_up_to_deg";
     const Words units = linear ? Words{"mm", "um", "m"} : Words{"deg", "arcsec"};
     AXISCAL_TRY(ToleranceRecord record,
-                record_of(member, units, {TestKind::positioning, band_key, "", axis.unit}));
+                record_of(member, units,
+                          {judged_figures(TestKind::positioning),
+                           "is no parameter of any standard; see docs/analysis/positioning.md",
+                           band_key, "", axis.unit}));
     return ToleranceSet{std::move(record), axis.kind};
 }
 
 Result<ToleranceRecord> circular_tolerances_of(const json& member) {
-    return record_of(member, {"mm", "um", "m"}, {TestKind::circular, "", "", "um"});
+    return record_of(member, {"mm", "um", "m"},
+                     {judged_figures(TestKind::circular),
+                      "is no figure of a circular test; see docs/analysis/circular.md", "", "",
+                      "um"});
 }
 
 void add_verdicts(const ToleranceSet& set, double travel, ordered_json& document) {
