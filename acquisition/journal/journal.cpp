@@ -1,6 +1,7 @@
 #include "acquisition/journal/journal.hpp"
 
 #include "acquisition/journal/journal_worker.hpp"
+#include "acquisition/runfile/complete_runs.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_store.hpp"
 #include "acquisition/runfile/stored_drift.hpp"
@@ -177,6 +178,13 @@ Task<Result<StoredDrift>> Journal::find_drift(std::string folder, WantedDrift wa
         return axiscal::find_drift(folder, wanted);
     };
     co_return co_await perform<Worker, StoredDrift>(worker_.get(), std::move(work));
+}
+
+Task<Result<RunFileContents>> Journal::find_complete_run(std::string folder, WantedRun wanted) {
+    std::function<Result<RunFileContents>()> work = [folder, wanted] {
+        return axiscal::find_complete_run(folder, wanted);
+    };
+    co_return co_await perform<Worker, RunFileContents>(worker_.get(), std::move(work));
 }
 
 void Journal::note(EventRecord event) {

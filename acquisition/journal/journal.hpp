@@ -27,6 +27,7 @@ struct StoredDrift;
 struct StoredResult;
 struct StoredRuns;
 struct WantedDrift;
+struct WantedRun;
 
 /// Where commits wait for the disk: `own` thread for a daemon, or `caller`, for tools and replay
 /// under a virtual clock, where nothing else has to go on meanwhile.
@@ -98,6 +99,8 @@ public:
 
     /// As find_drift(), off the loop.
     Task<Result<StoredDrift>> find_drift(std::string folder, WantedDrift wanted);
+    /// As find_complete_run(), off the loop.
+    Task<Result<RunFileContents>> find_complete_run(std::string folder, WantedRun wanted);
 
     /// Queued: durable with the next commit, or two seconds later at the latest.
     void note(EventRecord event);

@@ -135,9 +135,11 @@ std::vector<ChainedRow> rows_of(const ToleranceRecord& set) {
 } // namespace
 
 std::vector<ChainedRow> rows_of(const TestSetup& setup) {
-    const auto all = setup_rows();
-    const auto own = std::ranges::find(all, static_cast<TestKind>(setup.index()), &SetupRows::kind);
-    return own == all.end() ? std::vector<ChainedRow>{} : (*own)->rows(setup);
+    const auto kind = static_cast<TestKind>(setup.index());
+    std::vector<ChainedRow> all;
+    for (const SetupRows* own : setup_rows())
+        if (own->kind == kind) std::ranges::move(own->rows(setup), std::back_inserter(all));
+    return all;
 }
 
 std::vector<ChainedRow> header_rows(const RunRecord& header, const RunAttachments& attachments) {

@@ -3,6 +3,7 @@
 
 #include "analysis/quantity/quantity.hpp"
 #include "analysis/record/limit_quantity.hpp"
+#include "analysis/record/recorded_line.hpp"
 
 #include <array>
 #include <cstdint>
@@ -52,9 +53,11 @@ struct StraightnessSetup {
     Length resolution;  ///< Wollaston: least step of the laser's own displacement
     MirrorPosition mirror = MirrorPosition::normal;
     std::string reversal_of; ///< id of the run with the mirror in the other position; or empty
-    Length base;             ///< angle steps: length of the foot, which is the step
-    Angle angle_resolution;  ///< angle steps: least step of the angle
-    std::string place;       ///< where the optics stood, and which part moved; printed
+    /// What that run gave, by which the form of the mirror is parted from the motion.
+    std::optional<RecordedLine> reversal;
+    Length base;            ///< angle steps: length of the foot, which is the step
+    Angle angle_resolution; ///< angle steps: least step of the angle
+    std::string place;      ///< where the optics stood, and which part moved; printed
     StraightnessStatement uncertainty;
 
     /// Of the station file.

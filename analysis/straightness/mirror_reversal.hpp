@@ -3,6 +3,9 @@
 
 #include "analysis/geometry/straightness.hpp"
 #include "analysis/quantity/result.hpp"
+#include "analysis/record/recorded_line.hpp"
+#include "analysis/record/straightness_setup.hpp"
+#include "analysis/straightness/straightness_figures.hpp"
 
 namespace axiscal {
 
@@ -22,5 +25,20 @@ struct PartedOptics {
 /// @errors Fault::bad_case "targets" when the positions are not the same; those of
 /// straightness_of().
 Result<PartedOptics> part_optics(const MeasuredLine& normal, const MeasuredLine& reversed);
+
+/// A straightness from which the form of the mirror was taken.
+struct PartedStraightness {
+    StraightnessFigures axis; ///< the motion; scatter pooled of both runs, R of `run` alone
+    StraightnessLine mirror;  ///< what the mirror adds in its normal position
+};
+
+/// As part_optics(), of every mean: each run loses the least-squares line of its own bidirectional
+/// mean, which keeps what parts the directions; B_i is the mean of both runs' B_i.
+/// @param run       with the mirror in position `stood`
+/// @param other     of the other position
+/// @errors Fault::bad_case "targets" for other targets or directions than those of `run`; those of
+/// straightness_of().
+Result<PartedStraightness>
+part_straightness(const StraightnessFigures& run, MirrorPosition stood, const RecordedLine& other);
 
 } // namespace axiscal

@@ -170,6 +170,7 @@ StraightnessInputs inputs_of(const StraightnessSetup& setup, double scatter, int
     if (in.wollaston) {
         in.factor_u = standard_of(stated.factor_U, stated.factor_k, stated.factor_limit);
         in.mirror_limit_um_per_m2 = stated.mirror_limit_um_per_m2;
+        in.mirror_reversed = setup.reversal.has_value();
         if (setup.resolution > Length{}) in.resolution = setup.factor * setup.resolution.in(um);
         if (stated.eve) in.eve = stated.eve->in(um);
         return in;

@@ -55,7 +55,8 @@ Result<ReadStraightness> read_straightness(const RunRecord& run,
                                            const RunRevisions& revisions,
                                            const StraightnessSetup& setup);
 
-/// What the set-up states, for the budget. `scatter`: of a single deviation, or of a single angle.
+/// What the set-up states, for the budget; with StraightnessSetup::reversal that of the mean of
+/// both positions of the mirror. `scatter`: of a single deviation, or of a single angle.
 StraightnessInputs inputs_of(const StraightnessSetup& setup, double scatter, int readings_a_mean);
 
 } // namespace axiscal

@@ -62,7 +62,9 @@ std::optional<double> pooled_of(const std::vector<StraightnessRow>& rows,
     return std::sqrt(scatter.squares / scatter.degrees);
 }
 
-Result<void> add_lines(StraightnessFigures& figures) {
+} // namespace
+
+Result<void> draw_lines(StraightnessFigures& figures) {
     AXISCAL_TRY(figures.forward, line_of(figures.rows, [](const StraightnessRow& row) {
                     return row.mean_forward_um;
                 }));
@@ -76,8 +78,6 @@ Result<void> add_lines(StraightnessFigures& figures) {
                 }));
     return {};
 }
-
-} // namespace
 
 std::string_view name_of(LineReference reference) {
     switch (reference) {
@@ -98,7 +98,7 @@ double StraightnessLine::straightness_um(LineReference reference) const {
 }
 
 int StraightnessFigures::readings_a_mean() const {
-    return backward ? 2 * approaches : approaches;
+    return backward ? 2 * readings_of_direction() : readings_of_direction();
 }
 
 Result<StraightnessFigures> evaluate_straightness(const StraightnessReadings& readings,
@@ -111,7 +111,7 @@ Result<StraightnessFigures> evaluate_straightness(const StraightnessReadings& re
     figures.rows.reserve(found.positions.size());
     for (const PositionRow& position : found.positions)
         figures.rows.push_back(row_of(position));
-    AXISCAL_CHECK(add_lines(figures));
+    AXISCAL_CHECK(draw_lines(figures));
     figures.reversal_um = found.parameters.B;
     figures.mean_reversal_um = found.parameters.B_mean;
     figures.repeatability_um = found.parameters.R;

@@ -43,6 +43,7 @@ struct StraightnessRow {
 
 struct StraightnessFigures {
     int approaches = 0; ///< n, the fewest of a target and direction
+    int runs = 1;       ///< that the means are of: 2 where the mirror stood in both positions
     std::vector<StraightnessRow> rows;
     StraightnessLine forward;
     std::optional<StraightnessLine> backward;
@@ -52,7 +53,9 @@ struct StraightnessFigures {
     /// names no such figure.
     std::optional<double> repeatability_um;
     std::optional<double> pooled_s_um; ///< root mean square of all s_i, weighted by n - 1
-    /// Readings in each mean of `mean`: n, or 2 n where both directions count.
+    /// Readings in each mean of one direction: n of each run.
+    [[nodiscard]] int readings_of_direction() const { return runs * approaches; }
+    /// Readings in each mean of `mean`: these, or twice as many where both directions count.
     [[nodiscard]] int readings_a_mean() const;
 };
 
@@ -66,5 +69,9 @@ struct StraightnessFigures {
 /// infinities; "targets" for fewer than two positions or such that do not rise.
 Result<StraightnessFigures> evaluate_straightness(const StraightnessReadings& readings,
                                                   RowLengths rows = RowLengths::equal);
+
+/// The lines `forward`, `backward` and `mean` of the means that stand in `figures.rows`.
+/// @errors those of straightness_of().
+Result<void> draw_lines(StraightnessFigures& figures);
 
 } // namespace axiscal

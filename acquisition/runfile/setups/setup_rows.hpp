@@ -1,7 +1,8 @@
 #pragma once
 // What only one kind of test has in its run file. Each kind is two files in this folder: NAME.sql
-// makes its tables, NAME.cpp defines NAME_setup_rows, which says what stands in them. CMake lists
-// them. Pure.
+// makes its tables, NAME.cpp defines NAME_setup_rows, which says what stands in them. What a kind
+// got later is a further pair, NAME_MORE.sql and NAME_MORE.cpp: a run file made before has none of
+// its tables. CMake lists them. Pure.
 
 #include "acquisition/runfile/record_readers.hpp"
 
@@ -22,10 +23,11 @@ struct SetupRows {
     std::vector<ChainedRow> (*rows)(const TestSetup& setup); ///< `setup` is of this kind
 };
 
-/// One for each kind that has a set-up. (Made from schema.cpp.in.)
+/// At least one for each kind that has a set-up; of one kind NAME before NAME_MORE, in which
+/// order its rows are written. (Made from schema.cpp.in.)
 std::span<const SetupRows* const> setup_rows();
-/// Those of them that schema.sql does not name: kinds that came after format 1. A run file that was
-/// made before one of them has none of its tables.
+/// Those of them that schema.sql does not name: what came after format 1. A run file that was made
+/// before one of them has none of its tables.
 std::span<const SetupRows* const> later_setup_rows();
 
 /// The set-up, made where none is there yet: the writer checks each row by itself.

@@ -96,7 +96,7 @@ TEST(IdOfName, MakesANameForEverySystemOfAnyBytesAndKeepsIt) {
         const std::string bytes = random_bytes(dice);
         const std::size_t longest = 5 + dice() % 40;
         const std::string id = id_of_name(bytes, "axis", longest);
-        ASSERT_TRUE(is_a_name_everywhere(id)) << testing::PrintToString(bytes) << " -> " << id;
+        ASSERT_TRUE(is_a_name_everywhere(id)) << ::testing::PrintToString(bytes) << " -> " << id;
         ASSERT_LE(id.size(), longest);
         ASSERT_EQ(id_of_name(id, "axis", longest), id);
     }
