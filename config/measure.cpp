@@ -55,12 +55,11 @@ constexpr std::array expansion_units{UnitName{"um/(m*K)", 1e-6}, UnitName{"um/m/
                                      UnitName{"ppm/K", 1e-6}, UnitName{"1/K", 1}};
 constexpr std::array<Names, 2> expansion_examples{"11.5 um/(m*K)", "0.5 um/(m*K)"};
 
-constexpr std::array angle_units{UnitName{"mrad", 1e-3},
-                                 UnitName{"urad", 1e-6},
-                                 UnitName{"rad", 1},
-                                 UnitName{"deg", degree.size},
-                                 UnitName{"arcmin", degree.size / 60},
-                                 UnitName{"arcsec", arcsec.size}};
+constexpr std::array angle_units{
+    UnitName{"mrad", 1e-3},         UnitName{"urad", 1e-6},
+    UnitName{"um/m", 1e-6},         UnitName{"rad", 1},
+    UnitName{"deg", degree.size},   UnitName{"arcmin", degree.size / 60},
+    UnitName{"arcsec", arcsec.size}};
 constexpr std::array<Names, 1> angle_examples{"1 mrad"};
 
 constexpr std::array device_limit_units{UnitName{"um", 1e-6},   UnitName{"nm", 1e-9},

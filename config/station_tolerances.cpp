@@ -34,7 +34,7 @@ double read_axis_limit(Settings& table, AxisKind kind) {
 
 double read_slope_limit(Settings& table) {
     constexpr double um_per_m = 1e6;
-    return as_written(table.ratio("limit", ppm(0.001), percent(10)).si() * um_per_m);
+    return as_written(table.angle("limit", arcsec(1e-6), degree(1)).in(radian)*um_per_m);
 }
 
 /// In the unit of unit_of_limits(). A figure that is none was refused; its limit is read as a

@@ -5,6 +5,7 @@
 #include "acquisition/documents/drift/drift_paper.hpp"
 #include "acquisition/documents/positioning/positioning_paper.hpp"
 #include "acquisition/documents/probing/probing_paper.hpp"
+#include "acquisition/documents/squareness/squareness_paper.hpp"
 #include "acquisition/documents/straightness/straightness_paper.hpp"
 
 #include <nlohmann/json.hpp>
@@ -15,8 +16,12 @@
 namespace axiscal {
 
 /// The one list of the kinds that have a paper: see paper.hpp.
-using TestResult =
-    std::variant<Certificate, CircularCertificate, DriftResult, ProbingResult, StraightnessResult>;
+using TestResult = std::variant<Certificate,
+                                CircularCertificate,
+                                DriftResult,
+                                ProbingResult,
+                                StraightnessResult,
+                                SquarenessResult>;
 
 /// The certificate's document, and its text: indented, valid UTF-8, one line feed at the end.
 nlohmann::ordered_json json_of(const TestResult& result);

@@ -1,5 +1,7 @@
 #include "analysis/conformity/conformity.hpp"
 
+#include "analysis/quantity/quantity.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -14,6 +16,7 @@ double share_of_limit(const JudgedFigure& figure) {
 /// How many units of the limits make one of the figures.
 double limits_per(const std::string& unit, const std::string& of_limits) {
     if (unit == of_limits) return 1;
+    if (unit == "um/m") return 1e-6 / arcsec.size; // limits in "arcsec"
     return unit == "deg" ? 3600 : 1000;
 }
 

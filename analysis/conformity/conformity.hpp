@@ -21,8 +21,9 @@ struct Conformity {
     [[nodiscard]] const JudgedFigure* decisive() const;
 };
 
-/// Nothing where no limit was agreed on. `figures` in `unit`: that of the limits, or "mm" for limits
-/// in "um", "deg" for limits in "arcsec". `travel` in mm or degrees, 0 where no band is asked for.
+/// Nothing where no limit was agreed on. `figures` in `unit`: that of the limits, or "mm" for
+/// limits in "um", "deg" or "um/m" for limits in "arcsec". `travel` in mm or degrees, 0 where no
+/// band is asked for.
 std::optional<Conformity> conformity_of(const std::optional<ToleranceRecord>& agreed,
                                         const std::vector<FigureToJudge>& figures,
                                         std::string unit,

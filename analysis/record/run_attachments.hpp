@@ -9,6 +9,7 @@
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/limit_quantity.hpp"
 #include "analysis/record/probing_record.hpp"
+#include "analysis/record/squareness_setup.hpp"
 #include "analysis/record/straightness_setup.hpp"
 #include "analysis/record/synchronisation.hpp"
 #include "analysis/record/test_kind.hpp"
@@ -38,16 +39,20 @@ struct DriftSetup {
 /// plan says all; that of a circular test comes with its first block, and nothing stands for it
 /// before. `judged` of each: the figures of its kind that a limit can name; `judged_in`: what that
 /// limit is.
-using TestSetup =
-    std::variant<std::monostate, CircularSetup, DriftSetup, ProbingRecord, StraightnessSetup>;
+using TestSetup = std::variant<std::monostate,
+                               CircularSetup,
+                               DriftSetup,
+                               ProbingRecord,
+                               StraightnessSetup,
+                               SquarenessSetup>;
 static_assert(std::variant_size_v<TestSetup> == all_test_kinds.size());
 
 struct RunAttachments {
     std::optional<AlignmentRecord> alignment; ///< of the beam, where it was watched
     TestSetup setup;
     /// Id of the drift test that UncertaintySetup::eve comes from, of a circular test
-    /// CircularUncertaintyStatement::eve_um, of a straightness StraightnessStatement::eve or
-    /// eve_angle; or empty.
+    /// CircularUncertaintyStatement::eve_um, of a straightness or a squareness
+    /// StraightnessStatement::eve or eve_angle; or empty.
     std::string eve_source;
     std::vector<SynchronisationRecord> synchronisation; ///< of datums and points, as they came
 };

@@ -10,8 +10,15 @@ namespace axiscal {
 
 /// positioning: ISO 230-2, a linear or a rotary axis; circular: ISO 230-4; drift: ISO/TR 230-9 and
 /// ISO 230-3, an axis or a ballbar at rest; probing: ISO 230-10; straightness: ISO 230-1, the
-/// motion of a linear axis in one direction across it.
-enum class TestKind : std::uint8_t { positioning, circular, drift, probing, straightness };
+/// motion of a linear axis in one direction across it; squareness: ISO 230-1, of two linear axes.
+enum class TestKind : std::uint8_t {
+    positioning,
+    circular,
+    drift,
+    probing,
+    straightness,
+    squareness
+};
 
 constexpr std::string_view name_of(TestKind kind) {
     switch (kind) {
@@ -20,6 +27,7 @@ constexpr std::string_view name_of(TestKind kind) {
     case TestKind::drift: return "drift";
     case TestKind::probing: return "probing";
     case TestKind::straightness: return "straightness";
+    case TestKind::squareness: return "squareness";
     }
     return "?";
 }
@@ -27,7 +35,7 @@ constexpr std::string_view name_of(TestKind kind) {
 /// In their order.
 inline constexpr std::array all_test_kinds{TestKind::positioning, TestKind::circular,
                                            TestKind::drift, TestKind::probing,
-                                           TestKind::straightness};
+                                           TestKind::straightness, TestKind::squareness};
 
 /// Nothing where no kind has this name.
 constexpr std::optional<TestKind> kind_named(std::string_view name) {

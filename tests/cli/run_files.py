@@ -265,16 +265,49 @@ def probing(reference):
     return rows + [("event", ["note", 10**9, 10**18, "From the log of the control.", "none", 0]), closing_of(reference)]
 
 
-def straightness(reference):
+OPTICS = ["wollaston", "Y", 1, 36.012, 1e-10, "normal", "", 0.0, 0.0, "prism on the table"]
+OF_OPTICS = [0.005, None, 2.0, 0.15, None, 2.0, None, 2.0, 4e-7, None]
+
+
+def across(reference, kind):
     """The reference run, as if its laser had looked through a Wollaston prism: what it counts is across the axis."""
     rows = with_synchronisation(read(reference))
-    next(values for table, values in rows if table == "test")[0] = "straightness"
+    next(values for table, values in rows if table == "test")[0] = kind
     for table, values in rows:
         if table == "point":
             values[14] = 0.0  # nothing across shows from which side the axis came
+    return rows
+
+
+def line_at(rows, scale):
+    """Target, mean forward and backward of a line that was kept, at the targets of the run."""
+    targets = [values[0] for table, values in rows if table == "plan_target"]
+    return [[target, scale * i * 1e-6, scale * i * 1e-6 + 5e-7] for i, target in enumerate(targets)]
+
+
+def straightness(reference):
+    """With what the run with the mirror in the other position gave."""
+    rows = across(reference, "straightness")
     put_behind(rows, "channel", [
-        ("straightness", ["wollaston", "Y", 1, 36.012, 1e-10, "normal", "", 0.0, 0.0, "prism on the table"]),
-        ("straightness_uncertainty", [0.005, None, 2.0, 0.15, None, 2.0, None, 2.0, 4e-7, None])])
+        ("straightness", [*OPTICS[:6], "bench-20261121T090000Z-X", *OPTICS[7:]]),
+        ("straightness_uncertainty", OF_OPTICS), ("straightness_reversal", ["X", "Y", 5, 2e-7]),
+        *(("straightness_reversal_row", values) for values in line_at(rows, 2))])
+    return rows
+
+
+def squareness(reference):
+    """The second of two axes, by reversal of the square."""
+    rows = across(reference, "squareness")
+    first = ["bench-20261121T090000Z-Y", "Y", "X", 5, 2e-7]
+    other_first = ["bench-20261121T070000Z-Y", "Y", "X", 5, 2e-7]
+    other_second = ["bench-20261121T080000Z-X", "X", "Y", 5, 2e-7]
+    put_behind(rows, "channel", [
+        ("squareness", ["turned", *OPTICS, *first]),
+        ("squareness_uncertainty", [*OF_OPTICS, None, None, 1e-6, 2.0, 5e-7]),
+        *(("squareness_line_row", ["first", *values]) for values in line_at(rows, 2)),
+        ("squareness_other", [*other_first, *other_second]),
+        *(("squareness_line_row", ["other_first", *values]) for values in line_at(rows, 3)),
+        *(("squareness_line_row", ["other_second", *values]) for values in line_at(rows, 1))])
     return rows
 
 

@@ -23,7 +23,7 @@ from run_files import chain_anew, columns_of, make_room, rows_of
 AXISCAL, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 RUN = os.path.join(SOURCE, "tests", "reference", "fifty_points.axiscal")
 KINDS = ("linear", "revised", "circular", "rotary", "scale", "imported", "probing", "drift",
-         "straightness")
+         "straightness", "squareness")
 # What the schema holds to be unique gets another value in a copied row.
 NEW_NAME = {("uncertainty_target", "parameter"): "parameter || '2'", ("statement", "name"): "name || '2'",
             ("standard", "name"): "name || '2'",

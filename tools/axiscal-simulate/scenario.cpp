@@ -236,8 +236,17 @@ void read_straightness(Fields& f, StraightnessScenario& straightness) {
     f.table("mirror", [&](Fields& t) { read_errors(t, straightness.mirror); });
 }
 
+void read_squareness(Fields& f, SquarenessScenario& squareness) {
+    f.read("axes_um_per_m", squareness.axes_um_per_m);
+    f.read("square_um_per_m", squareness.square_um_per_m);
+    f.read("square_turned", squareness.square_turned);
+    f.read("first_um_per_m", squareness.first_um_per_m);
+}
+
 /// The optics stand before the counter of a uMD, in place of those that show the axis.
 void refuse_other_optics(Fields& f, const Scenario& s) {
+    if (s.squareness && !s.straightness)
+        f.refuse("squareness", "needs [straightness] beside it: prism and mirror of both axes");
     if (!s.straightness) return;
     if (s.rotary()) f.refuse("straightness", "needs an axis that does not turn");
     if (s.laser.kind == "ids3010" || s.laser.kind == "hpi-3d" || s.laser.resolution_um)
@@ -330,6 +339,7 @@ void read_all(Fields& f, Scenario& s) {
     f.table("polygon", [&](Fields& t) { read_polygon(t, s.polygon.emplace()); });
     refuse_blind_autocollimator(f, s);
     f.table("straightness", [&](Fields& t) { read_straightness(t, s.straightness.emplace()); });
+    f.table("squareness", [&](Fields& t) { read_squareness(t, s.squareness.emplace()); });
     refuse_other_optics(f, s);
     f.table("ballbar", [&](Fields& t) { read_ballbar(t, s.ballbar.emplace()); });
     f.table("cnc", [&](Fields& t) { read_cnc(t, s.cnc.emplace()); });

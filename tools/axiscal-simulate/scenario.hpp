@@ -107,6 +107,15 @@ struct StraightnessScenario {
     ErrorScenario mirror; ///< its form along the axis
 };
 
+/// The prism sees the second of two axes through an optical square, which a run of the first axis
+/// came before. Angles in um/m: 1 is 1e-6 rad.
+struct SquarenessScenario {
+    double axes_um_per_m = 0;   ///< angle between the + directions minus 90 degrees
+    double square_um_per_m = 0; ///< the same of the square, as it counts while it is not turned
+    bool square_turned = false;
+    double first_um_per_m = 0; ///< slope (tangent) that the first line had in its set-up
+};
+
 /// A ballbar between spindle and table, and what it shall find; ways of its plane move it.
 struct BallbarScenario {
     std::string path, plane = "XY"; ///< letters of the first and the second axis
@@ -164,6 +173,7 @@ struct Scenario {
     std::optional<TableScenario> indexing_table;
     std::optional<PolygonScenario> polygon;
     std::optional<StraightnessScenario> straightness;
+    std::optional<SquarenessScenario> squareness; ///< beside `straightness`
     std::optional<BallbarScenario> ballbar;
     std::optional<CncScenario> cnc;
     TruthScenario truth;

@@ -1,5 +1,7 @@
 #include "straightness_optics.hpp"
 
+#include <cmath>
+
 namespace axiscal::simulate {
 namespace {
 
@@ -7,9 +9,20 @@ constexpr std::uint64_t other_noise = 0x5354524149474854; // any number: another
 
 } // namespace
 
+double slope_through_square_um_per_m(const SquarenessScenario& squareness) {
+    constexpr double um_per_m = 1e-6;
+    const double error = squareness.square_um_per_m * um_per_m;
+    return std::tan((squareness.square_turned ? -error : error) -
+                    std::atan(squareness.first_um_per_m * um_per_m) -
+                    squareness.axes_um_per_m * um_per_m) /
+           um_per_m;
+}
+
 Scenario scenario_across(const Scenario& scenario) {
     Scenario across = scenario;
     across.errors = scenario.straightness.value_or(StraightnessScenario{}).across;
+    if (scenario.squareness)
+        across.errors.linear_um_per_m += slope_through_square_um_per_m(*scenario.squareness);
     across.thermal.expansion_um_per_m_k = 0;
     across.seed ^= other_noise;
     return across;

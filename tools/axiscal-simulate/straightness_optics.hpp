@@ -8,8 +8,14 @@
 
 namespace axiscal::simulate {
 
+/// Of the second axis, um/m: with S the angle between the axes minus 90 degrees, a1 the slope of
+/// the first line, e the error of the square and s = -1 where it is turned,
+///     S = -atan a1 - atan a2 + s e
+double slope_through_square_um_per_m(const SquarenessScenario& squareness);
+
 /// The scenario of the motion across: its errors are those of [straightness.across], its noise is
-/// another one, and nothing grows. Its slide stands where the drive is, plus the deviation.
+/// another one, and nothing grows. Its slide stands where the drive is, plus the deviation; through
+/// an optical square the motion has the slope of [squareness] beside its own.
 Scenario scenario_across(const Scenario& scenario);
 
 /// The deviation across moves both beams, one there and one back: the laser shows

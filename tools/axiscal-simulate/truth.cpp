@@ -3,6 +3,7 @@
 #include "injected_process.hpp"
 #include "laser_count.hpp"
 #include "simulated_machine.hpp"
+#include "squareness_truth.hpp"
 #include "straightness_truth.hpp"
 
 #include <algorithm>
@@ -264,6 +265,7 @@ std::map<std::string, double> evaluate_truth(const Readings& forward_um,
 }
 
 nlohmann::json truth_of(const Scenario& scenario, const TruthPlan& plan) {
+    if (scenario.squareness) return squareness_truth_of(scenario, plan);
     if (scenario.straightness) return straightness_truth_of(scenario, plan);
     const double sigma_um = bound_sigma_um(scenario);
     const Systematic sys = systematic_of(scenario, plan);

@@ -160,6 +160,9 @@ Result<Json> budget_summary(const TestResult& result) {
     if (std::holds_alternative<StraightnessResult>(result))
         return fail(Fault::refused, "the budget of a straightness test stands in its certificate: "
                                     "'axiscal export' writes it");
+    if (std::holds_alternative<SquarenessResult>(result))
+        return fail(Fault::refused, "the budget of a squareness test stands in its certificate: "
+                                    "'axiscal export' writes it");
     return fail(Fault::refused, "a drift or probing test has no uncertainty budget");
 }
 

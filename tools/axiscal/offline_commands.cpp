@@ -1,6 +1,7 @@
 #include "tools/axiscal/offline_commands.hpp"
 
 #include "acquisition/documents/evaluate.hpp"
+#include "acquisition/measurement/squareness/squareness_config.hpp"
 #include "acquisition/measurement/straightness/straightness_config.hpp"
 #include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
@@ -62,6 +63,12 @@ int analyze_run(const std::string& path) {
     return exit_ok;
 }
 
+/// Those are driven as [straightness] says, whichever of the two the run is.
+bool is_driven_across(const RunPlan& plan) {
+    return plan.pass == name_of(TestKind::straightness) ||
+           plan.pass == name_of(TestKind::squareness);
+}
+
 ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     ProgramOrder order;
     order.plan = std::move(plan);
@@ -75,7 +82,7 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     if (order.shape == TriggerShape::dwell)
         order.least_halt = config.trigger.minimum_halt + config.capture.window;
     const StraightnessConfig* const across = straightness_config_of(config);
-    if (across != nullptr && order.plan.pass == name_of(TestKind::straightness)) {
+    if (across != nullptr && is_driven_across(order.plan)) {
         order.feed = across->feed;
         order.dwell = across->dwell;
     }
@@ -135,6 +142,15 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
         std::cout << path << ": " << counted(static_cast<long>(order.plan.points.size()), "point")
                   << " to be taken again; load and start it, the station is armed\n";
     return exit_ok;
+}
+
+/// Beside the cycle of the axis, where the station file has these kinds of test.
+void add_plans_across(const StationConfig& config, std::vector<RunPlan>& passes) {
+    const StraightnessConfig* const across = straightness_config_of(config);
+    if (across == nullptr) return;
+    passes.push_back(across->plan);
+    if (squareness_config_of(config) != nullptr)
+        passes.push_back(plan_of_kind(*across, TestKind::squareness));
 }
 
 /// Beside the linear cycle, where the station file has a circular test.
@@ -214,8 +230,7 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!planned) return complain(planned.error());
         passes = *std::move(planned);
     }
-    if (const StraightnessConfig* const across = straightness_config_of(config))
-        passes.push_back(across->plan);
+    add_plans_across(config, passes);
     const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
     if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
     if (passes.empty() && dialect->name != "linuxcnc")

@@ -23,13 +23,14 @@ std::string word_of(std::string_view verdict) {
     return std::string{found == verdict_words.end() ? "NO VERDICT" : found->word};
 }
 
-/// From the unit of the figures to that of paper, micrometres or seconds of arc.
+/// From the unit of the figures to that of paper: micrometres, seconds of arc, or um/m as it is.
 double paper_factor(const std::string& unit) {
     if (unit == "mm") return 1000;
     return unit == "deg" ? 3600 : 1;
 }
 
 std::string paper_unit(const std::string& unit) {
+    if (unit == "um/m") return "µm/m";
     return unit == "deg" || unit == "arcsec" ? "″" : "µm";
 }
 

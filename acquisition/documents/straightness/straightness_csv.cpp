@@ -2,31 +2,10 @@
 
 #include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/csv_text.hpp"
-#include "acquisition/documents/straightness/straightness_remarks.hpp"
+#include "acquisition/documents/straightness/across_csv.hpp"
 
 namespace axiscal {
 namespace {
-
-void append_straightness_head(std::string& csv, const StraightnessResult& result) {
-    const RunRecord& run = result.run;
-    const auto line = [&](const char* key, const std::string& value) {
-        append_csv_line(csv, {std::string{"# "} + key, csv_field(value)});
-    };
-    append_csv_line(csv, {"# axiscal.straightness-csv/1"});
-    line("run", run.run_id);
-    line("certificate_number", run.statements.certificate_number);
-    if (!result.replaces.empty()) line("replaces", result.replaces);
-    line("machine", run.statements.machine);
-    line("machine_serial", run.statements.machine_serial);
-    line("axis", run.statements.axis);
-    line("direction", result.setup().across);
-    line("standard", "ISO 230-1:2012");
-    line("reference", std::string{name_of(main_reference)});
-    line("sign", "positive towards + of " + result.setup().across);
-    line("completeness", result.completeness.partial() ? "partial" : "complete");
-    line("run_file_sha256", result.run_file_sha256);
-    line("software_version", run.software_version);
-}
 
 void append_straightness_figures(std::string& csv, const StraightnessResult& result) {
     for (const NamedStraightness& figure : figures_of(result)) {
@@ -38,8 +17,11 @@ void append_straightness_figures(std::string& csv, const StraightnessResult& res
         else
             append_csv_line(csv, {"# parameter", figure.key, value, "um", "U not evaluated"});
     }
-    for (const std::string& words : missing_terms_of(result))
-        append_csv_line(csv, {"# preliminary", "not stated", csv_field(words)});
+    if (result.mirror)
+        append_csv_line(csv, {"# mirror", std::string{name_of(main_reference)},
+                              csv_number(result.mirror->straightness_um(main_reference)), "um",
+                              "parted by reversal, run " + result.setup().reversal_of});
+    append_missing(csv, result.mean().budget.not_stated);
 }
 
 void append_straightness_means(std::string& csv, const StraightnessResult& result) {
@@ -55,28 +37,16 @@ void append_straightness_means(std::string& csv, const StraightnessResult& resul
     }
 }
 
-void append_deviations_across(std::string& csv,
-                              const char* direction,
-                              const std::vector<double>& targets_mm,
-                              const std::vector<std::vector<double>>& rows_um) {
-    for (std::size_t i = 0; i < rows_um.size(); ++i)
-        for (std::size_t j = 0; j < rows_um[i].size(); ++j)
-            append_csv_line(csv, {direction, csv_number(targets_mm[i]), std::to_string(j + 1),
-                                  csv_number(rows_um[i][j])});
-}
-
 } // namespace
 
 std::string straightness_csv(const StraightnessResult& result) {
-    const StraightnessReadings& readings = result.readings;
     std::string csv;
-    append_straightness_head(csv, result);
+    append_across_head(csv, result, "axiscal.straightness-csv/1",
+                       "positive towards + of " + result.setup().across);
     append_conformity(csv, result.conformity);
     append_straightness_figures(csv, result);
     append_straightness_means(csv, result);
-    append_csv_line(csv, {"direction", "target_mm", "number", "deviation_um"});
-    append_deviations_across(csv, "forward", readings.targets_mm, readings.forward_um);
-    append_deviations_across(csv, "backward", readings.targets_mm, readings.backward_um);
+    append_every_deviation(csv, result.readings);
     return csv;
 }
 

@@ -2,47 +2,17 @@
 
 #include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/straightness/straightness_remarks.hpp"
-#include "analysis/record/run_clock.hpp"
+#include "analysis/straightness/mirror_reversal.hpp"
+#include "analysis/straightness/run_straightness.hpp"
 #include "analysis/straightness/sensitivity.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
 namespace axiscal {
 namespace {
-
-/// It ends, as far as anybody knows, with its last reading.
-ClockTie end_of_open_straightness(const RunRecord& run) {
-    const auto last = std::ranges::max_element(run.points, {}, &PointRecord::window_end);
-    const MonotonicTime at = last->window_end;
-    return {at, tie_of_points(run.opened, run.events).utc_ns_at(at), at};
-}
-
-/// @returns how far the clock was off, as tell_times_by_one_clock().
-Duration settle_times(RunRecord& run, RunRevisions& revisions, bool closed) {
-    if (!closed) {
-        run.complete = false;
-        run.closing_reason = "the run is still open";
-        run.closed = end_of_open_straightness(run);
-    }
-    const Duration off =
-        tell_times_by_one_clock(run.opened, run.events, revisions.retakes, run.closed);
-    tell_orders_by_one_clock(run.opened, run.events, revisions.orders);
-    return off;
-}
-
-Result<void> check_kind_of_axis(const std::string& path, const RunFileContents& contents) {
-    if (!std::holds_alternative<StraightnessSetup>(contents.attachments.setup))
-        return fail(Fault::bad_run_file, path + " has no row straightness");
-    if (contents.run.plan.axis_kind == AxisKind::rotary)
-        return fail(Fault::bad_run_file,
-                    path + " is a straightness of a rotary axis: there is none");
-    if (contents.run.points.empty())
-        return fail(Fault::incomplete_run, path + " holds no reading yet");
-    return {};
-}
 
 Result<void> add_budgets(StraightnessResult& result, double scatter) {
     const StraightnessFigures& figures = result.figures;
@@ -50,22 +20,24 @@ Result<void> add_budgets(StraightnessResult& result, double scatter) {
     result.lines.push_back({"forward", figures.forward, {}});
     if (figures.backward) result.lines.push_back({"backward", *figures.backward, {}});
     for (BudgetedLine& line : result.lines) {
-        const int readings = line.name == "mean" ? figures.readings_a_mean() : figures.approaches;
-        AXISCAL_TRY(line.budget, make_straightness_budget(
-                                     line.found, inputs_of(result.setup(), scatter, readings)));
+        const int readings =
+            line.name == "mean" ? figures.readings_a_mean() : figures.readings_of_direction();
+        StraightnessInputs inputs = inputs_of(result.setup(), scatter, readings);
+        inputs.mirror_reversed = result.mirror.has_value();
+        AXISCAL_TRY(line.budget, make_straightness_budget(line.found, inputs));
     }
     return {};
 }
 
-/// From the readings to the lines; `result` holds the run.
-Result<void> add_straightness(StraightnessResult& result) {
-    AXISCAL_TRY(ReadStraightness read,
-                read_straightness(result.run, result.revisions, result.setup()));
-    AXISCAL_TRY(result.figures, evaluate_straightness(read.readings, RowLengths::any));
-    result.readings = std::move(read.readings);
-    result.completeness = std::move(read.completeness);
-    const bool wollaston = result.setup().method == StraightnessMethod::wollaston;
-    return add_budgets(result, wollaston ? result.figures.pooled_s_um.value_or(0) : read.scatter);
+/// Of a partial result the position of its own mirror alone: targets may be missing.
+Result<void> part_mirror(StraightnessResult& result) {
+    const auto& reversal = result.setup().reversal;
+    if (!reversal || result.completeness.partial()) return {};
+    AXISCAL_TRY(PartedStraightness parted,
+                part_straightness(result.figures, result.setup().mirror, *reversal));
+    result.figures = std::move(parted.axis);
+    result.mirror = std::move(parted.mirror);
+    return {};
 }
 
 /// The closed form holds while the same points stay the extremes; the trials tell where they do
@@ -108,6 +80,9 @@ std::string digest_of_straightness(const StraightnessResult& result) {
                                   row.s_forward_um, row.s_backward_um})
             append_optional(figures, value);
     }
+    if (result.mirror)
+        for (const LineReference reference : line_references)
+            figures.push_back(result.mirror->straightness_um(reference));
     return digest_of_figures("axiscal.straightness/1", figures);
 }
 
@@ -130,19 +105,6 @@ void add_figures_of(std::vector<NamedStraightness>& figures, const BudgetedLine&
 }
 
 } // namespace
-
-const StraightnessSetup& StraightnessResult::setup() const {
-    return std::get<StraightnessSetup>(attachments.setup);
-}
-
-const ReferenceLine& line_against(const Straightness& against, LineReference reference) {
-    switch (reference) {
-    case LineReference::end_points: return against.end_points;
-    case LineReference::least_squares: return against.least_squares;
-    case LineReference::minimum_zone: break;
-    }
-    return against.minimum_zone.line;
-}
 
 const StraightnessUncertainty& uncertainty_against(const BudgetedLine& line,
                                                    LineReference reference) {
@@ -178,13 +140,13 @@ std::string straightness_symbol_of(const StraightnessResult& result) {
 
 Result<StraightnessResult> straightness_result_of(const std::string& path,
                                                   RunFileContents contents) {
-    AXISCAL_CHECK(check_kind_of_axis(path, contents));
     StraightnessResult result;
-    const Duration clock_off = settle_times(contents.run, contents.revisions, contents.closed);
-    result.run = std::move(contents.run);
-    result.revisions = std::move(contents.revisions);
-    result.attachments = std::move(contents.attachments);
-    AXISCAL_CHECK(add_straightness(result));
+    AXISCAL_TRY(const Duration clock_off,
+                take_across_run(result, path, std::move(contents), TestKind::straightness));
+    AXISCAL_TRY(const double scatter, read_across_run(result));
+    AXISCAL_CHECK(part_mirror(result));
+    AXISCAL_CHECK(
+        add_budgets(result, result.mirror ? result.figures.pooled_s_um.value_or(0) : scatter));
     AXISCAL_CHECK(add_trials(result));
     if (result.completeness.partial())
         result.run.statements.certificate_number.clear();

@@ -1,24 +1,16 @@
 #pragma once
 // A straightness test as it was evaluated from its run file: what every paper of it says. Pure.
 
-#include "acquisition/runfile/run_file.hpp"
-#include "analysis/conformity/conformity.hpp"
-#include "analysis/positioning/completeness.hpp"
-#include "analysis/straightness/run_straightness.hpp"
+#include "acquisition/documents/straightness/across_run_file.hpp"
+#include "analysis/straightness/straightness_budget.hpp"
 #include "analysis/straightness/straightness_trials.hpp"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace axiscal {
-
-/// The figure that a paper leads with; a station names no other so far.
-inline constexpr LineReference main_reference = LineReference::least_squares;
-inline constexpr std::array line_references{LineReference::end_points, LineReference::least_squares,
-                                            LineReference::minimum_zone};
 
 /// The mean line of both directions, or that of one, with its uncertainty against each reference.
 struct BudgetedLine {
@@ -34,22 +26,15 @@ struct NamedStraightness {
     std::optional<double> expanded_um; ///< U; absent: not evaluated
 };
 
-/// What a straightness test gave. With `completeness.partial()` it bears no number and no verdict.
-struct StraightnessResult {
-    RunRecord run; ///< its times told by one clock (run_clock.hpp)
-    RunRevisions revisions;
-    RunAttachments attachments;
-    StraightnessReadings readings;
-    StraightnessFigures figures;
-    Completeness completeness;
-    std::vector<BudgetedLine> lines;        ///< mean, forward; backward of a two-way plan
+/// What a straightness test gave.
+struct StraightnessResult : AcrossRun {
+    std::vector<BudgetedLine> lines; ///< mean, forward; backward of a two-way plan
+    /// The form of the mirror in its normal position, where reversal parted it from the motion:
+    /// then figures and lines are the mean of both positions.
+    std::optional<StraightnessLine> mirror;
     std::optional<TriedStraightness> tried; ///< of the mean line, where its budget is whole
-    std::vector<std::string> remarks;
-    std::optional<Conformity> conformity; ///< of a complete test with limits
-    std::string replaces;                 ///< the certificate that this one replaces; empty: none
-    std::string run_file_sha256, result_digest;
 
-    [[nodiscard]] const StraightnessSetup& setup() const;
+    [[nodiscard]] const StraightnessSetup& setup() const { return optics(); }
     [[nodiscard]] const BudgetedLine& mean() const { return lines.front(); }
 };
 
@@ -60,7 +45,6 @@ struct StraightnessResult {
 Result<StraightnessResult> straightness_result_of(const std::string& path,
                                                   RunFileContents contents);
 
-const ReferenceLine& line_against(const Straightness& against, LineReference reference);
 const StraightnessUncertainty& uncertainty_against(const BudgetedLine& line,
                                                    LineReference reference);
 

@@ -3,7 +3,6 @@
 #include "acquisition/documents/pdf/wording.hpp"
 #include "acquisition/documents/straightness/straightness_pages.hpp"
 #include "acquisition/documents/straightness/straightness_plot.hpp"
-#include "acquisition/documents/straightness/straightness_remarks.hpp"
 #include "acquisition/documents/straightness/straightness_wording.hpp"
 #include "analysis/record/certificate_expiry.hpp"
 
@@ -11,8 +10,6 @@
 
 namespace axiscal {
 namespace {
-
-constexpr TextStyle straightness_warning{7.5, true, backward_vermilion};
 
 FrontAnswer answer_of(const StraightnessResult& result) {
     const bool partial = result.completeness.partial();
@@ -30,7 +27,8 @@ std::string course_of_straightness(const StraightnessResult& result) {
            " positions, n = " + std::to_string(figures.approaches) +
            (figures.approaches == 1 ? " approach" : " approaches") +
            (figures.backward ? " in each direction, mean of both"
-                             : " in the forward direction only");
+                             : " in the forward direction only") +
+           (result.mirror ? ", and of both positions of the mirror" : "");
 }
 
 void draw_title(Sheet& sheet, const StraightnessResult& result) {
@@ -45,15 +43,11 @@ void draw_title(Sheet& sheet, const StraightnessResult& result) {
 
 std::vector<StatedField> draw_identity(Sheet& sheet, const StraightnessResult& result) {
     const auto& rows = result.figures.rows;
-    auto fields = identity_fields(result.run.statements, dates_of_test(result.run));
+    auto fields = across_identity_fields(result);
     fields.push_back({"Axis", stated(result.run.statements.axis) + ", targets " +
                                   fixed(rows.front().target_mm, 3) + " to " +
                                   fixed(rows.back().target_mm, 3) + " mm"});
     fields.push_back({"Direction", stated(result.setup().across) + ", + is positive"});
-    if (result.completeness.partial()) // they have no number, and nothing falls due
-        std::erase_if(fields, [](const StatedField& field) {
-            return field.key == "Certificate number" || field.key == "Next calibration due";
-        });
     auto shortened = sheet.fields(fields, 2, 2);
     sheet.advance(5);
     return shortened;
@@ -62,16 +56,7 @@ std::vector<StatedField> draw_identity(Sheet& sheet, const StraightnessResult& r
 void draw_result_in_words(Sheet& sheet, const StraightnessResult& result) {
     sheet.advance(3);
     sheet.text(straightness_sentence(result), {9, true});
-    std::string missing;
-    for (const std::string& words : missing_terms_of(result))
-        missing += (missing.empty() ? "" : "; ") + words;
-    if (!missing.empty())
-        sheet.text("Preliminary: the uncertainty budget lacks " + missing + ".",
-                   straightness_warning);
-    if (result.completeness.partial())
-        sheet.text("Partial: " + std::to_string(result.completeness.used) + " of " +
-                       std::to_string(result.completeness.expected) + " planned readings.",
-                   straightness_warning);
+    draw_what_is_missing(sheet, result, result.mean().budget.not_stated);
     sheet.text("Straightness error: largest minus smallest deviation from the reference line, of "
                "the mean of the readings at each target. Positions by the control of the machine.",
                note_style);
@@ -98,11 +83,7 @@ std::vector<StatedField> draw_straightness_front_page(Sheet& sheet,
     draw_front_instruments(sheet, run.instruments, run_date_of(run), shortened);
     draw_result_in_words(sheet, result);
     draw_straightness_plots(sheet, result);
-    draw_signatures(sheet, run.statements,
-                    {{"Run", stated(run.run_id)},
-                     {"Run file SHA-256", stated(result.run_file_sha256)},
-                     {"Result SHA-256", stated(result.result_digest)},
-                     {"Software", "axiscal, version " + stated(run.software_version)}});
+    draw_across_signatures(sheet, result);
     return shortened;
 }
 

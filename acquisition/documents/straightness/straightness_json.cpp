@@ -1,11 +1,8 @@
 #include "acquisition/documents/straightness/straightness_json.hpp"
 
-#include "acquisition/documents/alignment_json.hpp"
 #include "acquisition/documents/conformity_json.hpp"
-#include "acquisition/documents/document_parts.hpp"
 #include "acquisition/documents/record_json.hpp"
-#include "acquisition/documents/straightness/straightness_remarks.hpp"
-#include "analysis/record/certificate_expiry.hpp"
+#include "acquisition/documents/straightness/across_json.hpp"
 
 namespace axiscal {
 namespace {
@@ -98,89 +95,6 @@ Json trials_json(const StraightnessResult& result) {
             {"u_closed_form", stated_json(independent_u_um(result))}};
 }
 
-Json optics_json(const StraightnessSetup& setup) {
-    const StraightnessStatement& said = setup.uncertainty;
-    const auto si_of = [](const auto& amount) { return amount ? Json(amount->si()) : Json{}; };
-    const auto um_of = [](const std::optional<Length>& length) {
-        return length ? Json(length->in(um)) : Json{};
-    };
-    Json object;
-    object["method"] = name_of(setup.method);
-    object["across"] = setup.across;
-    object["sign"] = setup.sign;
-    object["place"] = stated_json(setup.place);
-    if (setup.method == StraightnessMethod::wollaston) {
-        object["factor"] = setup.factor;
-        object["factor_U"] = si_of(said.factor_U);
-        object["factor_limit"] = si_of(said.factor_limit);
-        object["factor_k"] = said.factor_k;
-        object["resolution_um"] = setup.resolution.in(um);
-        object["mirror"] = name_of(setup.mirror);
-        object["reversal_of"] = stated_json(setup.reversal_of);
-        object["mirror_limit_um_per_m2"] = stated_json(said.mirror_limit_um_per_m2);
-        object["E_VE_um"] = um_of(said.eve);
-        return object;
-    }
-    object["base_mm"] = setup.base.in(mm);
-    object["base_U_um"] = um_of(said.base_U);
-    object["base_k"] = said.base_k;
-    object["angle_resolution_rad"] = setup.angle_resolution.si();
-    object["angle_U_rad"] = si_of(said.angle_U);
-    object["angle_k"] = said.angle_k;
-    object["E_VE_rad"] = si_of(said.eve_angle);
-    return object;
-}
-
-Json straightness_plan_json(const RunPlan& plan) {
-    Json object;
-    object["cycle"] = name_of(plan.cycle);
-    object["pass"] = plan.pass;
-    object["approaches"] = plan.approaches;
-    object["bidirectional"] = plan.bidirectional;
-    object["datum_mm"] = plan.datum.in(mm);
-    object["targets_mm"] = Json::array();
-    for (const Length target : plan.targets)
-        object["targets_mm"].push_back(target.in(mm));
-    return object;
-}
-
-Json straightness_datums_json(const RunRecord& run) {
-    Json list = Json::array();
-    for (const DatumRecord& datum : run.datums)
-        list.push_back({{"id", datum.id},
-                        {"coordinate_mm", datum.coordinate.in(mm)},
-                        {"reading_mm", datum.reading.in(mm)},
-                        {"spread_um", datum.spread.in(um)},
-                        {"readings", datum.n}});
-    return list;
-}
-
-Json run_of(const StraightnessResult& result) {
-    const RunRecord& run = result.run;
-    Json object = test_run_json(run, result.run_file_sha256, result.result_digest);
-    object["next_calibration_due"] =
-        result.completeness.partial() ? Json{}
-                                      : stated_json(next_due_of(run.statements, run.closed.utc_ns));
-    object["statements"] = statements_json(run.statements);
-    object["plan"] = straightness_plan_json(run.plan);
-    object["optics"] = optics_json(result.setup());
-    object["laser"] = stated_json(run.laser.instrument);
-    object["instruments"] = instruments_json(run.instruments, run_date_of(run));
-    object["calibrations"] = calibrations_json(run.calibrations, run.channels, run_date_of(run));
-    object["alignment"] = alignment_to_json(result.attachments.alignment);
-    object["datums"] = straightness_datums_json(run);
-    object["deviations"]["sign"] = "positive towards + of " + result.setup().across;
-    object["deviations"]["targets_mm"] = result.readings.targets_mm;
-    object["deviations"]["forward"] = result.readings.forward_um;
-    if (!result.readings.backward_um.empty())
-        object["deviations"]["backward"] = result.readings.backward_um;
-    object["preflight"] = preflight_json(result.revisions.preflight);
-    object["orders"] = orders_json(result.revisions.orders, run.opened);
-    object["events"] = events_json(run.events, run.opened);
-    object["remarks"] = result.remarks;
-    return object;
-}
-
 /// What was measured, against what, and what was done to the readings.
 void add_subject(Json& object, const StraightnessResult& result) {
     const bool wollaston = result.setup().method == StraightnessMethod::wollaston;
@@ -201,9 +115,23 @@ void add_uncertainty_of_lines(Json& object, const StraightnessResult& result) {
     object["slopes_are"] = "of this set-up, no property of the axis";
     object["budget"] = budgets_json(result);
     object["monte_carlo"] = trials_json(result);
-    const auto missing = missing_terms_of(result);
-    object["preliminary"] = !missing.empty();
-    object["missing"] = missing;
+    add_missing(object, result.mean().budget.not_stated);
+}
+
+/// What the run with the mirror in the other position gave. Null without one.
+Json reversal_json(const std::optional<RecordedLine>& reversal) {
+    if (!reversal) return {};
+    Json object;
+    object["run"] = reversal->run_id;
+    object["readings"] = reversal->readings;
+    object["scatter_um"] = reversal->scatter.in(um);
+    object["positions"] = Json::array();
+    for (const RecordedLineRow& row : reversal->rows)
+        object["positions"].push_back(
+            {{"target_mm", row.target.in(mm)},
+             {"mean_forward", row.forward.in(um)},
+             {"mean_backward", row.backward ? Json(row.backward->in(um)) : Json{}}});
+    return object;
 }
 
 } // namespace
@@ -216,6 +144,9 @@ Json straightness_figures_json(const StraightnessResult& result) {
     for (const NamedStraightness& figure : figures_of(result))
         object["parameters"][figure.key]["value"] = figure.value_um;
     object["positions"] = straightness_rows_json(result);
+    if (result.mirror)
+        for (const LineReference reference : line_references)
+            object["mirror"][name_of(reference)] = result.mirror->straightness_um(reference);
     return object;
 }
 
@@ -224,12 +155,8 @@ Json straightness_to_json(const StraightnessResult& result) {
     add_subject(object, result);
     add_conformity(object, result.conformity);
     add_uncertainty_of_lines(object, result);
-    object["completeness"] = {{"status", result.completeness.partial() ? "partial" : "complete"},
-                              {"expected", result.completeness.expected},
-                              {"used", result.completeness.used}};
-    object["certificate"] = {{"number", stated_json(result.run.statements.certificate_number)},
-                             {"replaces", stated_json(result.replaces)}};
-    object["run"] = run_of(result);
+    add_across_run(object, result);
+    object["run"]["reversal"] = reversal_json(result.setup().reversal);
     return object;
 }
 

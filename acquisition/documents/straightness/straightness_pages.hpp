@@ -1,7 +1,8 @@
 #pragma once
-// The pages of a straightness certificate, in the order in which they are bound.
+// The pages of a straightness certificate, in the order in which they are bound; the last are those
+// of across_pages.hpp.
 
-#include "acquisition/documents/pdf/sheet.hpp"
+#include "acquisition/documents/straightness/across_pages.hpp"
 #include "acquisition/documents/straightness/straightness_document.hpp"
 
 #include <vector>
@@ -19,10 +20,5 @@ void draw_straightness_targets(Sheet& sheet, const StraightnessResult& result);
 
 /// Limits, the budget against each reference, the slopes of the lines.
 void draw_straightness_uncertainty(Sheet& sheet, const StraightnessResult& result);
-
-/// Optics, cycle, certificates of channels, remarks, events.
-void draw_straightness_conditions(Sheet& sheet,
-                                  const StraightnessResult& result,
-                                  const std::vector<StatedField>& shortened);
 
 } // namespace axiscal

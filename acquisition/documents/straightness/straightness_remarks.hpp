@@ -14,7 +14,4 @@ namespace axiscal {
 std::vector<std::string> remarks_on_straightness(const StraightnessResult& result,
                                                  Duration clock_off);
 
-/// The terms that keep U from being told, in words: "a limit of the mirror's form"; empty: none.
-std::vector<std::string> missing_terms_of(const StraightnessResult& result);
-
 } // namespace axiscal

@@ -2,7 +2,7 @@
 #include "acquisition/documents/straightness/straightness_pages.hpp"
 #include "acquisition/documents/straightness/straightness_wording.hpp"
 
-#include <algorithm>
+#include <cstddef>
 
 namespace axiscal {
 namespace {
@@ -62,38 +62,13 @@ void draw_means(Sheet& sheet, const StraightnessResult& result) {
                note_style);
 }
 
-void draw_deviations_across(Sheet& sheet, const StraightnessResult& result, bool forward) {
-    const auto& readings = forward ? result.readings.forward_um : result.readings.backward_um;
-    if (readings.empty()) return;
-    const int decimals = straightness_decimals(result);
-    std::size_t longest = 0;
-    for (const auto& row : readings)
-        longest = std::max(longest, row.size());
-    std::vector<TableColumn> columns{TableColumn{"Target", "mm"}};
-    for (std::size_t j = 0; j < longest; ++j)
-        columns.push_back({(forward ? "↑ " : "↓ ") + std::to_string(j + 1), "µm"});
-    std::vector<TableRow> rows;
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        TableRow cells{fixed(result.readings.targets_mm[i], 3)};
-        for (std::size_t j = 0; j < longest; ++j)
-            cells.push_back(j < readings[i].size() ? fixed(readings[i][j], decimals) : "–");
-        rows.push_back(std::move(cells));
-    }
-    sheet.table(columns, rows);
-}
-
 } // namespace
 
 void draw_straightness_targets(Sheet& sheet, const StraightnessResult& result) {
     sheet.new_page();
     draw_every_figure(sheet, result);
     draw_means(sheet, result);
-    sheet.heading("Every deviation");
-    draw_deviations_across(sheet, result, true);
-    draw_deviations_across(sheet, result, false);
-    sheet.text("Since the datum, positive towards + of " + stated(result.setup().across) +
-                   ". Readings that count, in the order in which they were taken.",
-               note_style);
+    draw_every_deviation(sheet, result, straightness_decimals(result));
 }
 
 } // namespace axiscal

@@ -1,7 +1,6 @@
 #include "acquisition/documents/pdf/conformity_block.hpp"
 #include "acquisition/documents/pdf/wording.hpp"
 #include "acquisition/documents/straightness/straightness_pages.hpp"
-#include "acquisition/documents/straightness/straightness_remarks.hpp"
 #include "acquisition/documents/straightness/straightness_wording.hpp"
 
 #include <algorithm>
@@ -105,9 +104,7 @@ void draw_straightness_uncertainty(Sheet& sheet, const StraightnessResult& resul
     sheet.new_page();
     draw_conformity(sheet, result.conformity, straightness_name_on_paper);
     sheet.heading("Measurement uncertainty", 120);
-    std::string missing;
-    for (const std::string& words : missing_terms_of(result))
-        missing += (missing.empty() ? "" : "; ") + words;
+    const std::string missing = missing_on_paper(result.mean().budget.not_stated);
     if (!missing.empty())
         sheet.text("U is not evaluated: the budget lacks " + missing + ".", {7.5, true});
     draw_straightness_terms(sheet, result.mean());

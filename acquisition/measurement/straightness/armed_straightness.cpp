@@ -42,7 +42,20 @@ void speak_of_motion_across(const RunHeaderParts& parts,
     header.instruments.push_back(config.optics);
 }
 
+/// Of this run, whichever of the two kinds it is; null: of neither.
+const StraightnessSetup* optics_across_of(const RunAttachments& attachments) {
+    if (const auto* const square = std::get_if<SquarenessSetup>(&attachments.setup))
+        return &square->optics;
+    return std::get_if<StraightnessSetup>(&attachments.setup);
+}
+
 } // namespace
+
+RunPlan plan_of_order(const StraightnessConfig& config, TestKind kind, const ArmRequest& request) {
+    RunPlan plan = plan_of_kind(config, kind);
+    if (request.datum_mm) plan.datum = mm(*request.datum_mm);
+    return plan;
+}
 
 Result<MirrorPosition> mirror_of(const StraightnessConfig& config, const ArmRequest& request) {
     const auto said = request.options.find("mirror");
@@ -58,9 +71,12 @@ Result<MirrorPosition> mirror_of(const StraightnessConfig& config, const ArmRequ
 Result<ArmedRun> armed_straightness(const RunHeaderParts& parts,
                                     const StraightnessConfig& config,
                                     const ArmRequest& request,
-                                    const std::optional<FoundEve>& eve) {
+                                    const std::optional<FoundEve>& eve,
+                                    std::optional<RecordedLine> other) {
     StraightnessSetup setup = config.setup;
     AXISCAL_TRY(setup.mirror, mirror_of(config, request));
+    if (other) setup.reversal_of = other->run_id;
+    setup.reversal = std::move(other);
     AXISCAL_TRY(ArmedRun armed, armed_run(parts, request, std::nullopt));
     setup.resolution = resolution_across(parts, config);
     if (eve) {
@@ -77,7 +93,7 @@ std::shared_ptr<const ReadingRule> reading_across(const StationConfig& station,
                                                   const RunAttachments& attachments) {
     const StraightnessConfig* const config = straightness_config_of(station);
     const Length range = config != nullptr ? config->range : usual_range_across;
-    const auto* const setup = std::get_if<StraightnessSetup>(&attachments.setup);
+    const StraightnessSetup* const setup = optics_across_of(attachments);
     return across_the_axis(setup != nullptr ? *setup : StraightnessSetup{}, range);
 }
 

@@ -20,16 +20,22 @@ namespace axiscal {
 /// @errors Fault::bad_request for a word that is no position of it.
 Result<MirrorPosition> mirror_of(const StraightnessConfig& config, const ArmRequest& request);
 
-/// @param parts  of TestKind::straightness, with the plan
+/// The plan of the table under the pass of this kind, from the datum that was said at arming.
+RunPlan plan_of_order(const StraightnessConfig& config, TestKind kind, const ArmRequest& request);
+
+/// @param parts  of the kind that is armed, with the plan
 /// @param eve    of the drift test that the table points to, if it does
+/// @param other  of the run with the mirror in the other position, if there is one
+/// @returns attachments.setup is a StraightnessSetup whatever the kind: another one takes it over
 /// @errors as armed_run() and mirror_of().
 Result<ArmedRun> armed_straightness(const RunHeaderParts& parts,
                                     const StraightnessConfig& config,
                                     const ArmRequest& request,
-                                    const std::optional<FoundEve>& eve);
+                                    const std::optional<FoundEve>& eve,
+                                    std::optional<RecordedLine> other);
 
-/// By which the points of such a run are read, also of one that an earlier daemon left: the range
-/// of the optics is that of the station file.
+/// By which the points of a straightness or a squareness run are read, also of one that an earlier
+/// daemon left: the range of the optics is that of the station file.
 std::shared_ptr<const ReadingRule> reading_across(const StationConfig& station,
                                                   const RunAttachments& attachments);
 

@@ -5,8 +5,10 @@
 #include "acquisition/measurement/order_checks.hpp"
 #include "acquisition/measurement/positioning/open_positioning.hpp"
 #include "acquisition/measurement/straightness/armed_straightness.hpp"
+#include "acquisition/measurement/straightness/mirror_run.hpp"
 #include "acquisition/measurement/straightness/straightness_config.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace axiscal {
@@ -21,21 +23,18 @@ Result<void> straightness_is_ready(const OrderContext& context) {
     return axis_is_ready(context);
 }
 
-RunPlan plan_of_order(const StraightnessConfig& config, const ArmRequest& request) {
-    RunPlan plan = config.plan;
-    if (request.datum_mm) plan.datum = mm(*request.datum_mm);
-    return plan;
-}
-
 /// @param request  the caller keeps it
 Task<Result<ArmedRun>> order_straightness(OrderContext context, const ArmRequest& request) {
     const StraightnessConfig& config = *straightness_config_of(context.config);
-    if (auto mirror = mirror_of(config, request); !mirror)
-        co_return tl::unexpected<Error>(mirror.error());
+    StraightnessSetup stands = config.setup;
+    AXISCAL_CO_TRY(stands.mirror, mirror_of(config, request));
+    AXISCAL_CO_TRY(std::optional<RecordedLine> other,
+                   co_await find_other_mirror(context, stands, request));
     AXISCAL_CO_TRY(Admitted admitted, co_await admit(context, request));
-    const RunHeaderParts parts =
-        header_parts(context, TestKind::straightness, plan_of_order(config, request));
-    AXISCAL_CO_TRY(ArmedRun armed, armed_straightness(parts, config, request, admitted.eve));
+    const RunHeaderParts parts = header_parts(
+        context, TestKind::straightness, plan_of_order(config, TestKind::straightness, request));
+    AXISCAL_CO_TRY(ArmedRun armed,
+                   armed_straightness(parts, config, request, admitted.eve, std::move(other)));
     armed.checks = std::move(admitted.checks);
     (void)context.beam.for_run();
     co_return armed;

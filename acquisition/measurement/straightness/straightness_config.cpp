@@ -80,12 +80,10 @@ void read_factor(Settings& section, StraightnessSetup& setup) {
     }
 }
 
-void read_mirror(Settings& section, StraightnessSetup& setup) {
+void read_mirror(Settings& section, StraightnessConfig& config) {
     if (section.choice("mirror", {"normal", "reversed"}, "normal") == "reversed")
-        setup.mirror = MirrorPosition::reversed;
-    if (section.has("reversal_of"))
-        section.refuse("reversal_of", "is not evaluated yet: leave it out; each run file says how "
-                                      "its mirror stood");
+        config.setup.mirror = MirrorPosition::reversed;
+    config.reversal_of = section.text("reversal_of", "");
 }
 
 void read_statement(Settings& section, StraightnessConfig& config) {
@@ -180,6 +178,12 @@ double factor_of_prism(Angle parting) {
     return 1 / (2 * std::sin(parting.in(radian) / 2));
 }
 
+RunPlan plan_of_kind(const StraightnessConfig& config, TestKind kind) {
+    RunPlan plan = config.plan;
+    plan.pass = name_of(kind);
+    return plan;
+}
+
 std::any read_straightness_section(Settings section, const StationConfig& station) {
     if (!is_measured_live(section, station)) {
         section.accept_rest();
@@ -189,7 +193,7 @@ std::any read_straightness_section(Settings section, const StationConfig& statio
     check_channel(section, station);
     read_direction(section, station, config.setup);
     read_factor(section, config.setup);
-    read_mirror(section, config.setup);
+    read_mirror(section, config);
     read_statement(section, config);
     read_optics(section, config);
     read_plan_across(section, station, config);

@@ -27,6 +27,8 @@ struct StraightnessConfig {
     /// Drift test that E_VE comes from: its run id, or "latest"; empty: setup.uncertainty.eve
     /// counts.
     std::string eve_run;
+    /// Run with the mirror in the other position: its id, or "latest"; empty: none.
+    std::string reversal_of;
     InstrumentRecord optics; ///< prism and mirror, and their certificate
 };
 
@@ -34,6 +36,9 @@ struct StraightnessConfig {
 inline const StraightnessConfig* straightness_config_of(const StationConfig& station) {
     return config_of<StraightnessConfig>(TestKind::straightness, station);
 }
+
+/// The plan of the table under the pass of a run of this kind: a squareness run is driven alike.
+RunPlan plan_of_kind(const StraightnessConfig& config, TestKind kind);
 
 /// As MeasurementKind::read. What the table leaves out [cycle] and [axis] say.
 /// @returns nothing where no straightness can be measured by this station, or not live

@@ -49,6 +49,21 @@ TEST(StationTolerances, MeanWhatTheirWordsSay) {
     EXPECT_EQ(set.limits[1].limit, 30);
 }
 
+// 3 arcsec are 3 pi / 648000 = 14.544410433 um over a metre.
+TEST(StationTolerances, OfASquarenessAreAngles) {
+    const auto limit_of = [](const std::string& limit) {
+        return read_text(with_table("[tolerances]\nsource = \"order 17\"\nrule = \"simple\"\n"
+                                    "limits = [{ parameter = \"squareness_least_squares\", "
+                                    "limit = \"" +
+                                    limit + "\" }]"));
+    };
+    EXPECT_EQ(limit_of("20 um/m").config.tolerances.value().limits.at(0).limit, 20);
+    EXPECT_EQ(limit_of("15 urad").config.tolerances.value().limits.at(0).limit, 15);
+    EXPECT_NEAR(limit_of("3 arcsec").config.tolerances.value().limits.at(0).limit, 14.544410433,
+                1e-9);
+    EXPECT_NE(limit_of("15 um").told.find("limit"), std::string::npos);
+}
+
 TEST(StationTolerances, EachKindOfTestTakesItsOwn) {
     const ToleranceRecord set = read_text(with_table(agreed)).config.tolerances.value();
     const auto names = [&](TestKind kind) {

@@ -6,6 +6,7 @@
 #include "acquisition/documents/run_verify.hpp"
 #include "acquisition/documents/straightness/straightness_csv.hpp"
 #include "acquisition/documents/straightness/straightness_json.hpp"
+#include "config/json_text.hpp"
 #include "evaluated.hpp"
 #include "straightness_run.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -62,6 +63,53 @@ TEST(StraightnessDocument, TellsTheErrorAgainstEachReferenceLine) {
     EXPECT_EQ(document.at("symbol"), "E_YX");
     EXPECT_EQ(document.at("reference"), "least_squares");
     EXPECT_EQ(document.at("unit"), "um");
+}
+
+/// The same bow with the mirror turned: its form, 0.5 (2, -1, -2, -1, 2) um, which no line
+/// explains, counts with the other sign; slope and offset are those of another set-up.
+StraightnessSetup bow_with_reversal() {
+    constexpr double mirror_um[]{1, -0.5, -1, -0.5, 1};
+    constexpr double forward_um[]{0.1, 3.2, 5.1, 4.2, 2.1}, backward_um[]{-0.3, 2.4, 4.5, 3.5, 1.5};
+    StraightnessSetup setup = test::bow_setup();
+    setup.reversal_of = "station-20260101T000000Z-X";
+    RecordedLine& other = setup.reversal.emplace();
+    other.run_id = setup.reversal_of;
+    other.readings = test::bow_approaches;
+    for (int i = 0; i < test::bow_targets; ++i) {
+        const double moved = 0.01 * 100 * i + 3 - 2 * mirror_um[i];
+        other.rows.push_back(
+            {mm(100.0 * i), um(forward_um[i] + moved), um(backward_um[i] + moved)});
+    }
+    return setup;
+}
+
+TEST(StraightnessDocument, ReversalPartsTheMirrorFromTheMotion) {
+    const StraightnessResult result = result_of(test::bow_contents(bow_with_reversal()));
+    const Json document = straightness_to_json(result);
+    const double residuals[]{-2.76, 1.155, 3.17, 1.235, -2.8};
+    const Json& rows = document.at("positions");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_NEAR(rows[i].at("residual_least_squares").get<double>(), residuals[i], 1e-8);
+    EXPECT_NEAR(value_of(document, "straightness_least_squares"), 5.97, 1e-8);
+    EXPECT_NEAR(document.at("mirror").at("least_squares").get<double>(), 2, 1e-8);
+    EXPECT_NEAR(value_of(document, "straightness_B_mean"), 0.62, 1e-8);
+    EXPECT_EQ(document.at("run").at("reversal").at("run"), "station-20260101T000000Z-X");
+    const auto& remarks = result.remarks;
+    EXPECT_TRUE(std::ranges::any_of(remarks, [](const std::string& remark) {
+        return holds(remark, "parted from the motion by reversal") && holds(remark, "2 \u00B5m");
+    })) << json_text(document.at("run").at("remarks"));
+}
+
+TEST(StraightnessDocument, OfAPartialResultTheMirrorIsNotParted) {
+    RunFileContents contents = test::bow_contents(bow_with_reversal());
+    contents.run.complete = false;
+    contents.run.closing_reason = "aborted";
+    contents.run.points.pop_back();
+    const StraightnessResult result = result_of(std::move(contents));
+    EXPECT_FALSE(result.mirror);
+    EXPECT_TRUE(std::ranges::any_of(result.remarks, [](const std::string& remark) {
+        return holds(remark, "This is the result of one position alone");
+    }));
 }
 
 TEST(StraightnessDocument, TellsMeansResidualsAndTheSlopeOfTheSetUp) {

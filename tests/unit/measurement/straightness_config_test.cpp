@@ -128,7 +128,6 @@ TEST(StraightnessTable, EachKeyThatIsWrongIsToldByItself) {
         {"factor_uncertainty = \"1 %\"\nfactor_limit = \"2 %\"\n", "straightness.factor_limit"},
         {"factor_k = 2\n", "straightness.factor_k: belongs to factor_uncertainty"},
         {"mirror = \"turned\"\n", "straightness.mirror: \"turned\" is not one of"},
-        {"reversal_of = \"latest\"\n", "straightness.reversal_of: is not evaluated yet"},
         {"eve = \"1 um\"\neve_run = \"latest\"\n", "straightness.eve_run: is given together"},
         {"range = \"2.5\"\n", "straightness.range"},
         {"channel = \"laser/axis 2\"\n",

@@ -45,6 +45,11 @@ TEST(OlderRunFile, HasAllTablesOfFormatOne) {
     }
 }
 
+constexpr const char* before_reversal =
+    "DROP TABLE straightness_reversal; DROP TABLE straightness_reversal_row";
+constexpr const char* before_squareness =
+    "DROP TABLE squareness; DROP TABLE squareness_uncertainty; DROP TABLE squareness_other; "
+    "DROP TABLE squareness_line_row";
 constexpr const char* before_straightness =
     "DROP TABLE straightness; DROP TABLE straightness_uncertainty";
 
@@ -53,7 +58,8 @@ TEST(OlderRunFile, IsReadWithoutTheTablesOfALaterKind) {
     const auto path = scratch.file("r.axiscal");
     RandomRun random{42};
     const RunRecord written_run = write_run(path, random, 3);
-    run_sql(path, before_straightness);
+    for (const char* before : {before_reversal, before_squareness, before_straightness})
+        run_sql(path, before);
     const auto read = read_run_file(path);
     ASSERT_TRUE(read) << describe(read.error());
     EXPECT_TRUE(same_bits(written_run, *read));
@@ -63,8 +69,10 @@ TEST(OlderRunFile, IsReadWithoutTheTablesOfALaterKind) {
     const auto chain = verify_chain(path);
     ASSERT_TRUE(chain) << describe(chain.error());
     EXPECT_TRUE(chain->intact());
-    const std::pair<std::string, std::int64_t> no_rows{"straightness", 0};
-    EXPECT_EQ(std::ranges::count(chain->rows, no_rows), 1);
+    for (const char* table : {"straightness", "straightness_reversal", "squareness"}) {
+        const std::pair<std::string, std::int64_t> no_rows{table, 0};
+        EXPECT_EQ(std::ranges::count(chain->rows, no_rows), 1) << table;
+    }
 }
 
 TEST(OlderRunFile, HasAllTablesOfALaterKindOrNone) {
@@ -78,22 +86,69 @@ TEST(OlderRunFile, HasAllTablesOfALaterKindOrNone) {
           std::string{"CREATE INDEX i ON straightness(factor)"},
           none + "; CREATE TABLE straightness(link INTEGER PRIMARY KEY, hash BLOB NOT NULL) STRICT",
           none + "; CREATE VIEW straightness AS SELECT 1",
-          none + "; CREATE TABLE \"STRAIGHTNESS\"(link INTEGER PRIMARY KEY)"}) {
+          none + "; CREATE TABLE \"STRAIGHTNESS\"(link INTEGER PRIMARY KEY)",
+          std::string{"DROP TABLE straightness_reversal"},
+          std::string{"DROP TABLE straightness_reversal_row"}, std::string{"DROP TABLE squareness"},
+          std::string{"DROP TABLE squareness_line_row"},
+          std::string{"DROP TABLE squareness_other; DROP TABLE squareness_uncertainty"}}) {
         const auto path = written(scratch, change);
         EXPECT_EQ(refusal_of(path), path + ": " + other_tables) << change;
     }
 }
 
-TEST(OlderRunFile, IsNoneWhereADroppedTableHeldRows) {
-    const ScratchFolder scratch;
-    const auto path = scratch.file("r.axiscal");
+/// A closed run with this set-up and nothing measured.
+std::string closed_run(const ScratchFolder& scratch, TestKind kind, const TestSetup& setup) {
+    const auto path = scratch.file("closed.axiscal");
     RandomRun random{43};
     RunRecord run = random.header();
-    run.kind = TestKind::straightness;
+    run.kind = kind;
     RunAttachments beside;
-    beside.setup = StraightnessSetup{};
+    beside.setup = setup;
     auto writer = RunFileWriter::create(path, run, beside).value();
-    ASSERT_TRUE(writer.close(true, "done", random.tie()));
+    EXPECT_TRUE(writer.close(true, "done", random.tie()));
+    return path;
+}
+
+StraightnessSetup reversed_straightness() {
+    StraightnessSetup setup;
+    setup.mirror = MirrorPosition::reversed;
+    setup.reversal_of = "bench-20261121T100000Z-X";
+    return setup;
+}
+
+// Made when the straightness was known and what its reversal gave was not kept.
+TEST(OlderRunFile, SaysTheStraightnessThatItKnewWithoutTheTablesOfItsReversal) {
+    const ScratchFolder scratch;
+    const TestSetup setup = reversed_straightness();
+    const auto path = closed_run(scratch, TestKind::straightness, setup);
+    run_sql(path, before_reversal);
+    run_sql(path, before_squareness);
+    const auto read = read_run_file_contents(path);
+    ASSERT_TRUE(read) << describe(read.error());
+    EXPECT_TRUE(same_bits(setup, read->attachments.setup));
+    const auto chain = verify_chain(path);
+    ASSERT_TRUE(chain) << describe(chain.error());
+    EXPECT_TRUE(chain->intact());
+}
+
+TEST(OlderRunFile, IsNoneWhereTheDroppedReversalHeldRows) {
+    const ScratchFolder scratch;
+    StraightnessSetup setup = reversed_straightness();
+    setup.reversal = RecordedLine{setup.reversal_of, "X", "Y", 5, um(0.2), {}};
+    setup.reversal->rows = {{mm(0), um(1), um(2)}, {mm(100), um(3), um(4)}};
+    const auto path = closed_run(scratch, TestKind::straightness, setup);
+    ASSERT_TRUE(read_run_file(path));
+    run_sql(path, before_reversal);
+    EXPECT_NE(refusal_of(path).find("is missing: the file was changed"), std::string::npos)
+        << refusal_of(path);
+    const auto chain = verify_chain(path);
+    ASSERT_TRUE(chain) << describe(chain.error());
+    EXPECT_EQ(chain->findings.size(), 3U); // the line and its two rows
+}
+
+TEST(OlderRunFile, IsNoneWhereADroppedTableHeldRows) {
+    const ScratchFolder scratch;
+    const auto path = closed_run(scratch, TestKind::straightness, StraightnessSetup{});
     ASSERT_TRUE(read_run_file(path));
     run_sql(path, before_straightness);
     EXPECT_NE(refusal_of(path).find("is missing: the file was changed"), std::string::npos)

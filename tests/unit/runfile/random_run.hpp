@@ -51,7 +51,7 @@ public:
         for (int i = 0; i < pick(4); ++i)
             fill_calibration(run.calibrations.emplace_back(), i);
         if (pick(2) == 0) fill_rotary(run.rotary.emplace());
-        run.kind = static_cast<TestKind>(pick(5));
+        run.kind = static_cast<TestKind>(pick(6));
         return run;
     }
 
@@ -73,7 +73,8 @@ public:
                                            {length(), length(), length()}});
         }
         if (kind == TestKind::straightness)
-            fill_straightness(beside.setup.emplace<StraightnessSetup>());
+            fill_straightness_test(beside.setup.emplace<StraightnessSetup>());
+        if (kind == TestKind::squareness) fill_squareness(beside.setup.emplace<SquarenessSetup>());
         if (pick(2) == 0) beside.eve_source = text();
         return beside;
     }
@@ -207,6 +208,31 @@ private:
         stated.angle_U = perhaps<Angle>(), stated.base_U = perhaps<Length>();
         stated.factor_k = number(), stated.angle_k = number(), stated.base_k = number();
         stated.eve = perhaps<Length>(), stated.eve_angle = perhaps<Angle>();
+    }
+
+    void fill_straightness_test(StraightnessSetup& setup) {
+        fill_straightness(setup);
+        if (pick(2) == 0) return;
+        fill_line(setup.reversal.emplace());
+        setup.reversal->run_id = setup.reversal_of; // a file has it once
+    }
+
+    void fill_line(RecordedLine& line) {
+        line.run_id = text(), line.axis = text(), line.across = text();
+        line.readings = pick(1000), line.scatter = length();
+        for (int i = pick(9); i > 0; --i)
+            line.rows.push_back({length(), length(), perhaps<Length>()});
+    }
+
+    void fill_squareness(SquarenessSetup& setup) {
+        fill_straightness(setup.optics);
+        fill_line(setup.first);
+        setup.square = static_cast<SquarePosition>(pick(2));
+        setup.stated = {perhaps<Angle>(), perhaps<Angle>(), perhaps<Angle>(), number(),
+                        perhaps<Angle>()};
+        if (pick(2) == 0) return;
+        OtherSquare& other = setup.other.emplace();
+        fill_line(other.first), fill_line(other.second);
     }
 
     void fill_tolerances(ToleranceRecord& set) {

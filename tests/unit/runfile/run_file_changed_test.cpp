@@ -163,6 +163,58 @@ TEST(RunFile, ChainsTheSetUpOfAStraightnessTest) {
                     "DELETE FROM straightness_uncertainty", "DELETE FROM straightness"});
 }
 
+RecordedLine some_line(const char* run_id) {
+    RecordedLine line{run_id, "X", "Y", 5, um(0.2), {}};
+    line.rows = {{mm(0), um(1), um(2)}, {mm(100), um(3), um(4)}, {mm(200), um(2), um(1)}};
+    return line;
+}
+
+TEST(RunFile, ChainsWhatTheReversedMirrorGave) {
+    StraightnessSetup setup = some_straightness();
+    setup.reversal_of = "bench-20261121T100000Z-X";
+    setup.reversal = some_line("bench-20261121T100000Z-X");
+    expect_chained(TestKind::straightness, setup,
+                   {"UPDATE straightness_reversal SET scatter_m = 0.0",
+                    "UPDATE straightness_reversal SET readings = 6",
+                    "UPDATE straightness_reversal_row SET backward_m = NULL",
+                    "UPDATE straightness_reversal_row SET forward_m = 0.0 WHERE target_m = 0.1",
+                    "DELETE FROM straightness_reversal_row WHERE target_m = 0.1",
+                    "DELETE FROM straightness_reversal"});
+}
+
+SquarenessSetup some_squareness() {
+    SquarenessSetup setup;
+    setup.optics = some_straightness();
+    setup.first = some_line("bench-20261121T100000Z-X");
+    setup.square = SquarePosition::turned;
+    setup.stated.error = arcsec(0.3);
+    setup.other =
+        OtherSquare{some_line("bench-20261120T100000Z-X"), some_line("bench-20261120T110000Z-Y")};
+    return setup;
+}
+
+TEST(RunFile, ChainsTheSetUpOfASquarenessTest) {
+    expect_chained(
+        TestKind::squareness, some_squareness(),
+        {"UPDATE squareness SET square = 'normal'", "UPDATE squareness SET square = 'upside down'",
+         "UPDATE squareness SET factor = 36.0", "UPDATE squareness SET first_run_id = 'another'",
+         "UPDATE squareness SET first_readings = 6",
+         "UPDATE squareness_uncertainty SET eve_m = NULL",
+         "UPDATE squareness_uncertainty SET error_rad = 0.0", "DELETE FROM squareness_uncertainty",
+         "DELETE FROM squareness"});
+}
+
+TEST(RunFile, ChainsTheLinesThatASquarenessIsEvaluatedWith) {
+    expect_chained(TestKind::squareness, some_squareness(),
+                   {"UPDATE squareness_other SET second_run_id = 'another'",
+                    "UPDATE squareness_other SET first_scatter_m = 0.0",
+                    "UPDATE squareness_line_row SET line = 'first' WHERE line = 'other_first'",
+                    "UPDATE squareness_line_row SET forward_m = 0.0 WHERE target_m = 0.1",
+                    "UPDATE squareness_line_row SET backward_m = NULL",
+                    "DELETE FROM squareness_line_row WHERE line = 'other_second'",
+                    "DELETE FROM squareness_other"});
+}
+
 TEST(RunFile, RefusesTheSetUpOfAnotherKindOfTest) {
     const ScratchFolder scratch;
     const auto path = scratch.file("r.axiscal");

@@ -35,6 +35,15 @@ TEST(Scenario, RefusesAPrismBeforeAnythingButAUmd) {
               std::string::npos);
 }
 
+TEST(Scenario, RefusesAnOpticalSquareWithoutItsPrism) {
+    const std::string square = "[squareness]\naxes_um_per_m = 25\nsquare_turned = true\n";
+    EXPECT_EQ(refusal(square + "[straightness]\nfactor = 36\n"), "");
+    EXPECT_NE(refusal(square).find("squareness needs [straightness]"), std::string::npos);
+    EXPECT_NE(refusal("[straightness]\n[squareness]\nturned = true\n")
+                  .find("squareness.turned is not a known key"),
+              std::string::npos);
+}
+
 TEST(Scenario, ReadsTomlAndJsonAlike) {
     const auto toml = parse_scenario("seed = 7\n[errors]\nreversal_um = -3.5\n", true);
     const auto json = parse_scenario(R"({"seed":7,"errors":{"reversal_um":-3.5}})", false);

@@ -133,6 +133,85 @@ TEST_F(StationStraightness, TheMirrorIsNotedAsItWasSaidAtArming) {
     EXPECT_EQ(setup().mirror, MirrorPosition::reversed);
 }
 
+/// With the mirror's own bow of 3 um a metre beside that of the axis; `side` is -1 where it stands
+/// the other way.
+std::function<double(double)> with_mirror(double side) {
+    return [side](double x_mm) {
+        const double share = x_mm / 1000;
+        return 20 * share + (40 + side * 12) * share * (1 - share);
+    };
+}
+
+ArmRequest order_of_reversal(const std::string& which) {
+    ArmRequest turned = order_of_straightness();
+    turned.options = {{"mirror", "reversed"}, {"reversal_of", which}};
+    return turned;
+}
+
+TEST_F(StationStraightness, TheRunWithTheMirrorTurnedKeepsTheLinesOfTheFirst) {
+    shop.deviation_um = with_mirror(1);
+    Life life{shop};
+    whole_run(life);
+    shop.deviation_um = with_mirror(-1);
+    ASSERT_TRUE(life.arm(order_of_reversal("latest")));
+    for (int step = 0; step < 10; ++step)
+        ASSERT_TRUE(life.take(step)) << step;
+    life.run(2s);
+    ASSERT_EQ(life.status().run->state, "complete");
+    const RunFileContents first = contents();
+    const RunFileContents second = read_run_file_contents(shop.run_files().at(1)).value();
+    const auto& setup = std::get<StraightnessSetup>(second.attachments.setup);
+    EXPECT_EQ(setup.reversal_of, first.run.run_id);
+    ASSERT_TRUE(setup.reversal);
+    ASSERT_EQ(setup.reversal->rows.size(), shop.plan().targets.size());
+    const auto deviation = with_mirror(1);
+    for (const RecordedLineRow& row : setup.reversal->rows) {
+        const double due = deviation(row.target.in(mm)) - deviation(shop.plan().datum.in(mm));
+        EXPECT_NEAR(row.forward.in(um), due / 1.000271, 1e-6);
+        EXPECT_NEAR(row.backward->in(um), due / 1.000271, 1e-6);
+    }
+}
+
+TEST_F(StationStraightness, IsNotArmedByReversalWhereTheMirrorStandsAsBefore) {
+    Life life{shop};
+    whole_run(life);
+    ArmRequest request = order_of_reversal("latest");
+    request.options["mirror"] = "normal";
+    const auto refused = life.arm(request);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().field, "reversal_of");
+    EXPECT_NE(refused.error().detail.find("turn it by 180 degrees"), std::string::npos);
+}
+
+TEST_F(StationStraightness, IsNotArmedByReversalOfARunThatIsNotThere) {
+    Life life{shop};
+    const auto refused = life.arm(order_of_reversal("station-20200101T000000Z-X"));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().fault, Fault::not_found);
+    EXPECT_NE(refused.error().detail.find("names no complete straightness run of axis X"),
+              std::string::npos)
+        << refused.error().detail;
+}
+
+TEST_F(StationStraightness, IsNotArmedByReversalOfARunWithOtherOpticsOrTargets) {
+    {
+        Life life{shop};
+        whole_run(life);
+    }
+    const auto refusal = [&](const std::string& table) {
+        shop.state_table(table);
+        Life life{shop};
+        const auto armed = life.arm(order_of_reversal("latest"));
+        return armed ? std::string{"armed"} : armed.error().detail;
+    };
+    const std::string optics = "across = \"Y\"\nsign = 1\nfactor = ";
+    EXPECT_NE(refusal(optics + "35\n").find("another factor"), std::string::npos);
+    EXPECT_NE(refusal(optics + "36\ntargets = [\"70 mm\", \"270 mm\", \"480 mm\", \"670 mm\", "
+                               "\"870 mm\"]\n")
+                  .find("other targets"),
+              std::string::npos);
+}
+
 TEST_F(StationStraightness, IsNotArmedForAWordThatIsNoPositionOfTheMirror) {
     ArmRequest request = order_of_straightness();
     request.options["mirror"] = "turned";

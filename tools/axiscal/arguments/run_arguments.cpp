@@ -62,11 +62,13 @@ void arming_options(CLI::App& command, Options& options) {
                        "prints the reason");
     command
         .add_option("--pass", options.arm.pass,
-                    "whole, stretch on an axis over 2000 mm, circular, or straightness")
+                    "whole, stretch on an axis over 2000 mm, circular, straightness, or "
+                    "squareness")
         ->capture_default_str();
     command.add_option("--option", options.kind_options,
-                       "NAME=VALUE that one kind of test alone is told: mirror=reversed of "
-                       "straightness");
+                       "NAME=VALUE that one kind of test alone is told: mirror=reversed and "
+                       "reversal_of=RUN of straightness and squareness; square=turned and "
+                       "first=RUN of squareness");
 }
 
 /// Of every order that decides about a run.

@@ -1,21 +1,15 @@
-// What a straightness was measured with, and what happened meanwhile.
+// What deviations across an axis were measured with, and what happened meanwhile.
 #include "acquisition/documents/pdf/back_parts.hpp"
 #include "acquisition/documents/positioning/certificate_pages.hpp"
-#include "acquisition/documents/straightness/straightness_pages.hpp"
-#include "acquisition/documents/straightness/straightness_wording.hpp"
+#include "acquisition/documents/straightness/across_pages.hpp"
 #include "analysis/record/certificate_expiry.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace axiscal {
 namespace {
 
 constexpr const char* said_nowhere = "not stated";
-
-std::string um_stated(const std::optional<Length>& length) {
-    return length ? as_stated(length->in(um)) + " µm" : said_nowhere;
-}
 
 std::string factor_on_paper(const StraightnessSetup& setup) {
     constexpr double per_cent = 100;
@@ -29,13 +23,19 @@ std::string factor_on_paper(const StraightnessSetup& setup) {
     return words + ", uncertainty not stated";
 }
 
+std::string mirror_on_paper(const StraightnessSetup& setup) {
+    std::string words = setup.mirror == MirrorPosition::reversed ? "turned by 180°" : "as at first";
+    if (!setup.reversal_of.empty()) words += ", the other way in run " + setup.reversal_of;
+    return words;
+}
+
 std::vector<StatedField> fields_of_wollaston(const StraightnessSetup& setup) {
     const auto& limit = setup.uncertainty.mirror_limit_um_per_m2;
     return {{"Method", "Wollaston prism and bisecting mirror"},
             {"Factor", factor_on_paper(setup)},
             {"Sign", setup.sign > 0 ? "the reading rises with the deviation"
                                     : "the reading falls with the deviation"},
-            {"Mirror", setup.mirror == MirrorPosition::reversed ? "turned by 180°" : "as at first"},
+            {"Mirror", mirror_on_paper(setup)},
             {"Limit of the mirror's form",
              limit ? "± " + as_stated(*limit) + " µm · M² (M in m)" : said_nowhere},
             {"Least step across", setup.resolution > Length{}
@@ -43,11 +43,6 @@ std::vector<StatedField> fields_of_wollaston(const StraightnessSetup& setup) {
                                       : said_nowhere},
             {"E_VE", um_stated(setup.uncertainty.eve)},
             {"Place of the optics", stated(setup.place)}};
-}
-
-std::string arcsec_stated(const std::optional<Angle>& angle) {
-    constexpr double arcsec_per_rad = 3600 * 180 / std::numbers::pi;
-    return angle ? as_stated(angle->in(radian)*arcsec_per_rad) + "″" : said_nowhere;
 }
 
 std::vector<StatedField> fields_of_angle_steps(const StraightnessSetup& setup) {
@@ -71,8 +66,7 @@ std::string datum_of_straightness(const RunRecord& run) {
            stated(run.datums.back().id);
 }
 
-std::vector<StatedField> fields_of_course(const StraightnessResult& result) {
-    const RunRecord& run = result.run;
+std::vector<StatedField> fields_of_course(const RunRecord& run) {
     const Statements& said = run.statements;
     return {{"Cycle", std::string{name_of(run.plan.cycle)} + ", pass: " + run.plan.pass},
             {"Approaches n", std::to_string(run.plan.approaches) +
@@ -92,23 +86,36 @@ std::vector<StatedField> fields_of_course(const StraightnessResult& result) {
 
 } // namespace
 
-void draw_straightness_conditions(Sheet& sheet,
-                                  const StraightnessResult& result,
-                                  const std::vector<StatedField>& shortened) {
-    const RunRecord& run = result.run;
-    const StraightnessSetup& setup = result.setup();
+std::string um_stated(const std::optional<Length>& length) {
+    return length ? as_stated(length->in(um)) + " µm" : said_nowhere;
+}
+
+std::string arcsec_stated(const std::optional<Angle>& angle) {
+    return angle ? as_stated(angle->in(arcsec)) + "″" : said_nowhere;
+}
+
+void draw_across_conditions(Sheet& sheet,
+                            const AcrossRun& one,
+                            const std::vector<StatedField>& square,
+                            const std::vector<StatedField>& shortened) {
+    const RunRecord& run = one.run;
+    const StraightnessSetup& setup = one.optics();
     draw_calibrations(sheet, run.calibrations, run.channels, run_date_of(run));
     sheet.heading("Optics and their set-up");
     sheet.fields(setup.method == StraightnessMethod::wollaston ? fields_of_wollaston(setup)
                                                                : fields_of_angle_steps(setup),
                  2);
+    if (!square.empty()) {
+        sheet.heading("Optical square");
+        sheet.fields(square, 2);
+    }
     sheet.heading("Cycle and conditions");
-    sheet.fields(fields_of_course(result), 2);
+    sheet.fields(fields_of_course(run), 2);
     sheet.fields({{"Station file SHA-256", stated(run.config_hash)}}, 1);
-    draw_alignment(sheet, result.attachments.alignment);
+    draw_alignment(sheet, one.attachments.alignment);
     if (std::ranges::find(shortened, "Instruments", &StatedField::key) != shortened.end())
         draw_instruments(sheet, run.instruments, run_date_of(run));
-    draw_remarks(sheet, result.remarks, shortened);
+    draw_remarks(sheet, one.remarks, shortened);
     draw_events(sheet, run.events, run.opened);
 }
 
