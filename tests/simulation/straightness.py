@@ -5,6 +5,7 @@ the bound that the simulator states: the form of the mirror may be in it.
 """
 
 import json
+import subprocess
 
 import bench
 from bench import expect, sentence, wait_until
@@ -74,6 +75,48 @@ def killed(b):
     b.sim("go")
     certificate = b.finish()
     expect_the_motion_across(b, certificate)
+
+
+def run_again(b, *words):
+    """Another whole run by the programs that begin anew; gives back its certificate."""
+    for name in ("axiscald", "axiscal-simulate"):
+        b.end(name)
+    b.start()
+    b.go_to_datum()
+    b.arm(*words)
+    return b.finish()
+
+
+def truth_without_mirror(b):
+    scenario = json.loads((b.folder / "scenario.json").read_text())
+    del scenario["straightness"]["mirror"]
+    (b.folder / "no-mirror.json").write_text(json.dumps(scenario))
+    told = b.folder / "no-mirror.truth.json"
+    subprocess.run([b.program("axiscal-simulate"), "truth", "--scenario", b.folder / "no-mirror.json", "--program", b.plan["file"], "--truth", told],
+                   check=True, timeout=60)
+    return json.loads(told.read_text())["parameters"]
+
+
+@sentence("StraightnessByReversalIsTheMotionWithoutTheMirror")
+def parted(b):
+    """The mirror is as crooked as the axis: each run alone is wrong by it, the mean of both by nothing but noise."""
+    with_prism(b)
+    b.scenario["straightness"]["mirror"] = {"quadratic_um_per_m2": 150.0, "centre_mm": 200.0}
+    begin(b)
+    alone = b.finish()
+    b.scenario["straightness"]["mirror_reversed"] = True
+    certificate = run_again(b, "--option", "mirror=reversed", "--option", "reversal_of=latest")
+    truth = truth_without_mirror(b)
+    for name in FIGURES:
+        hidden = truth[name]
+        off_um = abs(certificate["parameters"][name]["value"] - hidden["value"] * 1e3)
+        expect(off_um <= hidden["bound"] * 1e3, f"{name}: {certificate['parameters'][name]}, hidden {hidden}")
+    main = truth["straightness_least_squares"]
+    alone_um = alone["parameters"]["straightness_least_squares"]["value"]
+    expect(abs(alone_um - main["value"] * 1e3) > 3 * main["bound"] * 1e3, f"one run alone would do: {alone_um}, {main}")
+    expect(certificate["mirror"]["least_squares"] > 3, f"{certificate['mirror']}")
+    checked = json.loads(b.axiscal("verify", b.run()["file"], "--json"))
+    expect(checked["findings"] == [], f"{checked['findings']}")
 
 
 if __name__ == "__main__":
