@@ -21,7 +21,8 @@ Json to_json(const ChannelView& channel) {
             {"age_s", or_null(channel.age_s)},
             {"quality", channel.quality},
             {"used", channel.used},
-            {"role", channel.role}};
+            {"role", channel.role},
+            {"due_on", channel.due_on}};
 }
 
 Json to_json(const AxisView& axis) {
@@ -125,6 +126,7 @@ nlohmann::ordered_json to_json(const InstrumentView& view) {
             {"model", view.identity.model},
             {"serial", view.identity.serial},
             {"firmware", view.identity.firmware},
+            {"due_on", view.due_on},
             {"restarts", view.restarts},
             {"frames", counters.frames},
             {"samples", counters.samples},

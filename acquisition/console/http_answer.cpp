@@ -4,6 +4,8 @@
 #include "analysis/quantity/valid_text.hpp"
 #include "config/json_text.hpp"
 
+#include <utility>
+
 namespace axiscal {
 namespace {
 
@@ -40,6 +42,20 @@ std::string field(const HttpRequest& request, http::field name) {
     return found == request.end() ? std::string{} : std::string{found->value()};
 }
 
+HttpResponse answer_of(const HttpRequest& request,
+                       http::status status,
+                       std::string_view type,
+                       std::string text) {
+    HttpResponse response{status, request.version()};
+    response.set(http::field::content_type, {type.data(), type.size()});
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.keep_alive(request.keep_alive());
+    response.body() = std::move(text);
+    response.prepare_payload();
+    return response;
+}
+
 } // namespace
 
 RequestHead head_of(const HttpRequest& request, Door door) {
@@ -55,14 +71,11 @@ RequestHead head_of(const HttpRequest& request, Door door) {
 
 HttpResponse
 answer(const HttpRequest& request, http::status status, const nlohmann::ordered_json& body) {
-    HttpResponse response{status, request.version()};
-    response.set(http::field::content_type, "application/json; charset=utf-8");
-    response.set(http::field::cache_control, "no-store");
-    response.set("X-Content-Type-Options", "nosniff");
-    response.keep_alive(request.keep_alive());
-    response.body() = json_text(body) + "\n";
-    response.prepare_payload();
-    return response;
+    return answer_of(request, status, "application/json; charset=utf-8", json_text(body) + "\n");
+}
+
+HttpResponse answer_as(const HttpRequest& request, std::string_view type, std::string text) {
+    return answer_of(request, http::status::ok, type, std::move(text));
 }
 
 HttpResponse answer(const HttpRequest& request, const Error& error) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace axiscal {
 
@@ -23,6 +24,8 @@ HttpResponse answer(const HttpRequest& request,
                     boost::beast::http::status status,
                     const nlohmann::ordered_json& body);
 HttpResponse answer(const HttpRequest& request, const Error& error);
+/// 200 with what is no JSON. @param type  of the content
+HttpResponse answer_as(const HttpRequest& request, std::string_view type, std::string text);
 /// `sentence` under the name of the fault that belongs to `status`.
 HttpResponse answer_in_words(const HttpRequest& request,
                              boost::beast::http::status status,

@@ -7,6 +7,8 @@
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/listening.hpp"
+#include "acquisition/console/metrics_text.hpp"
+#include "acquisition/console/metrics_writer.hpp"
 #include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "drivers/loop/spawn.hpp"
@@ -201,6 +203,8 @@ Task<Response> HttpServer::Impl::respond(Request request, Door door, int descrip
         co_return answer(request, http::status::ok, to_json(station.stream(*points)));
     }
     StationStatus status = station.status();
+    if (path == "/metrics")
+        co_return answer_as(request, metrics_content_type, metrics_text(status));
     if (!no_tcp.empty()) status.notes.push_back(no_tcp);
     if (path == "/v1/status") co_return answer(request, http::status::ok, to_json(status));
     if (path == "/v1/instruments")
@@ -214,7 +218,7 @@ Task<Response> HttpServer::Impl::respond(Request request, Door door, int descrip
     co_return answer_in_words(
         request, http::status::not_found,
         "known are GET /v1/status, GET /v1/instruments, GET "
-        "/v1/preflight, GET /v1/alignment, GET /v1/stream, POST /v1/run, POST "
+        "/v1/preflight, GET /v1/alignment, GET /v1/stream, GET /metrics, POST /v1/run, POST "
         "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
         "/v1/run/exclude, POST /v1/run/answer, POST /v1/preflight, POST /v1/alignment, POST "
         "/v1/drift");

@@ -21,6 +21,7 @@ ChannelView ChannelFacts::view(const StationChannel& channel, MonotonicTime now)
     view.unit = stored_unit_of(channel.kind);
     view.kind = channel.kind;
     view.medium = channel.medium;
+    view.due_on = channel.calibration.due_on;
     const std::vector<int> environment = roles_.environment();
     if (channel.id == roles_.laser || channel.id == roles_.autocollimator)
         view.role = "axis";

@@ -34,6 +34,7 @@ struct ChannelView {
     bool used = false;            ///< laser, or part of the run's environment
     std::string role;             ///< axis | ballbar | environment; empty: not used
     std::string quality = "none"; ///< good | stale | signal_error | beam_lost | absent | none
+    std::string due_on = {};      ///< ISO date of its own certificate; empty: the instrument's
 };
 
 /// The axis as the laser sees it now.

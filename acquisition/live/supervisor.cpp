@@ -245,6 +245,7 @@ void Supervisor::add(const InstrumentConfig& config,
     seat->view.name = config.name;
     seat->view.driver = config.driver;
     seat->view.tape = config.tape;
+    seat->view.due_on = config.due_on;
     seat->view.since = scheduler_.now();
     const int index = static_cast<int>(seats_.size());
     for (StationChannel& channel :

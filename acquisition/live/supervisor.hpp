@@ -40,7 +40,8 @@ std::vector<StationChannel> station_channels(const InstrumentConfig& config,
 
 struct InstrumentView {
     std::string name, driver;
-    std::string tape; ///< full path of what is played in place of its link; empty: an instrument
+    std::string tape;   ///< full path of what is played in place of its link; empty: an instrument
+    std::string due_on; ///< ISO date of its certificate, the last day that counts; empty: none
     InstrumentState state = InstrumentState::unavailable;
     MonotonicTime since;
     Identity identity;

@@ -15,10 +15,11 @@ import re
 import sys
 
 FOLDER = "acquisition/console"
-PATH = re.compile(r'==\s*"(/v1[\w/]*)"')
-CONSTANT = re.compile(r'string_view (\w+) = "(/v1[\w/]*)"')
-ROW = re.compile(r"^\| `(GET|POST) (/v1[\w/]*)", re.M)
-MENTION = re.compile(r"\b(GET|POST) (/v1[\w/]*)")
+CALL = r"/v1[\w/]*|/metrics\b"
+PATH = re.compile(rf'==\s*"({CALL})"')
+CONSTANT = re.compile(rf'string_view (\w+) = "({CALL})"')
+ROW = re.compile(rf"^\| `(GET|POST) ({CALL})", re.M)
+MENTION = re.compile(rf"\b(GET|POST) ({CALL})")
 WRITER = re.compile(r"^(?:nlohmann::ordered_)?[jJ]son (?:to|trigger)_json\(const ([\w:<>]+)& \w+\) \{\n(.*?)^\}", re.M | re.S)
 KEY = re.compile(r'\{"(\w+)",\s')
 # the table of the example that each type becomes; trigger_json() and the whole are both written from StationStatus
@@ -148,6 +149,8 @@ def self_test():
         calls(face=FACE.replace('"known are POST /v1/run"', '"known are none"')) == 1,
         calls(others={"docs/a.md": "`POST /v1/run` and GET /v1/status"}) == 0,
         calls(others={"docs/a.md": "`POST /v1/status`"}) == 1,
+        calls(page=PAGE + "| `GET /metrics` | d |\n") == 1,
+        calls(face=FACE.replace('"/v1/status") y();', '"/v1/status") y(); if (path == "/metrics") m();')) == 2,  # the row, and the sentence
         keys() == 0,
         keys(writers=WRITERS.replace('{"still", axis.still}', '{"still", a}, {"warm", b}')) == 1,
         keys(writers=WRITERS.replace('{"still", axis.still}', '{"quiet", a}')) == 2,

@@ -261,6 +261,24 @@ TEST_F(HttpDoor, AStaleValueIsNullNotANumber) {
     EXPECT_EQ(status.at("channels").at(0).at("quality"), "stale");
 }
 
+TEST_F(HttpDoor, MetricsAreTextThatWhoeverMayReadReads) {
+    for (const std::string& reply : {over_tcp("GET", "/metrics"), over_socket("GET", "/metrics")}) {
+        EXPECT_TRUE(reply.starts_with("HTTP/1.1 200")) << reply;
+        EXPECT_NE(reply.find("\r\nContent-Type: text/plain; version=0.0.4; charset=utf-8\r\n"),
+                  std::string::npos)
+            << reply;
+        const std::string text = body_of(reply);
+        EXPECT_TRUE(text.starts_with("# HELP axiscal_build_info ")) << text;
+        EXPECT_NE(text.find("axiscal_channel_quality{instrument=\"air\",channel=\"pressure\","
+                            "quality=\"stale\"} 1\n"),
+                  std::string::npos);
+        EXPECT_EQ(text.find("axiscal_channel_pressure_pascals"), std::string::npos);
+    }
+    EXPECT_TRUE(
+        over_tcp("GET", "/metrics", "Origin: http://evil.example\r\n").starts_with("HTTP/1.1 403"));
+    EXPECT_TRUE(over_tcp("POST", "/metrics").starts_with("HTTP/1.1 401"));
+}
+
 TEST_F(HttpDoor, TellsWhetherTheInstrumentReadsALengthOrAnAngle) {
     const auto reading = [this] {
         return nlohmann::json::parse(body_of(over_tcp("GET", "/v1/status")))
