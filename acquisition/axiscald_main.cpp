@@ -128,6 +128,7 @@ struct Daemon {
         co_await signals.async_wait(boost::asio::as_tuple(boost::asio::use_awaitable));
         tell_service_manager("STOPPING=1");
         spdlog::info("stopping; an open run stays open and is continued at the next start");
+        console.end_events(); // what is made durable now may take its time
         co_await station.stop();
         loop.stop();
     }

@@ -29,6 +29,7 @@ const char* fault_of(http::status status) {
     case http::status::not_found:
     case http::status::method_not_allowed: return "not_found";
     case http::status::internal_server_error: return "internal";
+    case http::status::service_unavailable: return "busy";
     case http::status::bad_request:
     case http::status::payload_too_large:
     case http::status::expectation_failed:
@@ -58,6 +59,19 @@ HttpResponse answer_of(const HttpRequest& request,
 
 } // namespace
 
+std::string asked_path(const HttpRequest& request) {
+    std::string_view path{request.target().data(), request.target().size()};
+    path = path.substr(0, path.find('?'));
+    while (path.size() > 1 && path.ends_with('/'))
+        path.remove_suffix(1);
+    return std::string{path};
+}
+
+std::string last_event_id_of(const HttpRequest& request) {
+    const auto found = request.find("Last-Event-ID");
+    return found == request.end() ? std::string{} : std::string{found->value()};
+}
+
 RequestHead head_of(const HttpRequest& request, Door door) {
     RequestHead head;
     head.door = door;
@@ -80,6 +94,14 @@ HttpResponse answer_as(const HttpRequest& request, std::string_view type, std::s
 
 HttpResponse answer(const HttpRequest& request, const Error& error) {
     return answer(request, status_of(error.fault), to_json(error));
+}
+
+HttpResponse answer_with_checks(const HttpRequest& request,
+                                const Error& error,
+                                const Result<std::vector<PreflightRecord>>& checks) {
+    auto body = to_json(error);
+    if (checks) body["checks"] = to_json(*checks);
+    return answer(request, http::status::conflict, body);
 }
 
 HttpResponse

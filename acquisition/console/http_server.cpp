@@ -4,7 +4,9 @@
 #include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/event_hub.hpp"
 #include "acquisition/console/http_answer.hpp"
+#include "acquisition/console/http_orders.hpp"
 #include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/metrics_text.hpp"
@@ -25,6 +27,7 @@
 
 #include <array>
 #include <exception>
+#include <optional>
 #include <unistd.h>
 #include <utility>
 
@@ -59,23 +62,12 @@ struct ClientSeat {
     std::size_t& taken;
 };
 
-/// What is asked for; a page may hang anything behind it ("?x=1").
-std::string path_of(const Request& request) {
-    std::string_view path{request.target().data(), request.target().size()};
-    path = path.substr(0, path.find('?'));
-    while (path.size() > 1 && path.ends_with('/'))
-        path.remove_suffix(1);
-    return std::string{path};
-}
-
-/// Arming met checks that do not hold: all of them at once.
-Response answer_with_checks(const Request& request,
-                            const Error& error,
-                            const Result<std::vector<PreflightRecord>>& checks) {
-    auto body = to_json(error);
-    if (checks) body["checks"] = to_json(*checks);
-    return answer(request, http::status::conflict, body);
-}
+/// Who asks. A request for the events leaves its place with them here.
+struct Caller {
+    Door door = Door::tcp;
+    int descriptor = -1;
+    std::optional<EventSeat> events;
+};
 
 } // namespace
 
@@ -87,6 +79,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
         , tcp{on.executor()}
         , local{on.executor()} {
         rules.token = std::move(secret);
+        events = std::make_shared<EventHub>(on, of, [this] { return shown_status(); });
     }
 
     Task<void> open_tcp_later();
@@ -95,12 +88,11 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     template <class Socket> Task<void> serve(Socket socket, Door door);
     bool is_stranger(const asio::local::stream_protocol::socket& socket);
     bool is_stranger(const asio::ip::tcp::socket& socket);
-    Task<Response> respond_or_tell(Request request, Door door, int descriptor);
-    Task<Response> respond(Request request, Door door, int descriptor);
+    Task<Response> respond_or_tell(Request request, Caller& caller);
+    Task<Response> respond(Request request, Caller& caller);
+    Response seat_for_events(const Request& request, Caller& caller);
+    [[nodiscard]] StationStatus shown_status() const;
     Task<Response> change(Request request, Orderer by, int descriptor);
-    Task<Response> arm(Request request, Orderer by, int descriptor);
-    Task<Response> revise(Request request, Orderer by);
-    Task<Response> answer_finding(Request request, Orderer by);
 
     Scheduler& scheduler;
     StationInterface& station;
@@ -111,6 +103,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     SocketFile socket_file;
     bool bound = false, ended = false;
     std::array<std::size_t, 2> clients{}; ///< by door
+    std::shared_ptr<EventHub> events;
     TurnedAway strangers;
     std::string no_tcp; ///< why nobody is heard over TCP now
 };
@@ -148,7 +141,7 @@ template <class Acceptor> Task<void> HttpServer::Impl::accept(Acceptor& acceptor
 template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door door) {
     const auto self = shared_from_this();
     const ClientSeat seat{clients[seat_of(door)]};
-    const int descriptor = socket.native_handle();
+    Caller caller{door, socket.native_handle(), {}};
     beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
     beast::flat_buffer buffer;
     for (bool alive = true; alive;) {
@@ -158,7 +151,11 @@ template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door d
         Response response = asked.refusal ? *std::move(asked.refusal) : Response{};
         if (asked.request) {
             Request request = *std::move(asked.request);
-            response = co_await respond_or_tell(std::move(request), door, descriptor);
+            response = co_await respond_or_tell(std::move(request), caller);
+        }
+        if (caller.events) { // its place among the requests is free again
+            spawn(scheduler, events->serve(stream.release_socket(), *std::move(caller.events)));
+            co_return;
         }
         alive = response.keep_alive();
         stream.expires_after(idle_limit);
@@ -169,46 +166,45 @@ template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door d
 }
 
 /// What one request throws ends that request: the station goes on.
-Task<Response> HttpServer::Impl::respond_or_tell(Request request, Door door, int descriptor) {
+Task<Response> HttpServer::Impl::respond_or_tell(Request request, Caller& caller) {
     std::string what;
     Request asked = request;
     try {
-        co_return co_await respond(std::move(asked), door, descriptor);
+        co_return co_await respond(std::move(asked), caller);
     } catch (const std::exception& bug) {
         what = bug.what();
     }
     co_return answer(request, Error{Fault::internal, "This request ended with: " + what, {}, {}});
 }
 
-Task<Response> HttpServer::Impl::respond(Request request, Door door, int descriptor) {
-    const AccessVerdict verdict = judge_access(head_of(request, door), rules);
+Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
+    const AccessVerdict verdict = judge_access(head_of(request, caller.door), rules);
     if (verdict.status != 200)
         co_return answer_in_words(request, static_cast<http::status>(verdict.status),
                                   verdict.sentence);
     if (request.method() == http::verb::post) {
         Orderer by;
         by.door = "token";
-        if (door == Door::unix_socket) by = peer_of_socket(descriptor);
-        co_return co_await change(std::move(request), std::move(by), descriptor);
+        if (caller.door == Door::unix_socket) by = peer_of_socket(caller.descriptor);
+        co_return co_await change(std::move(request), std::move(by), caller.descriptor);
     }
     if (request.method() != http::verb::get)
         co_return answer_in_words(request, http::status::method_not_allowed,
                                   "GET reads, POST changes");
-    const std::string path = path_of(request);
+    const std::string path = asked_path(request);
     if (path == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
+    if (path == events_path) co_return seat_for_events(request, caller);
     if (path == stream_path) {
         const auto points = stream_points_of({request.target().data(), request.target().size()});
         if (!points) co_return answer(request, points.error());
         co_return answer(request, http::status::ok, to_json(station.stream(*points)));
     }
-    StationStatus status = station.status();
     if (path == "/metrics")
-        co_return answer_as(request, metrics_content_type, metrics_text(status));
-    if (!no_tcp.empty()) status.notes.push_back(no_tcp);
-    if (path == "/v1/status") co_return answer(request, http::status::ok, to_json(status));
+        co_return answer_as(request, metrics_content_type, metrics_text(station.status()));
+    if (path == "/v1/status") co_return answer(request, http::status::ok, to_json(shown_status()));
     if (path == "/v1/instruments")
-        co_return answer(request, http::status::ok, to_json(status)["instruments"]);
+        co_return answer(request, http::status::ok, to_json(shown_status())["instruments"]);
     if (path == "/v1/preflight") {
         ArmRequest as_configured;
         const auto checks = co_await station.preflight(std::move(as_configured));
@@ -218,15 +214,35 @@ Task<Response> HttpServer::Impl::respond(Request request, Door door, int descrip
     co_return answer_in_words(
         request, http::status::not_found,
         "known are GET /v1/status, GET /v1/instruments, GET "
-        "/v1/preflight, GET /v1/alignment, GET /v1/stream, GET /metrics, POST /v1/run, POST "
-        "/v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST /v1/run/retake, POST "
+        "/v1/preflight, GET /v1/alignment, GET /v1/stream, GET /v1/events, GET /metrics, POST "
+        "/v1/run, POST /v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST "
+        "/v1/run/retake, POST "
         "/v1/run/exclude, POST /v1/run/answer, POST /v1/preflight, POST /v1/alignment, POST "
         "/v1/drift");
 }
 
+/// The answer counts only where the caller gets no place.
+Response HttpServer::Impl::seat_for_events(const Request& request, Caller& caller) {
+    const auto asked = events_asked_of({request.target().data(), request.target().size()},
+                                       last_event_id_of(request));
+    if (!asked) return answer(request, asked.error());
+    auto seat = events->take_seat(*asked);
+    if (!seat)
+        return answer_in_words(request, http::status::service_unavailable, seat.error().detail);
+    caller.events.emplace(*std::move(seat));
+    return {};
+}
+
+StationStatus HttpServer::Impl::shown_status() const {
+    StationStatus status = station.status();
+    if (!no_tcp.empty()) status.notes.push_back(no_tcp);
+    return status;
+}
+
 Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descriptor) {
-    const std::string target = path_of(request);
-    if (target == "/v1/run") co_return co_await arm(std::move(request), std::move(by), descriptor);
+    const std::string target = asked_path(request);
+    if (target == "/v1/run")
+        co_return co_await arm_by_request(station, std::move(request), std::move(by), descriptor);
     if (target == "/v1/preflight") {
         auto wanted = arm_request_from_json(request.body());
         if (!wanted) co_return answer(request, wanted.error());
@@ -236,9 +252,9 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
         co_return answer(request, http::status::ok, {{"checks", to_json(*checks)}});
     }
     if (target == "/v1/run/retake" || target == "/v1/run/exclude")
-        co_return co_await revise(std::move(request), std::move(by));
+        co_return co_await revise_by_request(station, std::move(request), std::move(by));
     if (target == "/v1/run/answer")
-        co_return co_await answer_finding(std::move(request), std::move(by));
+        co_return co_await answer_by_request(station, std::move(request), std::move(by));
     if (target == "/v1/run/trigger") {
         const auto done = station.trigger();
         if (!done) co_return answer(request, done.error());
@@ -285,50 +301,6 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
         "/v1/alignment, /v1/drift");
 }
 
-Task<Response> HttpServer::Impl::arm(Request request, Orderer by, int descriptor) {
-    auto wanted = arm_request_from_json(request.body());
-    if (!wanted) co_return answer(request, wanted.error());
-    ArmRequest order = *std::move(wanted);
-    by.name = order.by.name;
-    order.by = std::move(by);
-    order.has_gone = [descriptor] { return has_hung_up(descriptor); };
-    ArmRequest asked = order;
-    const auto run = co_await station.arm(std::move(asked));
-    if (!run && run.error().field == "preflight") {
-        const auto checks = co_await station.preflight(std::move(order));
-        co_return answer_with_checks(request, run.error(), checks);
-    }
-    if (!run) co_return answer(request, run.error());
-    co_return answer(request, http::status::created, {{"run", *run}});
-}
-
-Task<Response> HttpServer::Impl::revise(Request request, Orderer by) {
-    auto wanted = revision_request_from_json(request.body());
-    if (!wanted) co_return answer(request, wanted.error());
-    RevisionRequest order = *std::move(wanted);
-    by.name = order.by.name;
-    order.by = std::move(by);
-    if (path_of(request) == "/v1/run/retake") {
-        const auto retake = co_await station.retake(std::move(order));
-        if (!retake) co_return answer(request, retake.error());
-        co_return answer(request, http::status::ok, to_json(*retake));
-    }
-    const auto excluded = co_await station.exclude(std::move(order));
-    if (!excluded) co_return answer(request, excluded.error());
-    co_return answer(request, http::status::ok, {{"excluded", *excluded}});
-}
-
-Task<Response> HttpServer::Impl::answer_finding(Request request, Orderer by) {
-    auto wanted = answer_request_from_json(request.body());
-    if (!wanted) co_return answer(request, wanted.error());
-    AnswerRequest order = *std::move(wanted);
-    by.name = order.by.name;
-    order.by = std::move(by);
-    const auto kept = co_await station.answer_finding(std::move(order));
-    if (!kept) co_return answer(request, kept.error());
-    co_return answer(request, http::status::ok, {{"answer", "kept"}});
-}
-
 HttpServer::HttpServer(Scheduler& scheduler,
                        StationInterface& station,
                        ConsoleConfig config,
@@ -337,6 +309,7 @@ HttpServer::HttpServer(Scheduler& scheduler,
 
 HttpServer::~HttpServer() {
     impl_->ended = true;
+    impl_->events->end();
     boost::system::error_code ignored;
     impl_->tcp.close(ignored);
     impl_->local.close(ignored);
@@ -383,6 +356,10 @@ Task<void> HttpServer::Impl::open_tcp_later() {
     no_tcp.clear();
     spdlog::info("The console listens on {}:{} now.", config.host, config.port);
     serve_tcp();
+}
+
+void HttpServer::end_events() {
+    impl_->events->end();
 }
 
 int HttpServer::port() const {

@@ -29,6 +29,9 @@ public:
     /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and
     /// tried again each second. @errors those of bind(); Fault::bad_configuration for the host.
     Result<void> start();
+    /// Hangs up on who listens to GET /v1/events, and takes nobody more: the daemon is about to
+    /// end.
+    void end_events();
     /// The bound TCP port; 0: none. A configured -1 (tests) lets the kernel choose.
     [[nodiscard]] int port() const;
 

@@ -158,6 +158,13 @@ struct StreamView {
     std::vector<MinMax> stretches; ///< bare readings, m
 };
 
+/// The points of the run that is shown, in the order they became durable.
+struct PointsView {
+    std::string run_id;    ///< empty: none is shown, or it has no points, as a circular test
+    std::size_t count = 0; ///< of all; never falls while this daemon shows this run
+    std::vector<AcceptedPoint> points; ///< as many of them as were asked for
+};
+
 /// The beam while it is aligned, or how it was left.
 struct AlignmentView {
     bool running = false;
@@ -214,6 +221,8 @@ public:
     virtual Task<Result<std::string>> drift(DriftRequest request) = 0;
     /// At most `most` stretches; none before the first circular test since the start.
     [[nodiscard]] virtual std::optional<StreamView> stream(std::size_t most) const = 0;
+    /// Without the first `from` points; none before the first run since the start.
+    [[nodiscard]] virtual PointsView points(std::size_t /*from*/) const { return {}; }
     [[nodiscard]] virtual AlignmentView alignment() const = 0;
     /// begin: watch the beam from now on; a watch that is going on starts anew. keep: it ends, and
     /// what it showed stands in the run files from now on. drop: it ends, the last one kept holds.

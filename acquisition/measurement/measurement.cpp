@@ -48,6 +48,10 @@ std::optional<StreamView> Measurement::stream(std::size_t /*most*/) const {
     return std::nullopt;
 }
 
+PointsView Measurement::points(std::size_t /*from*/) const {
+    return {};
+}
+
 void Measurement::put_on_axis(AxisView& /*axis*/, Length /*reading*/) const {}
 
 void Measurement::put_on_port(PortStatus& /*status*/) const {}

@@ -104,6 +104,8 @@ public:
     [[nodiscard]] virtual std::optional<Length> place_now() const { return std::nullopt; }
     /// At most `most` stretches; none of a test that records no stream.
     [[nodiscard]] virtual std::optional<StreamView> stream(std::size_t most) const;
+    /// Without the first `from`; none of a test that takes no points.
+    [[nodiscard]] virtual PointsView points(std::size_t from) const;
     virtual void put_on_status(StationStatus& shown) const = 0;
     /// @param axis  with all that needs no test. @param reading  of what measures it, now
     virtual void put_on_axis(AxisView& axis, Length reading) const;

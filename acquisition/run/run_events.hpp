@@ -112,6 +112,14 @@ using RunInput = std::variant<Arm,
                               RevisionLost,
                               Tick>;
 
+/// A point that is on disk, as it is shown.
+struct AcceptedPoint {
+    int step = 0;               ///< of one that was taken again: behind the plan's
+    std::uint16_t sequence = 0; ///< of the request
+    PlannedPoint planned;
+    Length deviation; ///< as shown at the machine; never used by the analysis
+};
+
 // --- actions, to be carried out in order
 // ----------------------------------------------------------
 

@@ -14,6 +14,10 @@ namespace {
 // ever because of it.
 constexpr Duration answer_grace = capture_answer_grace;
 
+AcceptedPoint as_accepted(const PointRecord& point) {
+    return {point.step, point.sequence, point.planned, point.live_deviation};
+}
+
 int count_of(const std::vector<bool>& flags) {
     return static_cast<int>(std::count(flags.begin(), flags.end(), true));
 }
@@ -46,12 +50,14 @@ RunMachine::RunMachine(RunSetup setup,
     const Readings& superseded = setup_.revisions.superseded;
     for (const Readings* readings : {&superseded, &open_run.points})
         for (const auto& point : *readings) {
+            accepted_.push_back(as_accepted(point));
             if (const auto step = static_cast<std::size_t>(point.step); step < done_.size())
                 done_[step] = true;
             if (const auto of = static_cast<std::size_t>(point.planned.step);
                 of < last_reading_.size())
                 last_reading_[of] = point.step;
         }
+    std::ranges::sort(accepted_, {}, &AcceptedPoint::step);
     for (const auto& event : open_run.events)
         if (const auto step = skipped_step(event);
             step && static_cast<std::size_t>(*step) < skipped_.size())
@@ -154,6 +160,7 @@ void RunMachine::settle_commit(const Pending& settled, RunActions& out) {
     case Purpose::point:
         done_[static_cast<std::size_t>(settled.step)] = true;
         last_reading_[static_cast<std::size_t>(settled.point.planned.step)] = settled.step;
+        accepted_.push_back(as_accepted(settled.point));
         approach_since_ = settled.point.window_end;
         approach_unseen_ = false;
         return set_state(PortState::captured, out);
@@ -253,6 +260,7 @@ void RunMachine::adopt(const Pending& record) {
     } else {
         done_[place] = true;
         last_reading_[static_cast<std::size_t>(record.point.planned.step)] = record.step;
+        accepted_.push_back(as_accepted(record.point));
     }
     if (record.sequence == 0) return; // a person's
     last_durable_ = record.sequence;

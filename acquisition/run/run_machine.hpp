@@ -67,6 +67,8 @@ public:
 
     RunActions handle(const RunInput& input);
     [[nodiscard]] RunView view() const;
+    /// In the order they were taken; none ever goes.
+    [[nodiscard]] const std::vector<AcceptedPoint>& accepted() const { return accepted_; }
     [[nodiscard]] const ReadingRule& reading() const { return *setup_.reading; }
     /// What a step of the plan, or behind it of a retake, is planned to be.
     [[nodiscard]] PlannedPoint planned_at(int step) const;
@@ -202,6 +204,7 @@ private:
     std::optional<Close> wanted_close_; ///< waits for the outstanding commit
     std::uint64_t windows_ = 0;
     std::optional<Refuse> last_refusal_; ///< an unchanged one is not recorded again
+    std::vector<AcceptedPoint> accepted_;
     std::optional<Length> last_position_, last_deviation_;
     std::optional<Synchronisation> last_synchronisation_;
     RunCounters counters_;

@@ -83,6 +83,7 @@ public:
     Task<Result<void>> answer_finding(AnswerRequest request) override;
     Task<Result<std::string>> drift(DriftRequest request) override;
     [[nodiscard]] std::optional<StreamView> stream(std::size_t most) const override;
+    [[nodiscard]] PointsView points(std::size_t from) const override;
     [[nodiscard]] AlignmentView alignment() const override;
     Result<void> align(AlignmentOrder order) override;
 

@@ -106,6 +106,11 @@ std::optional<StreamView> Station::stream(std::size_t most) const {
     return last_run()->stream(most);
 }
 
+PointsView Station::points(std::size_t from) const {
+    if (!last_run()) return {};
+    return last_run()->points(from);
+}
+
 AlignmentView Station::alignment() const {
     return beam_.view();
 }

@@ -1,6 +1,7 @@
 // Heads of HTTP requests as anybody may send them: read by Beast, judged, answered.
 
 #include "acquisition/console/access.hpp"
+#include "acquisition/console/event_stream.hpp"
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/stream_json.hpp"
@@ -58,6 +59,17 @@ void judge_verdict(const HttpRequest& request, const RequestHead& head, const Ac
         answer_in_words(request, static_cast<http::status>(verdict.status), verdict.sentence));
 }
 
+void judge_events(const HttpRequest& request) {
+    const std::string last = last_event_id_of(request);
+    const auto asked = events_asked_of({request.target().data(), request.target().size()}, last);
+    if (!asked) return judge_answer(answer(request, asked.error()));
+    fuzz::require(asked->stream_points <= 4096, "a stream is thinned to what a screen holds");
+    if (asked->has)
+        fuzz::require(points_id_of(text_of(*asked->has)) == asked->has, "an id is read as written");
+    const std::string event = event_text("points", last, last);
+    fuzz::require(event.find("\n\n") == event.size() - 2, "one event stays one event");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -73,6 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const AccessRules rules{{"localhost", "bay3.plant.example"}, token};
     for (const Door door : {Door::tcp, Door::unix_socket})
         judge_verdict(request, head_of(request, door), rules);
+    judge_events(request);
     const auto points = stream_points_of({request.target().data(), request.target().size()});
     if (points) {
         fuzz::require(*points >= 1 && *points <= 4096,

@@ -102,6 +102,7 @@ public:
     void keep_certificate(const Result<std::string>& entry) override;
 
     [[nodiscard]] RunStatus status() const;
+    [[nodiscard]] PointsView points(std::size_t from) const override;
     /// Where it stands, while the run is open; how far from the next target, near it.
     void put_on_axis(AxisView& axis, Length reading) const override;
     void put_on_port(PortStatus& status) const override;

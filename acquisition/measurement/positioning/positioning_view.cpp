@@ -93,6 +93,14 @@ RunStatus PositioningMeasurement::status() const {
     return run;
 }
 
+PointsView PositioningMeasurement::points(std::size_t from) const {
+    const std::vector<AcceptedPoint>& all = machine_.accepted();
+    PointsView view{run_.run_id, all.size(), {}};
+    for (std::size_t nth = from; nth < all.size(); ++nth)
+        view.points.push_back(all[nth]);
+    return view;
+}
+
 std::string PositioningMeasurement::state_text(const RunView& view) const {
     if (!is_open()) return run_.complete ? "complete" : "incomplete";
     if (view.stopped) return "stopped";
