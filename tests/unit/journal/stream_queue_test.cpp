@@ -35,7 +35,9 @@ StreamChunk block_at(std::int64_t index) {
 class StalledDisk : public ::testing::Test {
 protected:
     StalledDisk() {
-        EXPECT_TRUE(finish(journal_.open(path_, testing::RandomRun{21}.header())));
+        RunRecord header = testing::RandomRun{21}.header();
+        header.kind = TestKind::circular;
+        EXPECT_TRUE(finish(journal_.open(path_, header)));
         CircularSetup setup;
         setup.plan.nominal_radius_mm = 100;
         setup.plan.feed_mm_per_s = 50;
