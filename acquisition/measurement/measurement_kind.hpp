@@ -11,7 +11,10 @@
 #include "acquisition/preflight/preflight.hpp"
 #include "acquisition/runfile/run_file.hpp"
 #include "acquisition/runfile/stored_drift.hpp"
+#include "analysis/quantity/quantity.hpp"
 #include "analysis/quantity/result.hpp"
+#include "analysis/quantity/time.hpp"
+#include "analysis/record/run_record.hpp"
 #include "analysis/record/test_kind.hpp"
 #include "config/station_config.hpp"
 #include "drivers/loop/scheduler.hpp"
@@ -27,6 +30,13 @@
 
 namespace axiscal {
 
+/// How a CNC drives a test whose targets are not those of [cycle].
+struct DrivenPlan {
+    RunPlan plan; ///< `pass` is the name of the kind
+    Speed feed;
+    Duration dwell{};
+};
+
 struct MeasurementKind {
     /// One of them goes on at most, and a CNC may wait for it at a request.
     bool driven_by_cnc = true;
@@ -34,6 +44,9 @@ struct MeasurementKind {
     /// Reads the table of the station file that only this kind has: what config_of() gives.
     /// Refusals stay in the table. Null: its set-up names no `section`.
     std::any (*read)(Settings section, const StationConfig& station) = nullptr;
+
+    /// Nothing where the station file does not have this test. Null: a kind without such a plan.
+    std::optional<DrivenPlan> (*driven)(const StationConfig& station) = nullptr;
 
     /// Of one that an earlier daemon left open. May wait until its instruments speak.
     /// @errors as Journal::reopen.

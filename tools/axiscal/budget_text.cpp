@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdio>
 #include <span>
+#include <string>
 #include <string_view>
+#include <variant>
 
 namespace axiscal {
 namespace {
@@ -150,20 +152,33 @@ std::string parameters_text(const Json& summary) {
     return text;
 }
 
+Result<Json> has_no_budget() {
+    return fail(Fault::refused, "a drift or probing test has no uncertainty budget");
+}
+
+Result<Json> stands_in_certificate(TestKind kind) {
+    return fail(Fault::refused, "the budget of a " + std::string{name_of(kind)} +
+                                    " test stands in its certificate: 'axiscal export' writes it");
+}
+
+/// One for each kind that has a paper.
+struct BudgetSummary {
+    Result<Json> operator()(const Certificate& one) const { return summary_of(one); }
+    Result<Json> operator()(const CircularCertificate& one) const { return summary_of(one); }
+    Result<Json> operator()(const DriftResult& /*one*/) const { return has_no_budget(); }
+    Result<Json> operator()(const ProbingResult& /*one*/) const { return has_no_budget(); }
+    Result<Json> operator()(const StraightnessResult& /*one*/) const {
+        return stands_in_certificate(TestKind::straightness);
+    }
+    Result<Json> operator()(const SquarenessResult& /*one*/) const {
+        return stands_in_certificate(TestKind::squareness);
+    }
+};
+
 } // namespace
 
 Result<Json> budget_summary(const TestResult& result) {
-    if (const auto* certificate = std::get_if<Certificate>(&result))
-        return summary_of(*certificate);
-    if (const auto* certificate = std::get_if<CircularCertificate>(&result))
-        return summary_of(*certificate);
-    if (std::holds_alternative<StraightnessResult>(result))
-        return fail(Fault::refused, "the budget of a straightness test stands in its certificate: "
-                                    "'axiscal export' writes it");
-    if (std::holds_alternative<SquarenessResult>(result))
-        return fail(Fault::refused, "the budget of a squareness test stands in its certificate: "
-                                    "'axiscal export' writes it");
-    return fail(Fault::refused, "a drift or probing test has no uncertainty budget");
+    return std::visit(BudgetSummary{}, result);
 }
 
 std::string budget_text(const Json& summary) {

@@ -1,8 +1,7 @@
 #include "tools/axiscal/offline_commands.hpp"
 
 #include "acquisition/documents/evaluate.hpp"
-#include "acquisition/measurement/squareness/squareness_config.hpp"
-#include "acquisition/measurement/straightness/straightness_config.hpp"
+#include "acquisition/measurement/measurement_kind.hpp"
 #include "acquisition/program/circular_program.hpp"
 #include "acquisition/program/part_program.hpp"
 #include "acquisition/run/cycle_plan.hpp"
@@ -23,7 +22,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <random>
+#include <utility>
 
 namespace axiscal {
 namespace {
@@ -63,10 +64,16 @@ int analyze_run(const std::string& path) {
     return exit_ok;
 }
 
-/// Those are driven as [straightness] says, whichever of the two the run is.
-bool is_driven_across(const RunPlan& plan) {
-    return plan.pass == name_of(TestKind::straightness) ||
-           plan.pass == name_of(TestKind::squareness);
+/// Nothing: as [cycle] says.
+std::optional<DrivenPlan> driven_plan(const StationConfig& config, TestKind kind) {
+    const MeasurementKind& row = kind_row(kind);
+    return row.driven == nullptr ? std::nullopt : row.driven(config);
+}
+
+/// Of a pass of the axis, which bears no name of a kind, nothing.
+std::optional<DrivenPlan> driven_plan(const StationConfig& config, const RunPlan& plan) {
+    const auto kind = kind_named(plan.pass);
+    return kind ? driven_plan(config, *kind) : std::nullopt;
 }
 
 ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
@@ -81,10 +88,9 @@ ProgramOrder order_of(const StationConfig& config, RunPlan plan) {
     if (config.axis.angle) order.rotary = config.axis.angle->setup;
     if (order.shape == TriggerShape::dwell)
         order.least_halt = config.trigger.minimum_halt + config.capture.window;
-    const StraightnessConfig* const across = straightness_config_of(config);
-    if (across != nullptr && is_driven_across(order.plan)) {
-        order.feed = across->feed;
-        order.dwell = across->dwell;
+    if (const auto driven = driven_plan(config, order.plan)) {
+        order.feed = driven->feed;
+        order.dwell = driven->dwell;
     }
     return order;
 }
@@ -144,13 +150,10 @@ int write_retake_program(const ProgramRequest& request, const StationConfig& con
     return exit_ok;
 }
 
-/// Beside the cycle of the axis, where the station file has these kinds of test.
-void add_plans_across(const StationConfig& config, std::vector<RunPlan>& passes) {
-    const StraightnessConfig* const across = straightness_config_of(config);
-    if (across == nullptr) return;
-    passes.push_back(across->plan);
-    if (squareness_config_of(config) != nullptr)
-        passes.push_back(plan_of_kind(*across, TestKind::squareness));
+/// Beside the cycle of the axis, of each kind of test that the station file has.
+void add_plans_of_kinds(const StationConfig& config, std::vector<RunPlan>& passes) {
+    for (const TestKind kind : all_test_kinds)
+        if (auto driven = driven_plan(config, kind)) passes.push_back(std::move(driven->plan));
 }
 
 /// Beside the linear cycle, where the station file has a circular test.
@@ -230,7 +233,7 @@ int command_program(const ProgramRequest& request, bool json) {
         if (!planned) return complain(planned.error());
         passes = *std::move(planned);
     }
-    add_plans_across(config, passes);
+    add_plans_of_kinds(config, passes);
     const auto dialect = find_dialect(request.dialect.empty() ? "linuxcnc" : request.dialect);
     if (!dialect) return std::cerr << dialect.error().detail << "\n", exit_usage;
     if (passes.empty() && dialect->name != "linuxcnc")

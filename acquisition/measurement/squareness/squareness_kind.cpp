@@ -22,10 +22,18 @@ bool can_measure_squareness(const OrderContext& context) {
     return context.roles.laser && square_tables_of(context.config);
 }
 
+/// As the straightness of this axis.
+std::optional<DrivenPlan> driven_squareness(const StationConfig& station) {
+    const StraightnessConfig* const config = straightness_config_of(station);
+    if (config == nullptr || squareness_config_of(station) == nullptr) return std::nullopt;
+    return DrivenPlan{plan_of_kind(*config, TestKind::squareness), config->feed, config->dwell};
+}
+
 } // namespace
 
 extern constinit const MeasurementKind squareness_kind{
     .read = read_squareness_section,
+    .driven = driven_squareness,
     .take_over = take_over_across,
     .take_over_closed = take_over_closed_across,
     .options = options_of_squareness,

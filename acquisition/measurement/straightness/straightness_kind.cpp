@@ -20,10 +20,17 @@ bool can_measure_straightness(const OrderContext& context) {
     return context.roles.laser && straightness_config_of(context.config) != nullptr;
 }
 
+std::optional<DrivenPlan> driven_straightness(const StationConfig& station) {
+    const StraightnessConfig* const config = straightness_config_of(station);
+    if (config == nullptr) return std::nullopt;
+    return DrivenPlan{plan_of_kind(*config, TestKind::straightness), config->feed, config->dwell};
+}
+
 } // namespace
 
 extern constinit const MeasurementKind straightness_kind{
     .read = read_straightness_section,
+    .driven = driven_straightness,
     .take_over = take_over_across,
     .take_over_closed = take_over_closed_across,
     .options = options_of_straightness,
