@@ -1,6 +1,5 @@
 #include "analysis/straightness/straightness_figures.hpp"
 
-#include "analysis/straightness/mirror_reversal.hpp"
 #include "analysis/straightness/run_straightness.hpp"
 #include "analysis/straightness/sensitivity.hpp"
 #include "analysis/straightness/straightness_budget.hpp"
@@ -167,24 +166,6 @@ TEST(StraightnessBudget, ReversalLeavesNoMirrorAndAMissingTermNoU) {
     EXPECT_TRUE(make_straightness_budget(line, in)->by_scatter);
     in.eve = -1;
     EXPECT_EQ(make_straightness_budget(line, in).error().field, "eve");
-}
-
-// Axis 4 h x (L - x) / L^2 with h = 5, mirror with h = 2, two set-ups with slopes of their own.
-TEST(MirrorReversal, PartsAxisAndMirror) {
-    const auto x = places(1000, 11);
-    const auto axis = parabola(5, 11), mirror = parabola(2, 11);
-    std::vector<double> normal, reversed;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        normal.push_back(axis[i] + mirror[i] + 0.03 * x[i] + 7);
-        reversed.push_back(axis[i] - mirror[i] - 0.01 * x[i] - 4);
-    }
-    const auto parted = part_optics(line_of(x, normal).line, line_of(x, reversed).line);
-    ASSERT_TRUE(parted);
-    EXPECT_NEAR(straightness_of(parted->axis)->least_squares.straightness, 5, 1e-10);
-    EXPECT_NEAR(straightness_of(parted->mirror)->least_squares.straightness, 2, 1e-10);
-    EXPECT_EQ(
-        part_optics(line_of(x, normal).line, line_of(places(999, 11), reversed).line).error().field,
-        "targets");
 }
 
 // Three points on a line: P = |N(0, 3/2 s^2)|, of mean s sqrt(1.5) sqrt(2/pi) and variance
