@@ -4,6 +4,7 @@
 #include "acquisition/capture/min_max_pyramid.hpp"
 #include "acquisition/live/outbox_watch.hpp"
 #include "acquisition/live/supervisor.hpp"
+#include "acquisition/live/to_do.hpp"
 #include "acquisition/run/run_events.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
@@ -100,6 +101,7 @@ struct StationStatus {
     std::optional<DriftView> drift;
     OutboxView outbox;
     std::vector<std::string> notes; ///< latest last, at most 20
+    std::vector<ToDo> to_do;        ///< things_to_do(): what stops the CNC first
 };
 
 /// What a person gives when arming; empty fields keep the station file's statements.

@@ -247,6 +247,7 @@ void Supervisor::add(const InstrumentConfig& config,
     seat->view.tape = config.tape;
     seat->view.due_on = config.due_on;
     seat->view.since = scheduler_.now();
+    seat->view.since_utc_ns = scheduler_.clock_tie().utc_ns;
     const int index = static_cast<int>(seats_.size());
     for (StationChannel& channel :
          station_channels(config, *seat->instrument, index, seat->first_channel))
@@ -315,6 +316,7 @@ void Supervisor::set_state(Seat& seat, InstrumentState state) {
     }
     seat.view.state = state;
     seat.view.since = scheduler_.now();
+    seat.view.since_utc_ns = scheduler_.clock_tie().utc_ns;
     listener_.on_instrument_state(seat.view);
 }
 

@@ -44,6 +44,7 @@ struct InstrumentView {
     std::string due_on; ///< ISO date of its certificate, the last day that counts; empty: none
     InstrumentState state = InstrumentState::unavailable;
     MonotonicTime since;
+    std::int64_t since_utc_ns = 0; ///< the same by the wall clock of that moment; 0: not known
     Identity identity;
     InstrumentCounters counters;
     std::uint64_t restarts = 0;

@@ -60,6 +60,24 @@ std::vector<std::string> setup_findings_in(const nlohmann::json& answer) {
     return sentences;
 }
 
+std::string word_of(const nlohmann::json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// The rows of "to_answer"; one without its name cannot be answered.
+std::vector<OpenFinding> unanswered_in(const nlohmann::json& answer) {
+    std::vector<OpenFinding> findings;
+    const auto rows = answer.find("to_answer");
+    if (rows == answer.end() || !rows->is_array()) return findings;
+    for (const auto& row : *rows) {
+        if (!row.is_object() || word_of(row, "error").empty()) continue;
+        findings.push_back({word_of(row, "error"), word_of(row, "seen"), word_of(row, "probably"),
+                            word_of(row, "look_at")});
+    }
+    return findings;
+}
+
 } // namespace
 
 Task<Result<WrittenCertificate>> write_certificate(Scheduler& scheduler,
@@ -93,7 +111,7 @@ Task<Result<WrittenCertificate>> write_certificate(Scheduler& scheduler,
     if (!answer.is_object() || !answer.contains("entry") || !answer["entry"].is_string())
         co_return fail(Fault::io, program + " said nothing of its entry: " + line);
     WrittenCertificate written{answer["entry"].get<std::string>(), verdict_in(said),
-                               setup_findings_in(answer)};
+                               setup_findings_in(answer), unanswered_in(answer)};
     co_return written;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Starts axiscal-report, the short-lived process that draws: the daemon links no drawing library.
 
+#include "acquisition/live/to_do.hpp"
 #include "drivers/loop/scheduler.hpp"
 
 #include <chrono>
@@ -16,6 +17,7 @@ struct WrittenCertificate {
     std::string entry;
     std::string verdict; ///< "R: fail", the figure that it rests on; empty without limits
     std::vector<std::string> setup_findings; ///< a sentence each (sentence_of); usually none
+    std::vector<OpenFinding> unanswered;     ///< those of them that nobody answered
 };
 
 /// Runs `program run_file --outbox outbox` and waits for it without holding the loop; after `limit`

@@ -32,6 +32,8 @@ Task<Result<std::string>> Certificates::make(std::string run_id, std::string run
                       " 'axiscal export " + run_file + "' tries again.");
         co_return tl::unexpected<Error>(written.error());
     }
+    made_of_ = run_id;
+    unanswered_ = written->unanswered;
     notices_.note(news_of(*written));
     for (const std::string& finding : written->setup_findings)
         notices_.note(finding);

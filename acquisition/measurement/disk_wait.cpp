@@ -6,6 +6,7 @@
 #include "acquisition/measurement/latest_tests.hpp"
 #include "acquisition/measurement/recovery.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
+#include "acquisition/runfile/durable_file.hpp"
 #include "drivers/loop/spawn.hpp"
 
 #include <memory>
@@ -16,6 +17,7 @@ namespace axiscal {
 namespace {
 
 constexpr Duration try_disk_every = std::chrono::seconds{1};
+constexpr const char* not_taken_over = "What the last daemon left cannot be taken over yet: ";
 
 } // namespace
 
@@ -27,6 +29,15 @@ std::string DiskWait::text_of(const Error& error) const {
     return disk_text(error, context_.config.state_directory);
 }
 
+/// disk_text() ends with the way out, where one is known.
+DiskTrouble DiskWait::trouble_of(const std::string& sentence, const Error& error) const {
+    DiskTrouble trouble{sentence + text_of(error),
+                        way_out(error.cause, context_.config.state_directory)};
+    if (!trouble.next.empty() && trouble.seen.ends_with(" " + trouble.next))
+        trouble.seen.resize(trouble.seen.size() - trouble.next.size() - 1);
+    return trouble;
+}
+
 void DiskWait::begin() {
     if (!std::exchange(waiting_, true)) spawn(context_.scheduler, wait());
 }
@@ -34,8 +45,12 @@ void DiskWait::begin() {
 /// The next test may take the place of the one that is tried, which is held meanwhile.
 Task<void> DiskWait::wait() {
     const MonotonicTime since = context_.scheduler.now();
-    if (const auto why = context_.journal.failure())
-        context_.notices.note(std::string{fault_sentence(why->fault)} + " " + text_of(*why));
+    trouble_ = {std::string{fault_sentence(Fault::not_durable)}, ""};
+    if (const auto why = context_.journal.failure()) {
+        const std::string sentence = std::string{fault_sentence(why->fault)} + " ";
+        context_.notices.note(sentence + text_of(*why));
+        trouble_ = trouble_of(sentence, *why);
+    }
     while (!context_.stopping) {
         co_await context_.scheduler.sleep_for(try_disk_every);
         if (tests_.is_being_closed()) continue; // its own attempt to close is under way
@@ -48,8 +63,9 @@ Task<void> DiskWait::wait() {
 std::string DiskWait::begin_to_take_over(const Error& why) {
     waiting_ = true;
     std::string text = text_of(why);
+    trouble_ = trouble_of(not_taken_over, why);
     context_.notices.note(
-        "What the last daemon left cannot be taken over yet: " + text +
+        not_taken_over + text +
         " The station tries again by itself; until then the trigger port stays shut.");
     return text;
 }
@@ -65,8 +81,8 @@ Task<bool> DiskWait::until_taken_over(Recovery& recovery, std::string told) {
         const Result<void> taken = co_await recovery.take_over_stored_runs();
         if (!taken) {
             std::string why = text_of(taken.error());
-            if (why != told)
-                context_.notices.note("What the last daemon left cannot be taken over yet: " + why);
+            trouble_ = trouble_of(not_taken_over, taken.error());
+            if (why != told) context_.notices.note(not_taken_over + why);
             told = std::move(why);
             continue;
         }

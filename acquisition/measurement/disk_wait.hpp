@@ -2,6 +2,7 @@
 // The disk fails: nothing is acknowledged, and it is tried again until it takes records, as a new
 // daemon would find it.
 
+#include "acquisition/live/to_do.hpp"
 #include "acquisition/measurement/measurement.hpp"
 #include "analysis/quantity/result.hpp"
 #include "drivers/loop/scheduler.hpp"
@@ -20,6 +21,8 @@ public:
     DiskWait(const MeasurementContext& context, LatestTests& tests);
 
     [[nodiscard]] bool goes_on() const { return waiting_; }
+    /// What people were told of it; empty while the disk takes records.
+    [[nodiscard]] DiskTrouble trouble() const { return waiting_ ? trouble_ : DiskTrouble{}; }
     /// For the test before the CNC, which goes on then or is closed. Once, however often it is
     /// asked for.
     void begin();
@@ -34,10 +37,13 @@ private:
     Task<void> wait();
     /// What failed and what to do, without the fault's own sentence.
     [[nodiscard]] std::string text_of(const Error& error) const;
+    /// The same, told behind `sentence`, and the way out apart.
+    [[nodiscard]] DiskTrouble trouble_of(const std::string& sentence, const Error& error) const;
 
     MeasurementContext context_;
     LatestTests& tests_;
     bool waiting_ = false;
+    DiskTrouble trouble_; ///< while it waits
 };
 
 } // namespace axiscal

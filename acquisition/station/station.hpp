@@ -122,6 +122,7 @@ private:
     // station_view.cpp
     void publish_to_port();
     [[nodiscard]] AxisView axis_view() const;
+    [[nodiscard]] ToDoFacts to_do_facts() const;
 
     // station_time.cpp: what only time decides
     /// Ten times a second while something can change by time alone, else when somebody rings.
@@ -196,6 +197,8 @@ private:
     boost::asio::cancellation_signal end_port_;
     InstrumentState autocollimator_ = InstrumentState::unavailable; ///< as told last
     bool cnc_silent_ = false;
+    JudgedChecks judged_checks_;  ///< by the last order, or by whoever asked since
+    bool arming_refused_ = false; ///< by checks that the next preflight() judges again and tells
 };
 
 } // namespace axiscal

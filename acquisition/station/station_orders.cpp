@@ -10,15 +10,23 @@
 namespace axiscal {
 
 Task<Result<std::string>> Station::arm(ArmRequest request) {
-    return open_ordered(order_context(), std::move(request));
+    auto opened = co_await open_ordered(order_context(), std::move(request));
+    if (opened) judged_checks_ = {};
+    arming_refused_ = !opened && opened.error().field == "preflight";
+    co_return opened;
 }
 
 Task<Result<std::string>> Station::drift(DriftRequest request) {
     return open_drift(order_context(), std::move(request));
 }
 
+/// What people are told of the checks stays in the list of what to do until a test is armed, or
+/// they are judged anew.
 Task<Result<std::vector<PreflightRecord>>> Station::preflight(ArmRequest request) {
-    return preflight_of(order_context(), std::move(request));
+    const bool refused = std::exchange(arming_refused_, false);
+    auto checks = co_await preflight_of(order_context(), std::move(request));
+    if (checks) judged_checks_ = {*checks, iso8601_utc(scheduler_.clock_tie().utc_ns), refused};
+    co_return checks;
 }
 
 Result<void> Station::align(AlignmentOrder order) {

@@ -98,7 +98,17 @@ StationStatus Station::status() const {
     if (const auto& resting = tests_.resting()) resting->put_on_status(status);
     status.outbox = outbox_watch_.look(scheduler_.clock_tie());
     status.notes.assign(notices_.last().begin(), notices_.last().end());
+    status.to_do = things_to_do(status, to_do_facts());
     return status;
+}
+
+ToDoFacts Station::to_do_facts() const {
+    ToDoFacts facts;
+    facts.disk = disk_.trouble();
+    facts.judged = judged_checks_;
+    if (const auto& run = last_run())
+        facts.findings = certificates_.unanswered_of(run->run().run_id);
+    return facts;
 }
 
 std::optional<StreamView> Station::stream(std::size_t most) const {

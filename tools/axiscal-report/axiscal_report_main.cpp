@@ -3,7 +3,7 @@
 // Short-lived, started by the daemon when a run is closed (and by `axiscal export`): draws the
 // certificate and stages it; of a circular case, too. stdout: with limits a line of JSON with the
 // verdict and the figure that it rests on; then one with the paths, and what the readings say of a
-// wrong set-up as "setup", a sentence each.
+// wrong set-up as "setup", a sentence each, and as "to_answer" what of it nobody answered.
 // stderr: one sentence. Exit 0 done, 1 file or program, 2 usage, 3 the run file or the case is
 // refused or the run is incomplete.
 
@@ -56,6 +56,7 @@ std::string one_line(const nlohmann::ordered_json& object) {
 struct Said {
     std::string verdict; ///< row of the figure that it rests on; empty: no limits
     std::vector<std::string> setup_findings; ///< a sentence each
+    nlohmann::ordered_json to_answer;        ///< those that nobody answered, in parts; null: none
 };
 
 struct Staged {
@@ -77,8 +78,20 @@ std::vector<std::string> setup_findings_of(const TestResult& result) {
     return sentences;
 }
 
+nlohmann::ordered_json unanswered_of(const TestResult& result) {
+    nlohmann::ordered_json rows;
+    if (const auto* certificate = std::get_if<Certificate>(&result))
+        for (const SetupFinding& found : certificate->setup_findings)
+            if (found.answer.empty())
+                rows.push_back({{"error", name_of(found.error)},
+                                {"seen", found.seen},
+                                {"probably", found.probably},
+                                {"look_at", found.look_at}});
+    return rows;
+}
+
 Said said_of(const TestResult& result) {
-    return {verdict_line_of(result), setup_findings_of(result)};
+    return {verdict_line_of(result), setup_findings_of(result), unanswered_of(result)};
 }
 
 Result<Said> draw(const Options& options, const std::string& folder) {
@@ -164,6 +177,7 @@ std::string paths_line(const Staged& staged, const std::string& run_file, bool o
     line[of_case ? "case" : "run_file"] =
         entry + "/" + std::filesystem::path(run_file).filename().string();
     if (!staged.said.setup_findings.empty()) line["setup"] = staged.said.setup_findings;
+    if (!staged.said.to_answer.is_null()) line["to_answer"] = staged.said.to_answer;
     return one_line(line);
 }
 

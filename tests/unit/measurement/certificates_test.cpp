@@ -14,6 +14,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace axiscal::testing::certificates_test {
 namespace {
@@ -28,6 +29,8 @@ protected:
             [&answer](std::exception_ptr, Result<std::string> got) { answer = std::move(got); });
         loop.restart();
         loop.run();
+        unanswered = certificates.unanswered_of("run-1");
+        EXPECT_TRUE(certificates.unanswered_of("another run").empty());
         return *answer;
     }
     [[nodiscard]] bool told(const std::string& words) const {
@@ -35,6 +38,7 @@ protected:
             return sentence.find(words) != std::string::npos;
         });
     }
+    std::vector<OpenFinding> unanswered;
     ScratchFolder scratch;
     boost::asio::io_context loop;
     AsioScheduler scheduler{loop};
@@ -48,6 +52,15 @@ echo "{\"entry\":\"$3/run-1\",\"setup\":[\"Set-up: one.\"]}")");
     EXPECT_EQ(entry, "outbox/run-1");
     EXPECT_TRUE(told("Verdict on R: fail. Certificate written: outbox/run-1"));
     EXPECT_TRUE(told("Set-up: one."));
+}
+
+TEST_F(CertificatesOfRuns, KeepWhatNobodyAnsweredAndLeaveOutWhatHasNoName) {
+    ASSERT_TRUE(made_by(R"(echo "{\"entry\":\"$3/run-1\",\"to_answer\":[7,{\"seen\":\"x\"},\
+{\"error\":\"growth\",\"seen\":\"It grows.\",\"probably\":\"It is cold.\",\"look_at\":7}]}")"));
+    ASSERT_EQ(unanswered.size(), 1U);
+    EXPECT_EQ(unanswered[0].error, "growth");
+    EXPECT_EQ(unanswered[0].seen, "It grows.");
+    EXPECT_EQ(unanswered[0].look_at, "");
 }
 
 TEST_F(CertificatesOfRuns, ThatCannotBeMadeAreToldWithTheWayOut) {
