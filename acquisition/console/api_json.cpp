@@ -102,6 +102,17 @@ Json to_json(const DriftView& drift) {
             {"sentence", drift.sentence}};
 }
 
+Json to_json(const ToDo& entry) {
+    return {{"id", entry.id},
+            {"rank", name_of(entry.rank)},
+            {"source", name_of(entry.source)},
+            {"seen", entry.seen},
+            {"since_utc", entry.since_utc},
+            {"next", entry.next},
+            {"command", entry.command},
+            {"undo", entry.undo}};
+}
+
 Json trigger_json(const StationStatus& status) {
     const PortCounters& counters = status.trigger_counters;
     return {{"port", status.trigger},
@@ -168,11 +179,13 @@ nlohmann::ordered_json to_json(const Error& error) {
 }
 
 nlohmann::ordered_json to_json(const StationStatus& status) {
-    Json channels = Json::array(), instruments = Json::array();
+    Json channels = Json::array(), instruments = Json::array(), to_do = Json::array();
     for (const ChannelView& channel : status.channels)
         channels.push_back(to_json(channel));
     for (const InstrumentView& view : status.instruments)
         instruments.push_back(to_json(view));
+    for (const ToDo& entry : status.to_do)
+        to_do.push_back(to_json(entry));
     return {{"protocol", "axiscal/1"},
             {"station", status.station},
             {"version", status.version},
@@ -186,7 +199,8 @@ nlohmann::ordered_json to_json(const StationStatus& status) {
             {"drift", status.drift ? to_json(*status.drift) : Json(nullptr)},
             {"outbox_entries", status.outbox.waiting},
             {"outbox", to_json(status.outbox)},
-            {"notes", status.notes}};
+            {"notes", status.notes},
+            {"to_do", std::move(to_do)}};
 }
 
 } // namespace axiscal

@@ -24,7 +24,7 @@ WRITER = re.compile(r"^(?:nlohmann::ordered_)?[jJ]son (?:to|trigger)_json\(const
 KEY = re.compile(r'\{"(\w+)",\s')
 # the table of the example that each type becomes; trigger_json() and the whole are both written from StationStatus
 TABLES = {"AxisView": "axis", "ChannelView": "channels", "InstrumentView": "instruments", "RunStatus": "run",
-          "DriftView": "drift", "OutboxView": "outbox"}
+          "DriftView": "drift", "OutboxView": "outbox", "ToDo": "to_do"}
 
 
 def functions_of(source):
