@@ -1,5 +1,6 @@
 #include "tools/axiscal/daemon_commands.hpp"
 
+#include "acquisition/live/to_do.hpp"
 #include "analysis/quantity/counted.hpp"
 #include "config/json_text.hpp"
 #include "config/version.hpp"
@@ -51,9 +52,7 @@ int refused(const Reply& reply) {
     const Json body = Json::parse(reply.body, nullptr, false);
     if (body.is_object() && body.contains("checks")) {
         std::cerr << "Not armed: not every pre-flight check holds.\n"
-                  << checks_text(body["checks"])
-                  << "Mend what fails, or arm with --override NAME=\"reason\": the certificate "
-                     "prints it.\n";
+                  << checks_text(body["checks"]) << mend_or_override("NAME") << "\n";
         return exit_forbidden;
     }
     return tell_refusal(reply);

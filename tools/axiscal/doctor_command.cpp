@@ -1,7 +1,9 @@
 #include "tools/axiscal/doctor_command.hpp"
 
 #include "config/json_text.hpp"
+#include "tools/axiscal/doctor/to_do_list.hpp"
 #include "tools/axiscal/exit_code.hpp"
+#include "tools/axiscal/status_text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -60,12 +62,13 @@ std::vector<Finding> findings_of(const tl::expected<LoadedStation, std::vector<R
     return found;
 }
 
-void ask_daemon(const StationClient& client, CheckedSystem& checked) {
+void ask_daemon(const StationClient& client, CheckedSystem& checked, std::vector<ToDo>& to_do) {
     const auto reply = client.get("/v1/status");
     checked.daemon_answers = reply && reply->status < 300;
     if (!checked.daemon_answers) return;
     const Json status = Json::parse(reply->body, nullptr, false);
     if (status.is_object()) checked.daemon_version = status.value("version", "");
+    to_do = to_do_of(status);
     if (status.is_object() && status.contains("trigger"))
         checked.trigger_note = status["trigger"].value("note", "");
 }
@@ -75,11 +78,18 @@ StationWires wires_of(const std::string& file) {
     return document ? read_station_wires(*document) : StationWires{};
 }
 
+struct Examined {
+    std::vector<Finding> findings; ///< of every check
+    std::vector<ToDo> to_do;       ///< of the station alone
+};
+
 /// Every check in the order in which a technician would go about it. Those of the station need its
 /// file.
-std::vector<Finding> examine(const DoctorRequest& request) {
+Examined examine(const DoctorRequest& request) {
     const auto station = load_station(request.station_file);
-    std::vector<Finding> all = findings_of(station, request.station_file);
+    Examined examined;
+    std::vector<Finding>& all = examined.findings;
+    all = findings_of(station, request.station_file);
     const auto add = [&](std::vector<Finding> more) {
         std::ranges::move(more, std::back_inserter(all));
     };
@@ -92,7 +102,7 @@ std::vector<Finding> examine(const DoctorRequest& request) {
     const ConsoleConfig console = station ? station->config.console : ConsoleConfig{};
     const std::string socket = request.socket.empty() ? console.socket_path : request.socket;
     const StationClient client{{socket, "", ""}};
-    ask_daemon(client, checked);
+    ask_daemon(client, checked, examined.to_do);
     add(check_account(checked));
     add(check_wires(checked, request.places));
     if (station) add(check_certificates(station->config, utc_ns));
@@ -102,7 +112,21 @@ std::vector<Finding> examine(const DoctorRequest& request) {
     if (station) add(check_ports(checked));
     add(check_modules(checked, request.places));
     add(check_papers(request.places));
-    return all;
+    return examined;
+}
+
+Json to_do_json(const std::vector<ToDo>& to_do) {
+    Json list = Json::array();
+    for (const ToDo& entry : to_do)
+        list.push_back({{"id", entry.id},
+                        {"rank", name_of(entry.rank)},
+                        {"source", name_of(entry.source)},
+                        {"seen", entry.seen},
+                        {"since_utc", entry.since_utc},
+                        {"next", entry.next},
+                        {"command", entry.command},
+                        {"undo", entry.undo}});
+    return list;
 }
 
 void print(const std::vector<Finding>& findings) {
@@ -120,7 +144,9 @@ void print(const std::vector<Finding>& findings) {
 int command_doctor(const DoctorRequest& request, bool json) {
     DoctorRequest whole = request;
     if (whole.places.modules.empty()) whole.places.modules = "/lib/modules/" + running_kernel();
-    const std::vector<Finding> findings = examine(whole);
+    const Examined examined = examine(whole);
+    const std::vector<Finding>& findings = examined.findings;
+    const std::vector<ToDo> to_do = with_findings(examined.to_do, findings);
     const auto broken = std::ranges::count(findings, Health::broken, &Finding::health);
     const auto notes = std::ranges::count(findings, Health::note, &Finding::health);
     if (json) {
@@ -130,10 +156,13 @@ int command_doctor(const DoctorRequest& request, bool json) {
                             {"area", finding.area},
                             {"what", finding.what},
                             {"mend", finding.mend}});
-        std::cout << json_text(
-                         Json{{"findings", std::move(list)}, {"broken", broken}, {"notes", notes}})
+        std::cout << json_text(Json{{"findings", std::move(list)},
+                                    {"broken", broken},
+                                    {"notes", notes},
+                                    {"to_do", to_do_json(to_do)}})
                   << "\n";
     } else {
+        std::cout << to_do_text(to_do) << "\n";
         print(findings);
         std::cout << (broken == 0 ? "Nothing is broken" : std::to_string(broken) + " broken")
                   << "; " << notes << " to know\n";

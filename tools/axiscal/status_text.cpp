@@ -1,6 +1,7 @@
 #include "tools/axiscal/status_text.hpp"
 
 #include "analysis/quantity/counted.hpp"
+#include "tools/axiscal/doctor/to_do_list.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -355,7 +356,34 @@ std::string instruments_table(const Json& instruments, const Json& channels) {
     return text.empty() ? "  none configured\n" : text;
 }
 
+/// The last one where the name is of a later daemon.
+template <class Name> Name named(const std::string& word, Name last) {
+    for (int nth = 0; nth < static_cast<int>(last); ++nth)
+        if (name_of(static_cast<Name>(nth)) == word) return static_cast<Name>(nth);
+    return last;
+}
+
+ToDo to_do_from(const Json& entry) {
+    const auto text = [&entry](const char* key) { return entry.value(key, std::string{}); };
+    return {text("id"),
+            named(text("rank"), ToDoRank::note),
+            named(text("source"), ToDoSource::doctor),
+            text("seen"),
+            text("since_utc"),
+            text("next"),
+            text("command"),
+            text("undo")};
+}
+
 } // namespace
+
+std::vector<ToDo> to_do_of(const Json& status) {
+    std::vector<ToDo> list;
+    if (!status.is_object() || !status.contains("to_do")) return list;
+    for (const Json& entry : status.at("to_do"))
+        list.push_back(to_do_from(entry));
+    return list;
+}
 
 std::string_view sentence_label(const Json& run) {
     if (!run.value("fault", std::string{}).empty()) return "FAULT";
@@ -382,7 +410,8 @@ std::string status_text(const Json& status) {
     append(lines, trigger_lines(status.at("trigger")));
     lines.push_back({Rank::plain, "Channels"});
     append(lines, channel_lines(status));
-    std::string text = joined(lines) + "Instruments\n" +
+    const std::string to_do = status.contains("to_do") ? to_do_text(to_do_of(status)) : "";
+    std::string text = to_do + joined(lines) + "Instruments\n" +
                        instruments_table(status.at("instruments"), status.at("channels")) +
                        joined(outbox_lines(status.at("outbox")));
     for (const Json& note : status.at("notes"))

@@ -1,15 +1,19 @@
 #pragma once
 // The station's status as words for a terminal. Pure.
 
+#include "acquisition/live/to_do.hpp"
 #include "tools/axiscal/terminal/screen.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace axiscal {
 
-/// All of it: run, next target, reading, environment, instruments, notes.
+/// "to_do" of a status; empty of a daemon of before, which sends none.
+std::vector<ToDo> to_do_of(const nlohmann::ordered_json& status);
+/// All of it: what to do, then run, next target, reading, environment, instruments, notes.
 std::string status_text(const nlohmann::ordered_json& status);
 /// The same for a screen that must not scroll: fault, next and reading in its head, notes last.
 ScreenParts status_parts(const nlohmann::ordered_json& status);
