@@ -1,6 +1,7 @@
 // The daemon: configuration refused before any device opens; loop, doors, watchdog, orderly end.
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_server.hpp"
+#include "acquisition/console/page_files.hpp"
 #include "acquisition/measurement/certificate_writer.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/folder_owner.hpp"
@@ -218,6 +219,10 @@ int run(int argc, char** argv) {
     }
     auto port = make_trigger_port(loaded->config.trigger);
     Daemon daemon{*std::move(loaded), std::move(port), *std::move(token), *std::move(key)};
+    if (auto page = PageFiles::read(page_folder()); page)
+        daemon.console.show_page(*std::move(page));
+    else
+        spdlog::info("No page at the machine: {}.", describe(page.error()));
     return daemon.serve();
 }
 

@@ -7,6 +7,7 @@
 #include "acquisition/console/event_hub.hpp"
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_orders.hpp"
+#include "acquisition/console/http_page.hpp"
 #include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/metrics_text.hpp"
@@ -101,6 +102,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     asio::ip::tcp::acceptor tcp;
     asio::local::stream_protocol::acceptor local;
     SocketFile socket_file;
+    PageFiles page;
     bool bound = false, ended = false;
     std::array<std::size_t, 2> clients{}; ///< by door
     std::shared_ptr<EventHub> events;
@@ -192,6 +194,7 @@ Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
         co_return answer_in_words(request, http::status::method_not_allowed,
                                   "GET reads, POST changes");
     const std::string path = asked_path(request);
+    if (is_page_path(path)) co_return answer_page(request, page, path);
     if (path == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     if (path == events_path) co_return seat_for_events(request, caller);
@@ -320,6 +323,10 @@ Result<void> HttpServer::bind() {
     if (std::exchange(impl_->bound, true)) return {};
     AXISCAL_TRY(impl_->socket_file, listen(impl_->local, impl_->config));
     return {};
+}
+
+void HttpServer::show_page(PageFiles page) {
+    impl_->page = std::move(page);
 }
 
 Result<void> HttpServer::start() {

@@ -2,6 +2,7 @@
 // HTTP/JSON for people and the command line (docs/api.md). Reading is free on every door; what
 // changes state needs the Unix socket or the bearer token. Loop-bound.
 
+#include "acquisition/console/page_files.hpp"
 #include "acquisition/live/station_interface.hpp"
 #include "config/station_config.hpp"
 
@@ -24,6 +25,9 @@ public:
     /// connects waits for start(). The socket gets mode 0660 and the configured group.
     /// @errors those of listen(), naming the path.
     Result<void> bind();
+    /// What GET / and GET /page/... show (docs/page.md); until then they answer 404. Before
+    /// start().
+    void show_page(PageFiles page);
     /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
     /// clients of its own.
     /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and

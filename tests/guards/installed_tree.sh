@@ -15,6 +15,8 @@ wanted=(/usr/share/doc/axiscal/copyright /usr/share/doc/axiscal-publish/copyrigh
     /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
+while read -r file; do wanted+=("/usr/share/axiscal/page/${file#"$source"/acquisition/console/page/}")
+done < <(find "$source/acquisition/console/page" -type f ! -name package.json)
 while read -r file; do wanted+=("/usr/share/axiscal/conformance/${file#"$source"/tests/reference/conformance/}")
 done < <(find "$source/tests/reference/conformance" -name '*.json' -o -name '*.py')
 while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md' -o -name '*.schema.json')

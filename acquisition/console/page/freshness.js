@@ -1,0 +1,85 @@
+// What a value is worth now, by the station's own word and by the page's own clock. No DOM.
+
+/** Nothing heard for so long is no contact, whatever the connection says (docs/api.md, Events). */
+export const contact_limit_ms = 2000;
+/** An older reading of laser or ballbar is no reading: the station's own limit, seen here without waiting for its word. */
+export const reading_limit_s = 2;
+
+/** @typedef {"good" | "moving" | "stale" | "lost" | "none"} Mark  shape, word and colour of a value */
+
+/** Shapes that differ without colour. */
+export const shapes = Object.freeze({ good: "●", moving: "◐", stale: "▲", lost: "✕", none: "–" });
+
+const marks = Object.freeze({
+    good: "good",
+    stale: "stale",
+    signal_error: "lost",
+    beam_lost: "lost",
+    absent: "lost",
+    none: "none",
+});
+
+/**
+ * @param {string} quality  as the station says it
+ * @returns {Mark} a word that this page does not know is no good value
+ */
+export function mark_of(quality) {
+    return Object.hasOwn(marks, quality) ? marks[quality] : "lost";
+}
+
+/** @param {unknown} value @returns {value is number} */
+export function is_number(value) {
+    return typeof value === "number" && Number.isFinite(value);
+}
+
+/**
+ * @typedef {object} Heard  how the page hears the station now
+ * @property {boolean} contact  something was heard within the limit
+ * @property {number} status_age_ms  since the status that is shown came
+ */
+
+/**
+ * @param {{quality: string, age_s: number | null, value: number | null, role?: string}} channel
+ * @param {Heard} heard
+ * @returns {{mark: Mark, age_s: number | null}}
+ */
+export function judge(channel, heard) {
+    const age_s = is_number(channel.age_s) ? Math.max(0, channel.age_s) + heard.status_age_ms / 1000 : null;
+    let mark = mark_of(channel.quality);
+    if (mark === "good" && !is_number(channel.value)) mark = "lost";
+    if (mark === "good" && is_old(channel, age_s, heard)) mark = "stale";
+    return { mark, age_s };
+}
+
+/** A status that stands still while its values have an age is old, even where heartbeats come. */
+function is_old(channel, age_s, heard) {
+    if (!heard.contact || heard.status_age_ms > contact_limit_ms) return true;
+    const reads = channel.role === "axis" || channel.role === "ballbar";
+    return reads && age_s !== null && age_s > reading_limit_s;
+}
+
+/** The last good values: a stale one is shown struck through, a lost one is forgotten and never comes back. */
+export class KeptValues {
+    constructor() {
+        /** @type {Map<string, number>} */
+        this.values = new Map();
+    }
+
+    /**
+     * @param {string} key
+     * @param {unknown} value  as the station sends it now
+     * @param {Mark} mark  by the station's word
+     * @returns {number | null} what may be shown
+     */
+    take(key, value, mark) {
+        if (mark === "lost" || mark === "none") this.values.delete(key);
+        else if (is_number(value)) this.values.set(key, value);
+        else if (mark === "good" || mark === "moving") this.values.delete(key);
+        return this.values.get(key) ?? null;
+    }
+
+    /** Another station, daemon or run: nothing of the old one may stand there. */
+    clear() {
+        this.values.clear();
+    }
+}

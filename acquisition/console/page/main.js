@@ -1,0 +1,328 @@
+// The page: hears the station, and shows what it says. Everything that can be judged without a browser stands in the
+// modules beside this one.
+
+import { AcceptedPoints } from "./accepted_points.js";
+import { buttons_of, revision_of } from "./actions.js";
+import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
+import { SleeplessClock } from "./clock.js";
+import { by_id, set_attribute, set_text } from "./dom.js";
+import { EventLink } from "./event_link.js";
+import { KeptValues } from "./freshness.js";
+import { LinkState } from "./link_state.js";
+import { make_settings, paint_tasks } from "./more_screen.js";
+import { OrderBar } from "./order_bar.js";
+import { OrderSheet, answer_text } from "./order_sheet.js";
+import { lacks_rights, send_order } from "./orders.js";
+import { PlotView, TableView, point_text, still_picked } from "./plot_view.js";
+import { remember, remembered, use_theme } from "./settings.js";
+import { cells_shown, keep, next_shown, reading_shown, run_shown, state_text } from "./status_view.js";
+import { TouchGuard } from "./touch_guard.js";
+import { paint_cells, paint_next, paint_reading, paint_so_far } from "./value_view.js";
+import { Wakefulness } from "./wakefulness.js";
+import { task_line, what_to_do } from "./what_to_do.js";
+
+const tick_ms = 80; // stale values are marked within 2.1 s of their last reading
+const checks_every_ms = 60000; // and whenever somebody goes to a screen that shows what arming would meet
+
+const clock = new SleeplessClock(
+    () => performance.now(),
+    () => Date.now(),
+);
+const now = () => clock.now();
+const link = new LinkState(now());
+const wake = new Wakefulness(now());
+const guard = new TouchGuard(wake, now);
+const kept = new KeptValues();
+const accepted = new AcceptedPoints();
+
+/** What is shown; nothing of it is decided here. */
+const shown = {
+    /** @type {any} */ status: null,
+    status_at: 0,
+    heard_wall: Date.now(),
+    checks_at: -checks_every_ms,
+    screen: "now",
+    /** @type {import("./accepted_points.js").Point | null} */ picked: null,
+    revises: false, // the open sheet is about the picked point
+    refusal: "",
+    message: "",
+    version: "",
+};
+
+/** @type {Catalogue} */
+let words = new Catalogue({});
+let language = choose_language(remembered("language"), navigator.languages ?? []);
+let theme = remembered("theme") ?? "auto";
+
+// --- what the station says ---------------------------------------------------------------------
+
+/** @param {import("./event_text.js").StationEvent} event */
+function take(event) {
+    shown.heard_wall = Date.now();
+    if (event.event === "status") take_status(JSON.parse(event.data));
+    if (event.event === "points") return take_points(JSON.parse(event.data));
+    return true;
+}
+
+function take_status(status) {
+    if (shown.status !== null && shown.status.station !== status.station) kept.clear();
+    shown.version ||= status.version;
+    shown.status = status;
+    shown.status_at = now();
+    keep(status, kept);
+}
+
+function take_points(event) {
+    const run = accepted.run;
+    if (!accepted.take(event)) return false;
+    if (accepted.run !== run) forget_picked(); // the same place of another run is another point
+    shown.picked = still_picked(shown.picked, accepted);
+    const last = event.points.at(-1);
+    if (event.from > 0 && last && shown.status !== null)
+        set_text(by_id("spoken"), words.text("point_accepted", { point: point_text(last, shown.status, words) }));
+    return true;
+}
+
+function forget_picked() {
+    if (sheet.is_open() && shown.revises) sheet.close();
+    shown.picked = null;
+}
+
+const events = new EventLink({
+    link,
+    now,
+    take,
+    fetcher: (path, options) => fetch(path, options),
+    later: (call, ms) => setTimeout(call, ms),
+});
+
+/** While somebody looks and no run is open, the station judges anew what arming would meet, and puts it into its list. */
+async function ask_checks(at) {
+    const wanted = shown.screen !== "now" && shown.status !== null && !shown.status.run_open && link.has_contact(at);
+    if (!wanted || at - shown.checks_at < checks_every_ms) return;
+    shown.checks_at = at;
+    try {
+        await fetch("/v1/preflight", { cache: "no-store" });
+    } catch {
+        // The strip tells of a link that is lost.
+    }
+}
+
+// --- orders ------------------------------------------------------------------------------------
+
+const sheet = new OrderSheet(by_id("run_sheet"));
+const bar = new OrderBar(by_id("run_orders"), give);
+
+/** @param {import("./order_bar.js").Order} order */
+function give(order) {
+    const by = { name: "by", label: words.text("by"), kind: /** @type {const} */ ("text"), value: remembered("by") ?? "" };
+    const reason = { name: "reason", label: words.text("reason"), kind: /** @type {const} */ ("text") };
+    const { picked } = shown;
+    shown.revises = order === "retake" || order === "exclude";
+    if (order === "abort") return void send_at_once("/v1/run/abort", without_empty({ by: by.value }), order);
+    if (order === "trigger") return void send_at_once("/v1/run/trigger", null, order);
+    if (order === "arm") {
+        const datum = { name: "datum_mm", label: words.text("datum"), kind: /** @type {const} */ ("number") };
+        const pass = { name: "pass", label: words.text("pass"), kind: /** @type {const} */ ("text"), value: "whole" };
+        return sheet.open(words.text(order), [datum, pass, by], (values) => send("/v1/run", without_empty(values)), words);
+    }
+    if (picked === null) return;
+    /** @param {Record<string, string | number>} typed */
+    const revise = ({ reason: why, by: who }) => send(`/v1/run/${order}`, revision_of(picked, String(why), String(who)));
+    sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, [reason, by], revise, words);
+}
+
+/** A field that nobody filled in is left out: the station file's own statement holds. */
+function without_empty(values) {
+    return Object.fromEntries(Object.entries(values).filter(([, value]) => value !== ""));
+}
+
+/** A sheet may have been opened while there was contact. */
+const no_contact = () => ({ done: false, status: -1, sentence: words.text("off_no_contact"), body: null });
+
+async function send(path, body) {
+    if (!link.has_contact(now())) return no_contact();
+    if (body?.by) remember("by", String(body.by));
+    const answer = await send_order(path, body, (input, options) => fetch(input, options));
+    if (lacks_rights(answer)) shown.refusal = answer.sentence;
+    return answer;
+}
+
+async function send_at_once(path, body, order) {
+    shown.message = words.text("order_waits");
+    shown.message = answer_text(await send(path, body), words.text(order), words);
+}
+
+// --- screens -----------------------------------------------------------------------------------
+
+function pick(point) {
+    shown.picked = point;
+    by_id("run_table").hidden = true;
+}
+
+const now_plot = new PlotView(by_id("now_plot"), null);
+const run_plot = new PlotView(by_id("run_plot"), pick);
+const table = new TableView(by_id("run_table"), pick, () => (by_id("run_table").hidden = true));
+const table_button = document.createElement("button");
+table_button.type = "button";
+table_button.className = "table_button";
+table_button.addEventListener("click", (event) => {
+    event.stopPropagation(); // it lies on the plot
+    by_id("run_table").hidden = false;
+});
+by_id("run_plot").append(table_button);
+
+/** @param {string} screen */
+function go_to(screen) {
+    if (shown.screen !== screen) shown.checks_at = -checks_every_ms;
+    shown.screen = screen;
+    for (const name of ["now", "run", "more"]) by_id(`screen_${name}`).hidden = name !== screen;
+    for (const button of document.querySelectorAll("nav button"))
+        set_attribute(button, "aria-current", button.getAttribute("data-screen") === screen ? "page" : null);
+    if (screen === "more") paint_settings();
+    paint(now());
+}
+
+function paint_settings() {
+    make_settings(by_id("more_settings"), { language, theme, version: shown.version }, choose, words);
+}
+
+/** One strip: the link, else the worst of what to do. Notes are for the list alone. */
+function paint_strip(view, all_tasks) {
+    const tasks = all_tasks.filter(({ rank }) => rank !== "note");
+    const strip = by_id("strip");
+    const text = by_id("strip_text");
+    const about_link = view.strip !== "none";
+    const first = tasks[0];
+    const rank = about_link ? "link" : (first?.rank ?? "well");
+    set_attribute(strip, "data-rank", rank);
+    set_attribute(text, "role", rank === "link" || rank === "stop" ? "alert" : null);
+    set_text(by_id("strip_shape"), about_link ? "✕" : first ? "" : "●");
+    set_text(text, about_link ? link_text(view) : first ? task_line(first, words) : words.text("all_well"));
+    const more = tasks.length - (about_link ? 0 : 1);
+    set_text(by_id("strip_more"), more > 0 ? words.text("more_tasks", { count: more }) : "");
+}
+
+function link_text(view) {
+    const time = new Intl.DateTimeFormat(words.tag, { hour: "2-digit", minute: "2-digit", second: "2-digit", timeZoneName: "short" });
+    const said = words.text(`strip_${view.strip}`, { time: time.format(shown.heard_wall) });
+    return view.refusal === "" ? said : `${said} ${view.refusal}`;
+}
+
+function paint_head(status) {
+    set_text(by_id("station"), `${status.station} · ${status.axis.name}`);
+    const state = status.run === null ? words.text("run_none") : state_text(status.run.state, words);
+    set_text(by_id("head_state"), state);
+}
+
+/** @param {number} at */
+function paint(at) {
+    const view = link.view(at);
+    document.documentElement.classList.toggle("no-contact", !view.contact);
+    const { status } = shown;
+    const tasks = status === null ? [] : what_to_do(status);
+    if (status !== null || view.strip !== "none") paint_strip(view, tasks);
+    if (status === null) return;
+    paint_head(status);
+    const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
+    if (shown.screen === "more") return guard.is_pressed() ? undefined : paint_tasks(by_id("more_tasks"), tasks, status.notes, words);
+    const name = shown.screen;
+    paint_reading(by_id(`${name}_reading`), reading_shown(status, kept, heard, words), words);
+    paint_next(by_id(`${name}_next`), next_shown(status, words), words);
+    if (name === "run") paint_orders(status, view.contact);
+    else paint_now_cells(cells_shown(status, kept, heard, words));
+    if (guard.is_pressed()) return; // nothing moves under a finger
+    const extra = name === "run" ? [shown.message, shown.refusal].filter((line, nth, all) => line !== "" && all.indexOf(line) === nth) : [];
+    paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), status.run_open, extra, words);
+    (name === "run" ? run_plot : now_plot).paint(accepted, status, shown.picked, words);
+    if (name === "run" && !by_id("run_table").hidden) table.paint(accepted, status, words);
+}
+
+function paint_now_cells(cells) {
+    const place = by_id("now_cells");
+    if (!guard.is_pressed() || place.childElementCount === cells.length) paint_cells(place, cells);
+}
+
+function paint_orders(status, contact) {
+    const { picked, refusal } = shown;
+    bar.paint(buttons_of({ contact, asleep: wake.asleep, refusal, status, picked: picked !== null }), words);
+    set_text(by_id("run_picked"), picked === null ? "" : words.text("picked", { point: point_text(picked, status, words) }));
+}
+
+/** Another version stands behind the same address now. Never while somebody writes or holds. */
+function load_anew_if_replaced() {
+    if (shown.status === null || shown.status.version === shown.version) return;
+    if (!sheet.is_open() && !guard.is_pressed()) location.reload();
+}
+
+function tick() {
+    const at = now();
+    wake.tick(at);
+    events.watch();
+    bar.tick();
+    if (document.hidden) return; // nobody looks: nothing is painted
+    paint(at);
+    ask_checks(at);
+    load_anew_if_replaced();
+}
+
+// --- language, colours, keys -------------------------------------------------------------------
+
+async function load_words(name) {
+    const file = name === pseudo_language ? "en" : name;
+    for (;;) {
+        try {
+            const response = await fetch(`/page/languages/${file}.json`);
+            if (response.ok) {
+                const found = await response.json();
+                return new Catalogue(name === pseudo_language ? pseudo_table(found) : found);
+            }
+        } catch {
+            // The station is starting, or the network is: there is nothing to show without words.
+        }
+        await new Promise((resolve) => setTimeout(resolve, 1000));
+    }
+}
+
+async function use_language(name) {
+    words = await load_words(name);
+    language = name;
+    document.documentElement.lang = words.tag;
+    for (const element of document.querySelectorAll("[data-text]")) set_text(element, words.text(element.getAttribute("data-text") ?? ""));
+    set_attribute(by_id("strip"), "aria-label", words.text("what_to_do"));
+    set_text(table_button, words.text("show_table"));
+    go_to(shown.screen);
+}
+
+/** @param {"language" | "theme"} name @param {string} value */
+function choose(name, value) {
+    remember(name, value);
+    if (name === "language") return void use_language(value);
+    theme = value;
+    use_theme(theme);
+    paint_settings();
+}
+
+const keys = Object.freeze({ n: "now", r: "run", m: "more" });
+let after_g = false;
+
+document.addEventListener("keydown", (event) => {
+    if (event.target instanceof HTMLInputElement || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (after_g && Object.hasOwn(keys, event.key)) go_to(keys[event.key]);
+    after_g = event.key === "g";
+});
+for (const button of document.querySelectorAll("nav button"))
+    button.addEventListener("click", () => go_to(button.getAttribute("data-screen") ?? "now"));
+document.addEventListener("visibilitychange", () => {
+    if (document.hidden) return wake.hide();
+    tick(); // ages first: what stood there when it was hidden is old
+    events.hurry();
+});
+
+use_theme(theme);
+await use_language(language);
+by_id("begin").hidden = true;
+by_id("page").hidden = false;
+go_to("now");
+setInterval(tick, tick_ms);
+events.run();

@@ -1,0 +1,47 @@
+// Orders to the station. What it says is shown as it says it. No DOM.
+
+/**
+ * @typedef {object} Answer
+ * @property {boolean} done
+ * @property {number} status  of HTTP; 0: no answer came, and nobody knows whether the order was carried out
+ * @property {string} sentence  the station's own; empty when done
+ * @property {any} body
+ */
+
+/**
+ * @param {string} path  "/v1/run/abort"
+ * @param {object | null} body
+ * @param {typeof fetch} fetcher
+ * @returns {Promise<Answer>}
+ */
+export async function send_order(path, body, fetcher) {
+    try {
+        const response = await fetcher(path, {
+            method: "POST",
+            credentials: "same-origin",
+            cache: "no-store",
+            headers: { "Content-Type": "application/json" },
+            body: body === null ? "" : JSON.stringify(body),
+        });
+        const answer = await response.json();
+        const sentence = response.ok ? "" : (answer.error?.sentence ?? "");
+        return { done: response.ok, status: response.status, sentence, body: answer };
+    } catch {
+        return { done: false, status: 0, sentence: "", body: null };
+    }
+}
+
+/** @param {Answer} answer @returns {boolean} this browser may look only; the sentence says how it may order */
+export function lacks_rights(answer) {
+    return answer.status === 401 || answer.status === 403;
+}
+
+/**
+ * Every unsatisfied check of an arming that was refused, and the sentence.
+ * @param {Answer} answer
+ * @returns {string[]}
+ */
+export function refusal_lines(answer) {
+    const checks = (answer.body?.checks ?? []).filter(({ passed, override }) => !passed && override === "");
+    return [answer.sentence, ...checks.map(({ name, verdict }) => `${name}: ${verdict}`)];
+}

@@ -1,0 +1,139 @@
+#include "acquisition/console/page_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+namespace axiscal {
+namespace {
+
+namespace page_fs = std::filesystem;
+
+struct PageType {
+    std::string_view ending, type;
+};
+constexpr std::array page_types{PageType{".html", "text/html; charset=utf-8"},
+                                PageType{".css", "text/css; charset=utf-8"},
+                                PageType{".js", "text/javascript; charset=utf-8"},
+                                PageType{".json", "application/json; charset=utf-8"},
+                                PageType{".svg", "image/svg+xml"},
+                                PageType{".png", "image/png"},
+                                PageType{".txt", "text/plain; charset=utf-8"}};
+constexpr int deepest = 1; // folders below the page's own
+
+/// Empty: no file of a page.
+std::string_view page_type_of(std::string_view name) {
+    for (const PageType& known : page_types)
+        if (name.ends_with(known.ending)) return known.type;
+    return {};
+}
+
+bool is_page_name(std::string_view name) {
+    const auto plain = [](char letter) {
+        return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
+               letter == '_' || letter == '-' || letter == '.';
+    };
+    return !name.empty() && name.front() != '.' && std::ranges::all_of(name, plain);
+}
+
+/// FNV-1a of 64 bits: tells apart the versions of one file, and is no proof against anybody.
+std::string etag_of(std::string_view bytes) {
+    std::uint64_t mixed = 0xcbf29ce484222325U;
+    for (const char byte : bytes)
+        mixed = (mixed ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "\"%016llx\"", static_cast<unsigned long long>(mixed));
+    return text.data();
+}
+
+Result<std::string> bytes_of_page_file(const page_fs::path& path) {
+    std::ifstream in{path, std::ios::binary};
+    std::string bytes{std::istreambuf_iterator<char>{in}, {}};
+    if (!in.is_open() || in.bad())
+        return fail(Fault::io, "cannot read " + path.string(), {errno, std::generic_category()});
+    return bytes;
+}
+
+std::string asked_as(const page_fs::path& path, const page_fs::path& folder) {
+    const std::string name = path.lexically_relative(folder).generic_string();
+    return name == "index.html" ? "/" : "/page/" + name;
+}
+
+tl::unexpected<Error> too_much_page(const std::string& folder) {
+    return fail(Fault::bad_configuration,
+                folder + " holds more than a page has: 200 files, 1 MiB together");
+}
+
+/// Of the folder that is walked through; links are not followed.
+bool is_page_entry(const page_fs::directory_entry& entry) {
+    std::error_code gone;
+    const page_fs::file_status status = entry.symlink_status(gone);
+    return !gone && page_fs::is_regular_file(status) &&
+           is_page_name(entry.path().filename().string()) &&
+           !page_type_of(entry.path().filename().string()).empty();
+}
+
+} // namespace
+
+Result<PageFiles> PageFiles::read(const std::string& folder) {
+    PageFiles page;
+    std::size_t bytes = 0;
+    std::error_code error;
+    page_fs::recursive_directory_iterator entry{folder, error};
+    for (const page_fs::recursive_directory_iterator end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (entry.depth() >= deepest || !is_page_name(name)) entry.disable_recursion_pending();
+        if (!is_page_entry(*entry)) continue;
+        std::error_code unknown;
+        bytes += static_cast<std::size_t>(entry->file_size(unknown));
+        if (unknown || bytes > most_bytes || page.files_.size() >= most_files)
+            return too_much_page(folder);
+        AXISCAL_TRY(std::string text, bytes_of_page_file(entry->path()));
+        const std::string_view type = page_type_of(name);
+        std::string etag = etag_of(text);
+        page.files_.emplace(asked_as(entry->path(), folder),
+                            PageFile{std::string{type}, std::move(etag), std::move(text)});
+    }
+    if (error) return fail(Fault::io, "cannot read the folder " + folder, error);
+    if (!page.find("/")) return fail(Fault::not_found, folder + " holds no index.html");
+    return page;
+}
+
+const PageFile* PageFiles::find(std::string_view path) const {
+    const auto found = files_.find(path);
+    return found == files_.end() ? nullptr : &found->second;
+}
+
+std::string page_folder() {
+    const char* const stated = std::getenv("AXISCAL_PAGE_PATH"); // NOLINT(concurrency-mt-unsafe)
+    if (stated && *stated != '\0') return stated;
+    // Beside the program, wherever it was installed; nothing of the build is remembered.
+    std::error_code unreadable;
+    const auto program = page_fs::read_symlink("/proc/self/exe", unreadable);
+    return (program.parent_path() / "../share/axiscal/page").lexically_normal().string();
+}
+
+bool names_etag(std::string_view field, std::string_view etag) {
+    while (!field.empty()) {
+        std::string_view one = field.substr(0, field.find(','));
+        field.remove_prefix(std::min(field.size(), one.size() + 1));
+        while (one.starts_with(' ') || one.starts_with('\t'))
+            one.remove_prefix(1);
+        while (one.ends_with(' ') || one.ends_with('\t'))
+            one.remove_suffix(1);
+        if (one.starts_with("W/")) one.remove_prefix(2); // GET compares weakly
+        if (one == "*" || one == etag) return true;
+    }
+    return false;
+}
+
+} // namespace axiscal

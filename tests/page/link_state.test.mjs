@@ -1,0 +1,52 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { LinkState } from "../../acquisition/console/page/link_state.js";
+
+test("contact is lost after two seconds without a word, whatever the connection says", () => {
+    const link = new LinkState(0);
+    link.heard(100);
+    assert.equal(link.view(2100).contact, true);
+    assert.equal(link.view(2101).contact, false);
+});
+
+test("the break is quiet for three seconds before the strip", () => {
+    const link = new LinkState(0);
+    link.heard(0);
+    assert.equal(link.view(3000).strip, "none");
+    assert.equal(link.view(3001).strip, "lost");
+});
+
+test("a station that never spoke is looked for, not lost", () => {
+    const link = new LinkState(0);
+    assert.equal(link.view(2999).strip, "none");
+    assert.equal(link.view(3001).strip, "starting");
+    assert.equal(link.view(10).contact, false);
+});
+
+test("after the return the strip stays two seconds, and only where it was up", () => {
+    const link = new LinkState(0);
+    link.heard(0);
+    link.heard(2500); // quiet
+    assert.equal(link.view(2500).strip, "none");
+    link.heard(9000);
+    assert.equal(link.view(9000).contact, true);
+    assert.equal(link.view(10900).strip, "back");
+    link.heard(10900);
+    link.heard(11000);
+    assert.equal(link.view(11000).strip, "none");
+});
+
+test("tries never end, and are at most four seconds apart", () => {
+    const link = new LinkState(0);
+    assert.deepEqual([1, 2, 3, 4, 5, 6, 7].map(() => link.next_pause()), [250, 500, 1000, 2000, 4000, 4000, 4000]);
+    link.heard(1);
+    assert.equal(link.next_pause(), 250);
+});
+
+test("the station's refusal is told until it speaks", () => {
+    const link = new LinkState(0);
+    link.refused("all 32 places are taken");
+    assert.equal(link.view(4000).refusal, "all 32 places are taken");
+    link.heard(4001);
+    assert.equal(link.view(4001).refusal, "");
+});
