@@ -56,9 +56,9 @@ void reserve_zeros(const std::string& path, std::size_t bytes) {
     if (!whole && ::ftruncate(file.get(), 0) != 0) return; // the next writer meets the disk's error
 }
 
-Result<void> write_synced(const std::string& path, std::string_view content) {
-    FileHandle file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0664)};
-    if (!file) return fail_io("cannot create", path);
+namespace {
+
+Result<void> write_all(FileHandle& file, const std::string& path, std::string_view content) {
     while (!content.empty()) {
         const auto written = ::write(file.get(), content.data(), content.size());
         if (written < 0 && errno == EINTR) continue;
@@ -68,6 +68,25 @@ Result<void> write_synced(const std::string& path, std::string_view content) {
     if (::fsync(file.get()) != 0) return fail_io("cannot sync", path);
     if (!file.close()) return fail_io("cannot close", path);
     return {};
+}
+
+} // namespace
+
+Result<void> write_synced(const std::string& path, std::string_view content) {
+    FileHandle file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0664)};
+    if (!file) return fail_io("cannot create", path);
+    return write_all(file, path, content);
+}
+
+Result<void> put_synced(const std::string& path, std::string_view content, mode_t mode) {
+    const std::string unfinished = path + ".new";
+    ::unlink(unfinished.c_str());
+    FileHandle file{
+        ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode)};
+    if (!file) return fail_io("cannot create", unfinished);
+    AXISCAL_CHECK(write_all(file, unfinished, content));
+    if (::rename(unfinished.c_str(), path.c_str()) != 0) return fail_io("cannot rename to", path);
+    return sync_folder(folder_of(path));
 }
 
 namespace {

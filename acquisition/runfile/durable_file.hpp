@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <sys/types.h>
 #include <system_error>
 
 namespace axiscal {
@@ -48,6 +49,9 @@ Result<void> write_synced(const std::string& path, std::string_view content);
 /// content, or the one before; on failure nothing is left of the new one. A link stays a link. What
 /// is no plain file (a terminal, /dev/stdout) is written to.
 Result<void> replace_synced(const std::string& path, std::string_view content);
+/// The same for a file that few may read: it has `mode` from the first moment, whatever was there
+/// had, and a link of its name is replaced, not followed.
+Result<void> put_synced(const std::string& path, std::string_view content, mode_t mode);
 /// May files grow in this folder? Writes and syncs as much as a run file needs to be gone on with,
 /// and removes it.
 Result<void> try_folder(const std::string& folder);

@@ -84,24 +84,6 @@ Result<std::optional<KeyFile>> read_key_file(const std::string& path) {
     return std::optional{KeyFile{text.substr(head.size(), marks), SecretKey{*seed}}};
 }
 
-/// The name appears only with the whole content, readable by its owner alone (or by all).
-Result<void> put_file(const std::string& path, const std::string& content, mode_t mode) {
-    const std::string unfinished = path + ".new";
-    ::unlink(unfinished.c_str());
-    {
-        FileHandle file{
-            ::open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode)};
-        if (!file) return fail_io("cannot create", unfinished);
-        const auto written = ::write(file.get(), content.data(), content.size());
-        if (written < 0) return fail_io("cannot write", unfinished);
-        if (static_cast<std::size_t>(written) != content.size())
-            return fail_io("cannot write", unfinished, ENOSPC);
-        if (::fsync(file.get()) != 0 || !file.close()) return fail_io("cannot sync", unfinished);
-    }
-    if (::rename(unfinished.c_str(), path.c_str()) != 0) return fail_io("cannot rename to", path);
-    return sync_folder(folder_of(path));
-}
-
 /// Behind those that are there: runs of an earlier key still verify by it.
 Result<void> keep_public_key(const std::string& path, const PublicKey& key) {
     std::ifstream file{path, std::ios::binary};
@@ -109,7 +91,7 @@ Result<void> keep_public_key(const std::string& path, const PublicKey& key) {
     const std::string pem = to_pem(key);
     if (text.find(pem) != std::string::npos) return {};
     constexpr mode_t for_everybody = 0644;
-    return put_file(path, text + pem, for_everybody);
+    return put_synced(path, text + pem, for_everybody);
 }
 
 Result<SecretKey> make_key(const std::string& path, const std::string& machine_id) {
@@ -121,10 +103,10 @@ Result<SecretKey> make_key(const std::string& path, const std::string& machine_i
     AXISCAL_CHECK(
         keep_public_key(folder_of(path) + "/" + std::string{public_keys_file}, key.public_key()));
     constexpr mode_t for_its_owner = 0600;
-    AXISCAL_CHECK(put_file(path,
-                           std::string{first_line} + "\nmachine " + machine_mark(machine_id) +
-                               "\nseed " + hex_text(seed) + "\n",
-                           for_its_owner));
+    AXISCAL_CHECK(put_synced(path,
+                             std::string{first_line} + "\nmachine " + machine_mark(machine_id) +
+                                 "\nseed " + hex_text(seed) + "\n",
+                             for_its_owner));
     return key;
 }
 
