@@ -78,11 +78,12 @@ struct Daemon {
            std::string token,
            StationKey key)
         : station{scheduler, links, parts_of(std::move(loaded), std::move(port), std::move(key))}
-        , console{scheduler, station, console_config, std::move(token)} {}
+        , console{scheduler, station, console_config, std::move(token), paired_file} {}
 
     StationParts parts_of(LoadedStation loaded, std::unique_ptr<TriggerPort> port, StationKey key) {
         StationParts parts;
         console_config = loaded.config.console;
+        paired_file = loaded.config.state_directory + "/paired-browsers";
         parts.config_hash = sha256_hex(loaded.config.text);
         parts.config = std::move(loaded.config);
         parts.roles = std::move(loaded.roles);
@@ -152,6 +153,7 @@ struct Daemon {
     AsioScheduler scheduler{loop};
     RealLinkOpener links{scheduler};
     ConsoleConfig console_config;
+    std::string paired_file;
     Station station;
     HttpServer console;
     int code = exit_ok;

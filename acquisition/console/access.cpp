@@ -5,16 +5,6 @@
 namespace axiscal {
 namespace {
 
-/// Takes as long for a wrong first letter as for a wrong last one.
-bool same_secret(std::string_view given, std::string_view wanted) {
-    unsigned difference = given.size() == wanted.size() ? 0U : 1U;
-    for (std::size_t i = 0; i < given.size(); ++i)
-        difference |= static_cast<unsigned>(
-            static_cast<unsigned char>(given[i]) ^
-            static_cast<unsigned char>(wanted[i % std::max<std::size_t>(wanted.size(), 1)]));
-    return difference == 0 && !wanted.empty();
-}
-
 /// Small letters, whatever the locale.
 std::string in_small(std::string_view text) {
     std::string small{text};
@@ -27,23 +17,24 @@ std::string in_small(std::string_view text) {
 /// ends a full name ("bay3.shop.example.:8470").
 std::string comparable(std::string_view host) {
     std::string name = in_small(host);
-    const std::size_t port = name.find(':', name.find(']') == std::string::npos ? 0 : name.find(']'));
+    const std::size_t port =
+        name.find(':', name.find(']') == std::string::npos ? 0 : name.find(']'));
     const std::size_t end = std::min(port, name.size());
     if (end > 0 && name[end - 1] == '.') name.erase(end - 1, 1);
     return name;
 }
 
-bool is_known(std::string_view host, const AccessRules& rules) {
+bool is_one_of(std::string_view host, const std::vector<std::string>& hosts) {
     const std::string asked = comparable(host);
     const auto same = [&](const std::string& known) { return comparable(known) == asked; };
-    return std::ranges::any_of(rules.known_hosts, same);
+    return std::ranges::any_of(hosts, same);
 }
 
-bool own_origin(const std::string& origin, const AccessRules& rules) {
+bool is_origin_of(const std::string& origin, const std::vector<std::string>& hosts) {
     const std::string small = in_small(origin);
     for (const std::string_view scheme : {"http://", "https://"})
         if (small.starts_with(scheme))
-            return is_known(std::string_view{small}.substr(scheme.size()), rules);
+            return is_one_of(std::string_view{small}.substr(scheme.size()), hosts);
     return false;
 }
 
@@ -57,30 +48,90 @@ std::string_view bearer_of(std::string_view authorization) {
     return authorization;
 }
 
+/// Browsers send Origin with each POST and DELETE; what sends a cookie without one is no page of
+/// the station.
+AccessVerdict judge_page(const RequestHead& head, const AccessRules& rules) {
+    if (is_origin_of(head.origin, rules.page_hosts)) return {200, {}, !head.page.empty()};
+    return {403, head.origin.empty()
+                     ? "A page of the station orders with an Origin header, and there is none; "
+                       "programs use the token in the state directory"
+                     : "Origin '" + head.origin +
+                           "' is not where the station's pages come from; open them by the "
+                           "address that 'axiscal pair' prints"};
+}
+
+std::string in_brackets(const std::string& host) {
+    return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
+/// Without brackets' own colons.
+bool has_port(const std::string& host) {
+    return host.find(':', host.find(']') == std::string::npos ? 0 : host.find(']')) !=
+           std::string::npos;
+}
+
 } // namespace
 
+bool same_secret(std::string_view given, std::string_view wanted) {
+    unsigned difference = given.size() == wanted.size() ? 0U : 1U;
+    for (std::size_t i = 0; i < given.size(); ++i)
+        difference |= static_cast<unsigned>(
+            static_cast<unsigned char>(given[i]) ^
+            static_cast<unsigned char>(wanted[i % std::max<std::size_t>(wanted.size(), 1)]));
+    return difference == 0 && !wanted.empty();
+}
+
 AccessVerdict judge_access(const RequestHead& head, const AccessRules& rules) {
-    if (head.door == Door::tcp && !is_known(head.host, rules))
+    if (head.door == Door::tcp && !is_one_of(head.host, rules.known_hosts))
         return {421, "Host '" + head.host +
                          "' is not a name of this station; add it to console.allowed_hosts"};
-    if (!head.origin.empty() && !own_origin(head.origin, rules))
+    if (!head.origin.empty() && !is_origin_of(head.origin, rules.known_hosts))
         return {403, "Origin '" + head.origin +
                          "' is foreign; pages of other sites may not talk to the station"};
+    if (head.matter == Matter::pairing && head.door == Door::tcp)
+        return {403,
+                "Browsers are paired at the station itself: axiscal pair, over the Unix socket "
+                "(group axiscal)"};
+    if (head.matter == Matter::opening_session) return judge_page(head, rules);
     if (!head.changes_state || head.door == Door::unix_socket) return {};
     if (same_secret(bearer_of(head.authorization), rules.token)) return {};
-    return {401, "Over TCP everybody only reads. Use the Unix socket (group axiscal) or the token "
-                 "in the state directory"};
+    if (!head.page.empty()) return judge_page(head, rules);
+    return {401,
+            "Over TCP everybody only reads. A browser orders once it is paired ('axiscal pair' "
+            "at the station shows the code), a program by the Unix socket (group axiscal) or "
+            "the token in the state directory"};
 }
 
 std::vector<std::string>
 known_hosts_of(const std::string& host, int port, const std::vector<std::string>& allowed) {
     std::vector<std::string> names{"localhost", "127.0.0.1", "[::1]"};
-    names.push_back(host.find(':') == std::string::npos ? host : "[" + host + "]");
+    names.push_back(in_brackets(host));
     names.insert(names.end(), allowed.begin(), allowed.end());
     const std::size_t bare = names.size();
     for (std::size_t i = 0; i < bare; ++i)
         names.push_back(names[i] + ":" + std::to_string(port));
     return names;
+}
+
+std::vector<std::string>
+page_hosts_of(const std::string& host, int port, const std::vector<std::string>& allowed) {
+    constexpr int usual = 80; // browsers leave it out
+    std::vector<std::string> names = known_hosts_of(host, port, allowed);
+    const auto foreign = [&](const std::string& name) {
+        return port != usual && !has_port(name) &&
+               std::ranges::find(allowed, name) == allowed.end();
+    };
+    std::erase_if(names, foreign);
+    return names;
+}
+
+std::string
+page_address(const std::string& host, int port, const std::vector<std::string>& allowed) {
+    const bool every_address = host == "0.0.0.0" || host == "::";
+    const std::string named = allowed.empty() ? "localhost" : allowed.front();
+    const std::string name = every_address ? named : in_brackets(host);
+    if (has_port(name) || port == 80) return "http://" + name + "/";
+    return "http://" + name + ":" + std::to_string(port) + "/";
 }
 
 } // namespace axiscal

@@ -43,6 +43,14 @@ std::string field(const HttpRequest& request, http::field name) {
     return found == request.end() ? std::string{} : std::string{found->value()};
 }
 
+Matter matter_of(const HttpRequest& request) {
+    const std::string path = asked_path(request);
+    if (path == pair_path || path == pair_end_path) return Matter::pairing;
+    if (path == session_path && request.method() == http::verb::post)
+        return Matter::opening_session;
+    return Matter::station;
+}
+
 HttpResponse answer_of(const HttpRequest& request,
                        http::status status,
                        std::string_view type,
@@ -77,9 +85,11 @@ RequestHead head_of(const HttpRequest& request, Door door) {
     head.door = door;
     head.changes_state =
         request.method() != http::verb::get && request.method() != http::verb::head;
+    head.matter = matter_of(request);
     head.host = valid_text(field(request, http::field::host));
     head.origin = valid_text(field(request, http::field::origin));
     head.authorization = field(request, http::field::authorization); // compared, never shown
+    head.cookies = field(request, http::field::cookie);              // the same
     return head;
 }
 

@@ -24,7 +24,8 @@ std::string asked_path(const HttpRequest& request);
 /// As it came; empty where there is none.
 std::string last_event_id_of(const HttpRequest& request);
 
-/// What access is judged by. A client's bytes enter here: host and origin become valid text.
+/// What access is judged by. A client's bytes enter here: host and origin become valid text. Which
+/// browser the cookies prove is not known here.
 RequestHead head_of(const HttpRequest& request, Door door);
 
 HttpResponse answer(const HttpRequest& request,

@@ -8,12 +8,14 @@
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_orders.hpp"
 #include "acquisition/console/http_page.hpp"
+#include "acquisition/console/http_pairing.hpp"
 #include "acquisition/console/http_reading.hpp"
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/metrics_text.hpp"
 #include "acquisition/console/metrics_writer.hpp"
 #include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
+#include "analysis/quantity/valid_text.hpp"
 #include "drivers/loop/spawn.hpp"
 #include "drivers/turned_away.hpp"
 
@@ -73,12 +75,17 @@ struct Caller {
 } // namespace
 
 struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
-    Impl(Scheduler& on, StationInterface& of, ConsoleConfig with, std::string secret)
+    Impl(Scheduler& on,
+         StationInterface& of,
+         ConsoleConfig with,
+         std::string secret,
+         std::string paired_file)
         : scheduler{on}
         , station{of}
         , config{std::move(with)}
         , tcp{on.executor()}
-        , local{on.executor()} {
+        , local{on.executor()}
+        , pairing{on, std::move(paired_file)} {
         rules.token = std::move(secret);
         events = std::make_shared<EventHub>(on, of, [this] { return shown_status(); });
     }
@@ -93,7 +100,11 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     Task<Response> respond(Request request, Caller& caller);
     Response seat_for_events(const Request& request, Caller& caller);
     [[nodiscard]] StationStatus shown_status() const;
+    Orderer orderer_of(const RequestHead& head, const AccessVerdict& verdict, const Caller& caller);
+    Task<Response> order(Request request, RequestHead head, AccessVerdict verdict, Caller& caller);
     Task<Response> change(Request request, Orderer by, int descriptor);
+    Task<Response> remove(Request request);
+    [[nodiscard]] std::string why_no_page() const;
 
     Scheduler& scheduler;
     StationInterface& station;
@@ -101,6 +112,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     AccessRules rules;
     asio::ip::tcp::acceptor tcp;
     asio::local::stream_protocol::acceptor local;
+    PairingDoor pairing;
     SocketFile socket_file;
     PageFiles page;
     bool bound = false, ended = false;
@@ -180,21 +192,22 @@ Task<Response> HttpServer::Impl::respond_or_tell(Request request, Caller& caller
 }
 
 Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
-    const AccessVerdict verdict = judge_access(head_of(request, caller.door), rules);
+    RequestHead head = head_of(request, caller.door);
+    if (head.changes_state) head.page = pairing.name_of(head.cookies);
+    AccessVerdict verdict = judge_access(head, rules);
     if (verdict.status != 200)
         co_return answer_in_words(request, static_cast<http::status>(verdict.status),
                                   verdict.sentence);
-    if (request.method() == http::verb::post) {
-        Orderer by;
-        by.door = "token";
-        if (caller.door == Door::unix_socket) by = peer_of_socket(caller.descriptor);
-        co_return co_await change(std::move(request), std::move(by), caller.descriptor);
-    }
+    if (request.method() == http::verb::post)
+        co_return co_await order(std::move(request), std::move(head), std::move(verdict), caller);
+    if (request.method() == http::verb::delete_) co_return co_await remove(std::move(request));
     if (request.method() != http::verb::get)
         co_return answer_in_words(request, http::status::method_not_allowed,
                                   "GET reads, POST changes");
     const std::string path = asked_path(request);
     if (is_page_path(path)) co_return answer_page(request, page, path);
+    if (path == session_path) co_return pairing.show_session(request);
+    if (path == pair_path) co_return pairing.list(request);
     if (path == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     if (path == events_path) co_return seat_for_events(request, caller);
@@ -221,7 +234,7 @@ Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
         "/v1/run, POST /v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST "
         "/v1/run/retake, POST "
         "/v1/run/exclude, POST /v1/run/answer, POST /v1/preflight, POST /v1/alignment, POST "
-        "/v1/drift");
+        "/v1/drift, GET, POST and DELETE /v1/session, GET and POST /v1/pair, POST /v1/pair/end");
 }
 
 /// The answer counts only where the caller gets no place.
@@ -242,8 +255,53 @@ StationStatus HttpServer::Impl::shown_status() const {
     return status;
 }
 
+/// Who orders, as the door knows him.
+Orderer HttpServer::Impl::orderer_of(const RequestHead& head,
+                                     const AccessVerdict& verdict,
+                                     const Caller& caller) {
+    if (caller.door == Door::unix_socket) return peer_of_socket(caller.descriptor);
+    Orderer by;
+    by.door = verdict.by_page ? "page" : "token";
+    if (verdict.by_page) by.user = head.page;
+    return by;
+}
+
+/// What is ordered from a page stands in the log with its name, whatever came of it; a run file
+/// keeps the orders that decide about its run.
+Task<Response>
+HttpServer::Impl::order(Request request, RequestHead head, AccessVerdict verdict, Caller& caller) {
+    Orderer by = orderer_of(head, verdict, caller);
+    if (!verdict.by_page || head.matter != Matter::station)
+        co_return co_await change(std::move(request), std::move(by), caller.descriptor);
+    pairing.note_order(head.cookies);
+    const std::string told = name_of(by) + ": POST " + valid_text(asked_path(request));
+    Response response = co_await change(std::move(request), std::move(by), caller.descriptor);
+    spdlog::info("{}, answered by {}", told, response.result_int());
+    co_return response;
+}
+
+Task<Response> HttpServer::Impl::remove(Request request) {
+    const std::string target = asked_path(request);
+    if (target == session_path) co_return co_await pairing.close_session(std::move(request), false);
+    co_return answer_in_words(
+        request, http::status::method_not_allowed,
+        "GET reads, POST changes, DELETE ends the session of a browser alone");
+}
+
+/// Why a browser that is paired now would find no page; empty: nothing is known.
+std::string HttpServer::Impl::why_no_page() const {
+    if (!no_tcp.empty()) return no_tcp;
+    if (tcp.is_open()) return {};
+    return "No browser gets in: the door for them is shut by port = 0 in [console] of the station "
+           "file.";
+}
+
 Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descriptor) {
     const std::string target = asked_path(request);
+    if (target == pair_path) co_return pairing.offer(request, config, why_no_page());
+    if (target == pair_end_path) co_return co_await pairing.end(std::move(request));
+    if (target == session_path)
+        co_return co_await pairing.open_session(std::move(request), false); // TLS: true
     if (target == "/v1/run")
         co_return co_await arm_by_request(station, std::move(request), std::move(by), descriptor);
     if (target == "/v1/preflight") {
@@ -301,18 +359,21 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
         request, http::status::not_found,
         "known are POST /v1/run, /v1/run/trigger, /v1/run/reading, /v1/run/abort, "
         "/v1/run/retake, /v1/run/exclude, /v1/run/answer, /v1/preflight, "
-        "/v1/alignment, /v1/drift");
+        "/v1/alignment, /v1/drift, /v1/session, /v1/pair, /v1/pair/end");
 }
 
 HttpServer::HttpServer(Scheduler& scheduler,
                        StationInterface& station,
                        ConsoleConfig config,
-                       std::string token)
-    : impl_{std::make_shared<Impl>(scheduler, station, std::move(config), std::move(token))} {}
+                       std::string token,
+                       std::string paired_file)
+    : impl_{std::make_shared<Impl>(
+          scheduler, station, std::move(config), std::move(token), std::move(paired_file))} {}
 
 HttpServer::~HttpServer() {
     impl_->ended = true;
     impl_->events->end();
+    impl_->pairing.stop();
     boost::system::error_code ignored;
     impl_->tcp.close(ignored);
     impl_->local.close(ignored);
@@ -347,6 +408,7 @@ Result<void> HttpServer::start() {
 
 void HttpServer::Impl::serve_tcp() {
     rules.known_hosts = known_hosts_of(config.host, config.port, config.allowed_hosts);
+    rules.page_hosts = page_hosts_of(config.host, config.port, config.allowed_hosts);
     if (tcp.is_open()) spawn(scheduler, accept(tcp, Door::tcp));
 }
 

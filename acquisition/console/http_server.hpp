@@ -1,6 +1,6 @@
 #pragma once
 // HTTP/JSON for people and the command line (docs/api.md). Reading is free on every door; what
-// changes state needs the Unix socket or the bearer token. Loop-bound.
+// changes state needs the Unix socket, the bearer token or a paired browser. Loop-bound.
 
 #include "acquisition/console/page_files.hpp"
 #include "acquisition/live/station_interface.hpp"
@@ -13,10 +13,12 @@ namespace axiscal {
 
 class HttpServer {
 public:
+    /// @param paired_file  keeps who is paired (docs/pairing.md); empty: nothing does
     HttpServer(Scheduler& scheduler,
                StationInterface& station,
                ConsoleConfig config,
-               std::string token);
+               std::string token,
+               std::string paired_file = {});
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
     HttpServer& operator=(const HttpServer&) = delete;

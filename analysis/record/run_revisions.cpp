@@ -7,6 +7,8 @@ std::string name_of(const Orderer& by) {
     if (by.uid) {
         if (!by.user.empty()) door = "user " + by.user + ", ";
         door += "uid " + std::to_string(*by.uid);
+    } else if (!by.user.empty() && by.user != by.door) {
+        door += " " + by.user;
     }
     if (by.name.empty()) return door.empty() ? "not known" : door;
     return door.empty() ? by.name : by.name + " (" + door + ")";

@@ -52,9 +52,10 @@ struct AnswerRecord {
 
 /// Who asked for something: what the door of the daemon knows of him, and the name that he gave.
 struct Orderer {
-    std::string door;                ///< "socket", "token"; empty: not known
+    std::string door;                ///< "socket", "token", "page"; empty: not known
     std::optional<std::int64_t> uid; ///< of the process at the other end of the socket
-    std::string user;                ///< its name on this computer, where it has one there
+    std::string user;                ///< its name on this computer, where it has one there; of a
+                                     ///< page what its browser was called when it was paired
     std::string name;                ///< as given; nobody proves it
 };
 
@@ -67,7 +68,8 @@ struct OrderRecord {
     Orderer by;
 };
 
-/// "Jo Miller (user jo, uid 1000)", "user jo, uid 1000", "Jo Miller (token)", "not known".
+/// "Jo Miller (user jo, uid 1000)", "user jo, uid 1000", "Jo Miller (token)", "page tablet 2", "not
+/// known".
 std::string name_of(const Orderer& by);
 
 struct RunRevisions {

@@ -3,7 +3,10 @@
 #include "acquisition/console/alignment_json.hpp"
 #include "acquisition/console/api_json.hpp"
 #include "acquisition/console/drift_json.hpp"
+#include "acquisition/console/pairing_json.hpp"
 #include "tests/fuzz/judge.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -43,6 +46,21 @@ void judge_answer(const std::string& body) {
                       "an answer says to what, and what");
 }
 
+void judge_pairing(const std::string& body) {
+    const auto name = pair_request_from_json(body);
+    told(name);
+    if (name) fuzz::require(name->size() <= 80, "a page's name fits into a line");
+    const auto code = session_request_from_json(body);
+    told(code);
+    if (code)
+        fuzz::require(code->size() == 8 &&
+                          code->find_first_not_of("0123456789") == std::string::npos,
+                      "a code is eight digits");
+    const auto end = end_request_from_json(body);
+    told(end);
+    if (end && end->name) fuzz::require(!end->name->empty(), "who is ended is named");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -59,5 +77,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     judge_answer(body);
     judge_drift(body);
     judge_revision(body);
+    judge_pairing(body);
     return 0;
 }

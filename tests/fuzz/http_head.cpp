@@ -4,6 +4,7 @@
 #include "acquisition/console/event_stream.hpp"
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_reading.hpp"
+#include "acquisition/console/session_cookie.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "tests/fuzz/judge.hpp"
 
@@ -32,8 +33,11 @@ void judge_answer(const HttpResponse& response) {
 
 /// As RFC 9110 compares them, 4.2.3 and 11.1: in any case, with a dot behind or without.
 bool is_of_station(std::string_view host) {
+    for (const std::string name : {"localhost:8470", "localhost.:8470"})
+        if (boost::beast::iequals(host, name)) return true;
     for (const std::string name : {"localhost", "bay3.plant.example"})
-        if (boost::beast::iequals(host, name) || boost::beast::iequals(host, name + ".")) return true;
+        if (boost::beast::iequals(host, name) || boost::beast::iequals(host, name + "."))
+            return true;
     return false;
 }
 
@@ -41,16 +45,28 @@ bool bears_token(std::string_view authorization) {
     constexpr std::string_view scheme = "Bearer ";
     if (!boost::beast::iequals(authorization.substr(0, scheme.size()), scheme)) return false;
     authorization.remove_prefix(scheme.size());
-    authorization.remove_prefix(std::min(authorization.find_first_not_of(' '), authorization.size()));
+    authorization.remove_prefix(
+        std::min(authorization.find_first_not_of(' '), authorization.size()));
     return authorization == token;
+}
+
+/// A paired browser, or one that bears a code, on a page of the station at its own port.
+bool comes_from_page(const RequestHead& head) {
+    const bool known = !head.page.empty() || head.matter == Matter::opening_session;
+    return known && (boost::beast::iequals(head.origin, "http://localhost:8470") ||
+                     boost::beast::iequals(head.origin, "https://localhost:8470") ||
+                     boost::beast::iequals(head.origin, "http://localhost.:8470") ||
+                     boost::beast::iequals(head.origin, "https://localhost.:8470"));
 }
 
 void judge_verdict(const HttpRequest& request, const RequestHead& head, const AccessRules& rules) {
     const AccessVerdict verdict = judge_access(head, rules);
     if (verdict.status == 200) {
         fuzz::require(!head.changes_state || head.door == Door::unix_socket ||
-                          bears_token(head.authorization),
-                      "over TCP only the token changes the station");
+                          bears_token(head.authorization) || comes_from_page(head),
+                      "over TCP only the token and paired pages change the station");
+        fuzz::require(head.matter != Matter::pairing || head.door == Door::unix_socket,
+                      "over TCP nobody pairs");
         fuzz::require(head.door == Door::unix_socket || is_of_station(head.host),
                       "over TCP only names of the station are answered");
         return;
@@ -82,9 +98,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(judge_beginning(bytes) == Beginning::request_line,
                   "what the parser takes is not turned away before it");
     const HttpRequest& request = parser.get();
-    const AccessRules rules{{"localhost", "bay3.plant.example"}, token};
-    for (const Door door : {Door::tcp, Door::unix_socket})
-        judge_verdict(request, head_of(request, door), rules);
+    const AccessRules rules{
+        {"localhost", "bay3.plant.example", "localhost:8470"}, token, {"localhost:8470"}};
+    for (const Door door : {Door::tcp, Door::unix_socket}) {
+        RequestHead head = head_of(request, door);
+        judge_verdict(request, head, rules);
+        if (!token_in_cookies(head.cookies).empty()) head.page = "tablet 2"; // as if it were paired
+        judge_verdict(request, head, rules);
+    }
     judge_events(request);
     const auto points = stream_points_of({request.target().data(), request.target().size()});
     if (points) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """docs/api.md describes each call that the station answers, and each key of the status, and no other.
 
-A call is a path that http_server.cpp compares the request with: in respond() it is read with GET, elsewhere in that file
-it changes with POST. The page's calls stand first in a row of its tables; any other page may name only calls that
+A call is a path that http_server.cpp compares the request with: in respond() it is read with GET, in remove() it ends
+with DELETE, elsewhere in that file it changes with POST. The page's calls stand first in a row of its tables; any other page may name only calls that
 there are. The sentences of a 404 must list them too. Keys of the status and of the stream are those that the functions
 to_json() and trigger_json() write, compared table by table with the examples of the page.
 
@@ -18,8 +18,9 @@ FOLDER = "acquisition/console"
 CALL = r"/v1[\w/]*|/metrics\b"
 PATH = re.compile(rf'==\s*"({CALL})"')
 CONSTANT = re.compile(rf'string_view (\w+) = "({CALL})"')
-ROW = re.compile(rf"^\| `(GET|POST) ({CALL})", re.M)
-MENTION = re.compile(rf"\b(GET|POST) ({CALL})")
+METHODS = {"respond": "GET", "remove": "DELETE"}  # by function; any other: POST
+ROW = re.compile(rf"^\| `(GET|POST|DELETE) ({CALL})", re.M)
+MENTION = re.compile(rf"\b(GET|POST|DELETE) ({CALL})")
 WRITER = re.compile(r"^(?:nlohmann::ordered_)?[jJ]son (?:to|trigger)_json\(const ([\w:<>]+)& \w+\) \{\n(.*?)^\}", re.M | re.S)
 KEY = re.compile(r'\{"(\w+)",\s')
 # the table of the example that each type becomes; trigger_json() and the whole are both written from StationStatus
@@ -37,7 +38,7 @@ def calls_of(source, constants):
     """{("GET", "/v1/status"), ...} that the source answers."""
     found = set()
     for name, body in functions_of(source):
-        method = "GET" if name == "respond" else "POST"
+        method = METHODS.get(name, "POST")
         found.update((method, path) for path in PATH.findall(body))
         found.update((method, path) for word, path in constants.items() if re.search(rf"==\s*{word}\b", body))
     return found
@@ -149,6 +150,8 @@ def self_test():
         calls(face=FACE.replace('"known are POST /v1/run"', '"known are none"')) == 1,
         calls(others={"docs/a.md": "`POST /v1/run` and GET /v1/status"}) == 0,
         calls(others={"docs/a.md": "`POST /v1/status`"}) == 1,
+        calls(page=PAGE + "| `DELETE /v1/run` | d |\n") == 1,
+        calls(face=FACE + "Task<Response> HttpServer::Impl::remove(Request r) {\n    if (target == \"/v1/run\") w();\n}\n") == 1,
         calls(page=PAGE + "| `GET /metrics` | d |\n") == 1,
         calls(face=FACE.replace('"/v1/status") y();', '"/v1/status") y(); if (path == "/metrics") m();')) == 2,  # the row, and the sentence
         keys() == 0,

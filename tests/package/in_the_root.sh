@@ -34,13 +34,14 @@ echo "ok an update leaves the station file alone"
 cp /packages/fifty_points.axiscal $runs/a.axiscal
 chown axiscal: $runs/a.axiscal
 echo secret >/var/lib/axiscal/token
+echo hash >/var/lib/axiscal/paired-browsers
 apt-get -q purge -y axiscal axiscal-publish axiscal-simulate axiscal-doc >/tmp/purge 2>&1 || { cat /tmp/purge; fail "purge"; }
 cmp /packages/fifty_points.axiscal $runs/a.axiscal || fail "the run is gone"
 [ "$(stat -c %U $runs/a.axiscal)" = axiscal ] || fail "the run belongs to nobody"
 grep -q "$runs is kept" /tmp/purge || { cat /tmp/purge; fail "it is not said where the runs are"; }
 echo "ok a purge keeps the runs and says where"
 
-for gone in /etc/axiscal /var/lib/axiscal/token /var/lib/axiscal/outbox /usr/bin/axiscal /usr/share/axiscal /lib/systemd/system/axiscald.service; do
+for gone in /etc/axiscal /var/lib/axiscal/token /var/lib/axiscal/paired-browsers /var/lib/axiscal/outbox /usr/bin/axiscal /usr/share/axiscal /lib/systemd/system/axiscald.service; do
     [ ! -e $gone ] || fail "$gone is still there after a purge: $(ls -la $gone)"
 done
 echo "ok a purge leaves nothing else"

@@ -6,7 +6,9 @@ namespace axiscal::access_test {
 namespace {
 
 AccessRules rules() {
-    return {known_hosts_of("127.0.0.1", 8470, {"station7.shop.example"}), std::string(64, 'a')};
+    const std::vector<std::string> allowed{"station7.shop.example"};
+    return {known_hosts_of("127.0.0.1", 8470, allowed), std::string(64, 'a'),
+            page_hosts_of("127.0.0.1", 8470, allowed)};
 }
 
 RequestHead over_tcp(bool changes_state) {
@@ -108,6 +110,94 @@ TEST(Access, TheLettersOfATokenKeepTheirCase) {
     RequestHead head = over_tcp(true);
     head.authorization = "Bearer " + std::string(64, 'A');
     EXPECT_EQ(judge_access(head, rules()).status, 401U);
+}
+
+/// An order of a browser that is paired.
+RequestHead from_page(const std::string& origin) {
+    RequestHead head = over_tcp(true);
+    head.page = "tablet 2";
+    head.origin = origin;
+    return head;
+}
+
+TEST(Access, APairedBrowserOrdersFromAPageOfTheStation) {
+    for (const char* own : {"http://127.0.0.1:8470", "http://localhost:8470", "http://[::1]:8470",
+                            "http://station7.shop.example:8470", "https://station7.shop.example",
+                            "HTTP://LocalHost:8470"}) {
+        const AccessVerdict verdict = judge_access(from_page(own), rules());
+        EXPECT_EQ(verdict.status, 200U) << own;
+        EXPECT_TRUE(verdict.by_page);
+    }
+}
+
+TEST(Access, APairedBrowserOrdersFromNoOtherPage) {
+    for (const char* foreign :
+         {"http://evil.example", "null", "", "http://localhost", "http://127.0.0.1",
+          "http://localhost:80", "http://localhost:8471", "http://localhost:8470.evil.example",
+          "ftp://localhost:8470", "http://localhost:8470/"})
+        EXPECT_EQ(judge_access(from_page(foreign), rules()).status, 403U) << foreign;
+}
+
+TEST(Access, AtTheUsualPortOfTheWebNoPortStandsInAnOrigin) {
+    AccessRules at_80{known_hosts_of("127.0.0.1", 80, {}), std::string(64, 'a'),
+                      page_hosts_of("127.0.0.1", 80, {})};
+    RequestHead head = from_page("http://localhost");
+    head.host = "localhost";
+    EXPECT_EQ(judge_access(head, at_80).status, 200U);
+}
+
+TEST(Access, TheTokenStaysTheTokenBesideACookie) {
+    RequestHead head = from_page("");
+    head.authorization = "Bearer " + std::string(64, 'a');
+    const AccessVerdict verdict = judge_access(head, rules());
+    EXPECT_EQ(verdict.status, 200U);
+    EXPECT_FALSE(verdict.by_page);
+}
+
+TEST(Access, ACookieThatProvesNobodyIsNoCookie) {
+    RequestHead head = over_tcp(true);
+    head.origin = "http://localhost:8470";
+    head.cookies = "axiscal_session=" + std::string(43, 'A');
+    EXPECT_EQ(judge_access(head, rules()).status, 401U);
+}
+
+TEST(Access, ACodeIsBorneByAPageOfTheStationAlone) {
+    for (const Door door : {Door::tcp, Door::unix_socket}) {
+        RequestHead head = over_tcp(true);
+        head.door = door;
+        head.matter = Matter::opening_session;
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.authorization = "Bearer " + std::string(64, 'a');
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.origin = "http://localhost:8471";
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.origin = "http://localhost:8470";
+        EXPECT_EQ(judge_access(head, rules()).status, 200U);
+    }
+}
+
+TEST(Access, BrowsersArePairedAtTheUnixSocketAlone) {
+    RequestHead head = from_page("http://localhost:8470");
+    head.matter = Matter::pairing;
+    head.authorization = "Bearer " + std::string(64, 'a');
+    for (const bool changes : {false, true}) {
+        head.changes_state = changes;
+        head.door = Door::tcp;
+        EXPECT_EQ(judge_access(head, rules()).status, 403U);
+        head.door = Door::unix_socket;
+        EXPECT_EQ(judge_access(head, rules()).status, 200U);
+    }
+}
+
+TEST(Access, ABrowserIsSentWhereTheStationAnswersIt) {
+    EXPECT_EQ(page_address("127.0.0.1", 8470, {}), "http://127.0.0.1:8470/");
+    EXPECT_EQ(page_address("::1", 8470, {}), "http://[::1]:8470/");
+    EXPECT_EQ(page_address("192.168.10.5", 80, {}), "http://192.168.10.5/");
+    EXPECT_EQ(page_address("0.0.0.0", 8470, {"bay3.shop.example"}),
+              "http://bay3.shop.example:8470/");
+    EXPECT_EQ(page_address("0.0.0.0", 8470, {"bay3.shop.example:9000"}),
+              "http://bay3.shop.example:9000/");
+    EXPECT_EQ(page_address("::", 8470, {}), "http://localhost:8470/");
 }
 
 } // namespace

@@ -139,7 +139,8 @@ protected:
         config.port = -1;
         configure(config);
         station.scheduler_of_arm = &scheduler;
-        server = std::make_unique<HttpServer>(scheduler, station, config, std::string(64, 't'));
+        server = std::make_unique<HttpServer>(scheduler, station, config, std::string(64, 't'),
+                                              folder / "paired-browsers");
         const auto started = server->start();
         ASSERT_TRUE(started) << describe(started.error());
         runner = std::jthread{[this] { loop.run(); }};

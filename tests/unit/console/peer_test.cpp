@@ -28,6 +28,9 @@ TEST(Orderer, IsToldInWordsWithWhatIsKnown) {
     EXPECT_EQ(name_of(Orderer{"socket", 4711, "", "Jo"}), "Jo (uid 4711)");
     EXPECT_EQ(name_of(Orderer{"token", std::nullopt, "", "Jo"}), "Jo (token)");
     EXPECT_EQ(name_of(Orderer{"token", std::nullopt, "", ""}), "token");
+    EXPECT_EQ(name_of(Orderer{"page", std::nullopt, "tablet 2", ""}), "page tablet 2");
+    EXPECT_EQ(name_of(Orderer{"page", std::nullopt, "tablet 2", "Jo"}), "Jo (page tablet 2)");
+    EXPECT_EQ(name_of(Orderer{"page", std::nullopt, "page", ""}), "page");
     EXPECT_EQ(name_of(Orderer{}), "not known");
 }
 
