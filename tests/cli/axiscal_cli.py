@@ -32,7 +32,7 @@ COMMANDS = {"devices": ["--drivers", "--as", "--config"], "arm": ["--datum", "--
             "preflight": ["--override"], "retake": ["--target", "--direction", "--cycle", "--reason"],
             "exclude": ["--target", "--direction", "--cycle", "--reason"],
             "import": ["FILE", "--map", "--out", "--certificate"], "judge": ["CASE", "REPORT"],
-            "answer": ["FINDING", "TEXT", "--by"],
+            "answer": ["FINDING", "TEXT", "--by"], "pair": ["NAME", "--list", "--end", "--end-all", "--socket"],
             "status": ["--socket"], "watch": ["--until-published"], "trigger": ["--token-file"], "reading": ["--arcsec"],
             "abort": ["--reason"], "analyze": ["FILE"], "case": ["KIND", "--csv"], "result": ["RUN", "--config", "--tolerances", "--travel"], "budget": ["RUN", "--config"], "program": ["--dialect", "--out", "--retake"],
             "export": ["RUN", "--out", "--format"], "station": ["ACTION", "--axis", "--instrument", "--set", "--out"], "check-config": ["FILE"], "verify": ["RUN", "--certificate"],
@@ -118,7 +118,7 @@ class Help(Scratch):
                 self.assertIn(meaning, whole, f"{command} has another word than axiscal --help")
 
     def test_codes_of_a_daemon_are_told_by_those_that_ask_it(self):
-        for command in ("arm", "status", "watch", "trigger", "abort", "retake", "exclude", "answer"):
+        for command in ("arm", "status", "watch", "trigger", "abort", "retake", "exclude", "answer", "pair"):
             self.assertIn("5 axiscald does not answer", self.expect(0, command, "--help").stdout, command)
         for command in ("analyze", "program", "export", "check-config", "verify"):
             told = self.expect(0, command, "--help").stdout

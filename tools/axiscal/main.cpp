@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
     describe_on_request(app);
     add_run_commands(app, options, chosen);
     add_rest_commands(app, options, chosen);
+    add_pair_command(app, options, chosen);
     add_probing_commands(app, options, chosen);
     add_instrument_commands(app, options, chosen);
     add_tape_commands(app, options, chosen);

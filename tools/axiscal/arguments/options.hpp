@@ -9,6 +9,7 @@
 #include "tools/axiscal/drift_command.hpp"
 #include "tools/axiscal/exit_code.hpp"
 #include "tools/axiscal/offline_commands.hpp"
+#include "tools/axiscal/pair_command.hpp"
 #include "tools/axiscal/probing_command.hpp"
 #include "tools/axiscal/station_command.hpp"
 #include "tools/axiscal/tape_commands.hpp"
@@ -31,6 +32,7 @@ struct Options {
     ArmOrder arm;
     AlignOrder align;
     DriftOrder drift;
+    PairOrder pair;
     ProbingOrder probing;
     std::vector<std::string> statements, overrides, kind_options;
     RevisionOrder revision;
@@ -58,6 +60,7 @@ using Command = std::function<int()>;
 /// Each adds the commands of one subject to `app`; the one that was called is put into `chosen`.
 void add_run_commands(CLI::App& app, Options& options, Command& chosen);
 void add_rest_commands(CLI::App& app, Options& options, Command& chosen);
+void add_pair_command(CLI::App& app, Options& options, Command& chosen);
 void add_probing_commands(CLI::App& app, Options& options, Command& chosen);
 void add_instrument_commands(CLI::App& app, Options& options, Command& chosen);
 void add_tape_commands(CLI::App& app, Options& options, Command& chosen);
