@@ -12,7 +12,8 @@ import { LinkState } from "./link_state.js";
 import { make_settings, paint_tasks } from "./more_screen.js";
 import { OrderBar } from "./order_bar.js";
 import { OrderSheet, answer_text } from "./order_sheet.js";
-import { lacks_rights, send_order } from "./orders.js";
+import { delete_order, lacks_rights, send_order } from "./orders.js";
+import { ask_session, not_asked, refusal_of } from "./pairing.js";
 import { PlotView, TableView, point_text, still_picked } from "./plot_view.js";
 import { remember, remembered, use_theme } from "./settings.js";
 import { cells_shown, keep, next_shown, reading_shown, run_shown, state_text } from "./status_view.js";
@@ -44,7 +45,8 @@ const shown = {
     screen: "now",
     /** @type {import("./accepted_points.js").Point | null} */ picked: null,
     revises: false, // the open sheet is about the picked point
-    refusal: "",
+    session: not_asked(),
+    contact: false,
     message: "",
     version: "",
 };
@@ -70,6 +72,12 @@ function take_status(status) {
     shown.status = status;
     shown.status_at = now();
     keep(status, kept);
+}
+
+/** With the first word of the station, when it is back (it may have forgotten this browser), and when it refused an order. */
+async function ask_rights() {
+    shown.session = (await ask_session((path, options) => fetch(path, options))) ?? shown.session;
+    paint_settings();
 }
 
 function take_points(event) {
@@ -113,8 +121,9 @@ async function ask_checks(at) {
 const sheet = new OrderSheet(by_id("run_sheet"));
 const bar = new OrderBar(by_id("run_orders"), give);
 
-/** @param {import("./order_bar.js").Order} order */
+/** @param {import("./order_bar.js").Asked} order */
 function give(order) {
+    if (order === "pair") return pair();
     const by = { name: "by", label: words.text("by"), kind: /** @type {const} */ ("text"), value: remembered("by") ?? "" };
     const reason = { name: "reason", label: words.text("reason"), kind: /** @type {const} */ ("text") };
     const { picked } = shown;
@@ -132,6 +141,23 @@ function give(order) {
     sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, [reason, by], revise, words);
 }
 
+/** The code is shown at the station; what it answers to a wrong one stands on the sheet. */
+function pair() {
+    const code = { name: "code", label: words.text("pair_code"), kind: /** @type {const} */ ("code") };
+    shown.revises = false;
+    if (shown.screen !== "run") go_to("run"); // where the sheet lies
+    sheet.open(words.text("pair"), [code], async (values) => {
+        const answer = await send("/v1/session", values);
+        if (answer.done) await ask_rights();
+        return answer;
+    }, words);
+}
+
+async function unpair() {
+    const answer = await delete_order("/v1/session", (input, options) => fetch(input, options));
+    if (answer.done) await ask_rights();
+}
+
 /** A field that nobody filled in is left out: the station file's own statement holds. */
 function without_empty(values) {
     return Object.fromEntries(Object.entries(values).filter(([, value]) => value !== ""));
@@ -144,7 +170,7 @@ async function send(path, body) {
     if (!link.has_contact(now())) return no_contact();
     if (body?.by) remember("by", String(body.by));
     const answer = await send_order(path, body, (input, options) => fetch(input, options));
-    if (lacks_rights(answer)) shown.refusal = answer.sentence;
+    if (lacks_rights(answer) && path !== "/v1/session") await ask_rights();
     return answer;
 }
 
@@ -184,7 +210,8 @@ function go_to(screen) {
 }
 
 function paint_settings() {
-    make_settings(by_id("more_settings"), { language, theme, version: shown.version }, choose, words);
+    const { session, version } = shown;
+    make_settings(by_id("more_settings"), { language, theme, version, session }, { choose, pair, unpair }, words);
 }
 
 /** One strip: the link, else the worst of what to do. Notes are for the list alone. */
@@ -219,6 +246,8 @@ function paint_head(status) {
 function paint(at) {
     const view = link.view(at);
     document.documentElement.classList.toggle("no-contact", !view.contact);
+    if (view.contact && !shown.contact) ask_rights();
+    shown.contact = view.contact;
     const { status } = shown;
     const tasks = status === null ? [] : what_to_do(status);
     if (status !== null || view.strip !== "none") paint_strip(view, tasks);
@@ -232,7 +261,7 @@ function paint(at) {
     if (name === "run") paint_orders(status, view.contact);
     else paint_now_cells(cells_shown(status, kept, heard, words));
     if (guard.is_pressed()) return; // nothing moves under a finger
-    const extra = name === "run" ? [shown.message, shown.refusal].filter((line, nth, all) => line !== "" && all.indexOf(line) === nth) : [];
+    const extra = name === "run" ? [shown.message, refusal_of(shown.session)].filter((line, nth, all) => line !== "" && all.indexOf(line) === nth) : [];
     paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), status.run_open, extra, words);
     (name === "run" ? run_plot : now_plot).paint(accepted, status, shown.picked, words);
     if (name === "run" && !by_id("run_table").hidden) table.paint(accepted, status, words);
@@ -244,8 +273,8 @@ function paint_now_cells(cells) {
 }
 
 function paint_orders(status, contact) {
-    const { picked, refusal } = shown;
-    bar.paint(buttons_of({ contact, asleep: wake.asleep, refusal, status, picked: picked !== null }), words);
+    const { picked, session } = shown;
+    bar.paint(buttons_of({ contact, asleep: wake.asleep, refusal: refusal_of(session), status, picked: picked !== null }), words);
     set_text(by_id("run_picked"), picked === null ? "" : words.text("picked", { point: point_text(picked, status, words) }));
 }
 

@@ -35,25 +35,36 @@ function task_row(task, words) {
 
 /**
  * @param {HTMLElement} place
- * @param {{language: string, theme: string, version: string}} chosen
- * @param {(name: "language" | "theme", value: string) => void} choose
+ * @param {{language: string, theme: string, version: string, session: import("./pairing.js").Session}} chosen
+ * @param {{choose: (name: "language" | "theme", value: string) => void, pair: () => void, unpair: () => void}} does
  * @param {Catalogue} words
  */
-export function make_settings(place, chosen, choose, words) {
+export function make_settings(place, chosen, does, words) {
     const names = { en: "English", de: "Deutsch", ru: "Русский", zh: "中文", [pseudo_language]: words.text("pseudo") };
     const button = (name, value, text, lang) => {
         const made = make("button", "", [text]);
         made.type = "button";
         if (lang) made.lang = lang;
         set_attribute(made, "aria-pressed", String(chosen[name] === value));
-        made.addEventListener("click", () => choose(name, value));
+        made.addEventListener("click", () => does.choose(name, value));
         return made;
     };
     place.replaceChildren(
+        ...rights_of(chosen.session, does, words),
         make("p", "", [words.text("language")]),
         ...[...languages, pseudo_language].map((one) => button("language", one, names[one], one === "zh" ? "zh-Hans" : languages.includes(one) ? one : "")),
         make("p", "", [words.text("theme")]),
         ...themes.map((one) => button("theme", one, words.text(`theme_${one}`), "")),
         make("p", "", [words.text("version", { version: chosen.version })]),
     );
+}
+
+/** Who may order, and the one thing to do about it. @param {import("./pairing.js").Session} session */
+function rights_of(session, does, words) {
+    const paired = session.paired && session.name !== "";
+    const made = make("button", "", [words.text(paired ? "unpair" : "pair")]);
+    made.type = "button";
+    made.addEventListener("click", paired ? does.unpair : does.pair);
+    const told = paired ? words.text("paired_as", { name: session.name }) : session.how;
+    return [make("p", "", [words.text("rights")]), make("p", "rights", [told]), made];
 }

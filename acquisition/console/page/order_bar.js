@@ -6,17 +6,19 @@ import { Hold } from "./hold.js";
 /** @typedef {import("./actions.js").Button} Button */
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 /** @typedef {"arm" | "trigger" | "retake" | "exclude" | "abort"} Order */
+/** @typedef {Order | "pair"} Asked  "pair": an order was touched that this browser may not give yet */
 
 /** @type {readonly Order[]} */
 const orders = ["arm", "trigger", "retake", "exclude", "abort"];
 
 export class OrderBar {
-    /** @param {HTMLElement} place @param {(order: Order) => void} give */
+    /** @param {HTMLElement} place @param {(asked: Asked) => void} give */
     constructor(place, give) {
         this.give = give;
         this.hold = new Hold();
         /** @type {Record<string, boolean>} */
         this.on = {};
+        this.lacks_rights = false;
         /** @type {Record<string, HTMLButtonElement>} */
         this.buttons = {};
         for (const order of orders) {
@@ -26,8 +28,14 @@ export class OrderBar {
             this.buttons[order] = button;
             place.append(button);
             if (order === "abort") this.hold_to_give(button);
-            else button.addEventListener("click", () => this.on[order] && this.give(order));
+            button.addEventListener("click", () => this.clicked(order));
         }
+    }
+
+    /** @param {Order} order */
+    clicked(order) {
+        if (this.lacks_rights) this.give("pair");
+        else if (this.on[order] && order !== "abort") this.give(order);
     }
 
     /** Held by finger or by key; whatever ends the touch ends it. @param {HTMLButtonElement} button */
@@ -57,6 +65,7 @@ export class OrderBar {
 
     /** @param {Record<Order, Button>} states @param {Catalogue} words */
     paint(states, words) {
+        this.lacks_rights = orders.every((order) => states[order].reason === "off_rights");
         for (const order of orders) {
             const { on, reason, sentence } = states[order];
             const button = this.buttons[order];

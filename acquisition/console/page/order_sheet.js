@@ -5,7 +5,7 @@ import { refusal_lines } from "./orders.js";
 import { number_text, typed_number } from "./number_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
-/** @typedef {{name: string, label: string, kind: "text" | "number", value?: string}} Field */
+/** @typedef {{name: string, label: string, kind: "text" | "number" | "code", value?: string}} Field */
 
 export class OrderSheet {
     /** @param {HTMLElement} place */
@@ -80,7 +80,11 @@ function input_of(field, words) {
     input.autocomplete = "off";
     input.value = field.value ?? "";
     const label = make("label", "", [field.label, input]);
-    if (field.kind === "text") return { name: field.name, label, input, read: () => input.value.trim() };
+    if (field.kind === "code") {
+        input.inputMode = "numeric";
+        input.autocomplete = "one-time-code";
+    }
+    if (field.kind !== "number") return { name: field.name, label, input, read: () => input.value.trim() };
     input.inputMode = "decimal";
     const understood = make("span", "understood");
     label.append(understood);

@@ -15,20 +15,30 @@
  * @returns {Promise<Answer>}
  */
 export async function send_order(path, body, fetcher) {
+    return answered(() => fetcher(path, {
+        method: "POST",
+        credentials: "same-origin",
+        cache: "no-store",
+        headers: { "Content-Type": "application/json" },
+        body: body === null ? "" : JSON.stringify(body),
+    }));
+}
+
+/** @param {() => Promise<Response>} send @returns {Promise<Answer>} */
+async function answered(send) {
     try {
-        const response = await fetcher(path, {
-            method: "POST",
-            credentials: "same-origin",
-            cache: "no-store",
-            headers: { "Content-Type": "application/json" },
-            body: body === null ? "" : JSON.stringify(body),
-        });
+        const response = await send();
         const answer = await response.json();
         const sentence = response.ok ? "" : (answer.error?.sentence ?? "");
         return { done: response.ok, status: response.status, sentence, body: answer };
     } catch {
         return { done: false, status: 0, sentence: "", body: null };
     }
+}
+
+/** Ends what this browser holds at the station. @param {string} path @param {typeof fetch} fetcher @returns {Promise<Answer>} */
+export async function delete_order(path, fetcher) {
+    return answered(() => fetcher(path, { method: "DELETE", credentials: "same-origin", cache: "no-store" }));
 }
 
 /** @param {Answer} answer @returns {boolean} this browser may look only; the sentence says how it may order */

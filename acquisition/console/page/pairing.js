@@ -1,0 +1,26 @@
+// Whether this browser may order (docs/pairing.md). The station says so; the cookie itself no script can read. No DOM.
+
+/** @typedef {{paired: boolean, name: string, how: string, until_utc: string}} Session */
+
+/** @returns {Session} before the station was asked: nothing is claimed, so the orders are on and the station judges them */
+export const not_asked = () => ({ paired: true, name: "", how: "", until_utc: "" });
+
+/**
+ * @param {typeof fetch} fetcher
+ * @returns {Promise<Session | null>} null: no answer came
+ */
+export async function ask_session(fetcher) {
+    try {
+        const response = await fetcher("/v1/session", { cache: "no-store", credentials: "same-origin" });
+        if (!response.ok) return null;
+        const { paired, name = "", how = "", until_utc = "" } = await response.json();
+        return { paired: paired === true, name, how, until_utc };
+    } catch {
+        return null;
+    }
+}
+
+/** What the station's sentence is when this browser may not order; empty: it may. @param {Session} session */
+export function refusal_of(session) {
+    return session.paired ? "" : session.how;
+}
