@@ -1,6 +1,7 @@
 #include "acquisition/console/api_json.hpp"
 
 #include "acquisition/console/optional_json.hpp"
+#include "acquisition/console/so_far_json.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,7 @@ Json to_json(const ChannelView& channel) {
             {"value", or_null(channel.value)},
             {"unit", channel.unit},
             {"age_s", or_null(channel.age_s)},
+            {"stale_after_s", or_null(channel.stale_after_s)},
             {"quality", channel.quality},
             {"used", channel.used},
             {"role", channel.role},
@@ -35,7 +37,9 @@ Json to_json(const AxisView& axis) {
             {"strength_percent", or_null(axis.strength_percent)},
             {"spread_um", or_null(axis.spread_um)},
             {"slope_um_per_s", or_null(axis.slope_um_per_s)},
-            {"still", axis.still}};
+            {"still", axis.still},
+            {"age_s", or_null(axis.age_s)},
+            {"stale_after_s", or_null(axis.stale_after_s)}};
 }
 
 Json to_json(const OutboxView& outbox) {
@@ -82,6 +86,7 @@ Json to_json(const RunStatus& run) {
             {"seconds_left", or_null(run.seconds_left)},
             {"last_deviation_um", or_null(run.last_deviation_um)},
             {"last_synchronisation_um", or_null(run.last_synchronisation_um)},
+            {"so_far", run.so_far ? to_json(*run.so_far) : Json(nullptr)},
             {"fault", run.last_fault},
             {"sentence", run.last_sentence},
             {"certificate", run.certificate}};

@@ -1,6 +1,7 @@
 #include "acquisition/console/event_frames.hpp"
 
 #include "acquisition/console/api_json.hpp"
+#include "acquisition/console/so_far_json.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "config/json_text.hpp"
 
@@ -17,14 +18,23 @@ EventFrames::Frame frame_of(std::string text) {
     return std::make_shared<const std::string>(std::move(text));
 }
 
-std::string accepted_point_json(const AcceptedPoint& point) {
+std::string shown_point_json(const ShownPoint& point) {
     const Json shown = {{"step", point.step},
                         {"target", point.planned.target_index},
+                        {"nominal_mm", point.nominal.in(mm)},
                         {"direction", name_of(point.planned.direction)},
                         {"approach", point.planned.approach},
                         {"deviation_um", point.deviation.in(um)},
+                        {"excluded", point.excluded},
                         {"sequence", point.sequence}};
     return json_text(shown);
+}
+
+std::string nominals_json(const std::vector<Length>& targets) {
+    Json nominals = Json::array();
+    for (const Length target : targets)
+        nominals.push_back(target.in(mm));
+    return json_text(nominals);
 }
 
 StreamView without_stretches(const std::optional<StreamView>& stream) {
@@ -58,17 +68,25 @@ bool EventFrames::keep(std::size_t stretches, const std::optional<StreamView>& s
     return true;
 }
 
+bool EventFrames::begins_anew(const PointsView& shown) const {
+    const bool first_look = points_id_.run == 0;
+    return first_look || shown.run_id != run_ || shown.count < points_.size() ||
+           shown.excluded != excluded_;
+}
+
 bool EventFrames::keep(const PointsView& shown) {
-    const bool another = shown.run_id != run_ || shown.count < points_.size() ||
-                         points_id_.run == 0; // the first look
-    if (another) {
+    const bool anew = begins_anew(shown);
+    if (!anew && shown.count == points_.size()) return false;
+    if (anew) {
         run_ = shown.run_id;
+        excluded_ = shown.excluded;
+        nominals_ = nominals_json(shown.targets);
         points_.clear();
         ++points_id_.run;
     }
-    if (!another && shown.count == points_.size()) return false;
-    for (const AcceptedPoint& point : shown.points)
-        points_.push_back(accepted_point_json(point));
+    for (const ShownPoint& point : shown.points)
+        points_.push_back({shown_point_json(point), point.planned.target_index});
+    so_far_ = shown.so_far;
     points_id_.points = points_.size();
     points_frame_ = nullptr;
     return true;
@@ -98,10 +116,24 @@ std::string EventFrames::points_json(std::size_t from) const {
     const Json run = run_.empty() ? Json(nullptr) : Json(run_);
     std::string text = "{\"run\":" + json_text(run) +
                        ",\"count\":" + std::to_string(points_.size()) +
-                       ",\"from\":" + std::to_string(from) + ",\"points\":[";
+                       ",\"from\":" + std::to_string(from);
+    if (from == 0) text += ",\"target_nominals_mm\":" + nominals_;
+    text += ",\"points\":[";
     for (std::size_t nth = from; nth < points_.size(); ++nth)
-        text += (nth == from ? "" : ",") + points_[nth];
-    return text + "]}";
+        text += (nth == from ? "" : ",") + points_[nth].json;
+    return text + "],\"targets\":" + targets_json(from) + "}";
+}
+
+/// Only a target of which a point is sent has another mean than before.
+std::string EventFrames::targets_json(std::size_t from) const {
+    std::set<int> sent;
+    for (std::size_t nth = from; nth < points_.size(); ++nth)
+        sent.insert(points_[nth].target);
+    Json rows = Json::array();
+    if (!so_far_) return json_text(rows);
+    for (const int target : sent)
+        rows.push_back(target_json(target, so_far_->targets[static_cast<std::size_t>(target)]));
+    return json_text(rows);
 }
 
 void EventFrames::forget_streams_but(const std::set<std::size_t>& stretches) {

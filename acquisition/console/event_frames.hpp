@@ -26,12 +26,13 @@ public:
     // Each keeps what is new, and returns whether anything is.
     bool keep(const StationStatus& status);
     bool keep(std::size_t stretches, const std::optional<StreamView>& stream);
-    /// @param shown  with the points from points_known() on, unless it is of another run, or has
-    ///               fewer: then with all
+    /// @param shown  with the points from points_known() on, unless it begins_anew(): then with all
     bool keep(const PointsView& shown);
+    /// Of another run, or what was sent of this one is no longer so: fewer points, or others that
+    /// are excluded.
+    [[nodiscard]] bool begins_anew(const PointsView& shown) const;
     void beat(const std::string& utc);
 
-    [[nodiscard]] const std::string& run() const { return run_; }
     [[nodiscard]] std::size_t points_known() const { return points_.size(); }
     [[nodiscard]] const PointsId& points_id() const { return points_id_; }
 
@@ -50,12 +51,20 @@ private:
         StreamView shown; ///< without its stretches
         Frame frame;
     };
+    struct Point {
+        std::string json;
+        int target = 0;
+    };
     [[nodiscard]] std::string points_json(std::size_t from) const;
+    [[nodiscard]] std::string targets_json(std::size_t from) const;
 
     Frame status_, heartbeat_;
     std::map<std::size_t, Stream> streams_; ///< by number of stretches
     std::string run_;
-    std::vector<std::string> points_; ///< each as JSON
+    std::vector<Point> points_;
+    std::size_t excluded_ = 0;                   ///< of them
+    std::string nominals_;                       ///< of the plan's targets, as JSON
+    std::shared_ptr<const FiguresSoFar> so_far_; ///< of all of points_
     PointsId points_id_;
     std::size_t points_from_ = 0; ///< of the frame that was made last
     Frame points_frame_;

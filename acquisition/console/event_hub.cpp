@@ -166,8 +166,7 @@ void EventHub::look() {
 
 void EventHub::look_at_points() {
     PointsView shown = station_.points(frames_.points_known());
-    if (shown.run_id != frames_.run() || shown.count < frames_.points_known())
-        shown = station_.points(0);
+    if (frames_.begins_anew(shown)) shown = station_.points(0);
     if (frames_.keep(shown)) clients_.news(EventTopic::points);
 }
 

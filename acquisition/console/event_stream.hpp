@@ -18,10 +18,10 @@ inline constexpr std::string_view events_path = "/v1/events";
 inline constexpr std::string_view events_type = "text/event-stream";
 
 /// How many points of which run a client has: "18c2f0a5b1d3e000-2-17". Only equal `daemon` and
-/// `run` make two counts comparable.
+/// `run` make two counts comparable: then the points counted are the same, too.
 struct PointsId {
     std::uint64_t daemon = 0; ///< differs from start to start
-    std::uint64_t run = 0;    ///< counts the runs that this daemon has shown
+    std::uint64_t run = 0;    ///< grows with each run that is shown, and where points changed
     std::uint64_t points = 0; ///< durable points of that run, in the order they were taken
     friend bool operator==(const PointsId&, const PointsId&) = default;
 };

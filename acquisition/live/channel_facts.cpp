@@ -30,12 +30,14 @@ ChannelView ChannelFacts::view(const StationChannel& channel, MonotonicTime now)
     else if (std::ranges::find(environment, channel.id) != environment.end())
         view.role = "environment";
     view.used = !view.role.empty();
+    const bool measures =
+        channel.kind == ChannelKind::displacement || channel.kind == ChannelKind::angle;
+    const Duration oldest = measures ? laser_limit : config_.axis.air.oldest;
+    view.stale_after_s = seconds_of(oldest);
     const auto& sample = readings_.latest(channel.id);
     if (!sample) return view;
     const Duration age = now - sample->at;
-    const bool measures =
-        channel.kind == ChannelKind::displacement || channel.kind == ChannelKind::angle;
-    const bool stale = age > (measures ? laser_limit : config_.axis.air.oldest);
+    const bool stale = age > oldest;
     view.age_s = seconds_of(age);
     view.quality = stale ? "stale" : std::string{name_of(sample->quality())};
     if (!stale) view.value = sample->value();

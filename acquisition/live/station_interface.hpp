@@ -6,6 +6,7 @@
 #include "acquisition/live/supervisor.hpp"
 #include "acquisition/live/to_do.hpp"
 #include "acquisition/run/run_events.hpp"
+#include "analysis/positioning/figures_so_far.hpp"
 #include "analysis/record/circular_setup.hpp"
 #include "analysis/record/run_attachments.hpp"
 #include "analysis/record/run_record.hpp"
@@ -15,8 +16,10 @@
 #include "drivers/sample.hpp"
 #include "drivers/trigger/trigger_port.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +39,7 @@ struct ChannelView {
     std::string role;             ///< axis | ballbar | environment; empty: not used
     std::string quality = "none"; ///< good | stale | signal_error | beam_lost | absent | none
     std::string due_on = {};      ///< ISO date of its own certificate; empty: the instrument's
+    std::optional<double> stale_after_s = {}; ///< an older sample is no value; empty: none is
 };
 
 /// The axis as the laser sees it now.
@@ -48,6 +52,8 @@ struct AxisView {
     std::optional<double> strength_percent;
     std::optional<double> spread_um, slope_um_per_s; ///< over the last window
     bool still = false;
+    std::optional<double> age_s;         ///< of the last reading, good or not
+    std::optional<double> stale_after_s; ///< an older reading shows nothing of the axis
 };
 
 /// The circle that is driven, or the first one before it is begun.
@@ -74,6 +80,8 @@ struct RunStatus {
     std::optional<double> last_synchronisation_um; ///< of the last point; empty: not stated
     std::string last_fault, last_sentence;         ///< empty when all is well
     std::string certificate; ///< folder of the finished certificate, when there is one
+    /// Of a positioning run with a datum and a durable point that counts; else null.
+    std::shared_ptr<const FiguresSoFar> so_far;
 };
 
 /// The drift test that goes on, or the last one since the start.
@@ -160,11 +168,22 @@ struct StreamView {
     std::vector<MinMax> stretches; ///< bare readings, m
 };
 
+/// A durable point beside what the plan and people say of it.
+struct ShownPoint : AcceptedPoint {
+    Length nominal;        ///< of its target
+    bool excluded = false; ///< a person left it out
+};
+
 /// The points of the run that is shown, in the order they became durable.
 struct PointsView {
     std::string run_id;    ///< empty: none is shown, or it has no points, as a circular test
     std::size_t count = 0; ///< of all; never falls while this daemon shows this run
-    std::vector<AcceptedPoint> points; ///< as many of them as were asked for
+    std::vector<ShownPoint> points; ///< as many of them as were asked for
+    /// Points that are excluded, of all; never falls while this daemon shows this run. Where it
+    /// grew, earlier points have changed.
+    std::size_t excluded = 0;
+    std::vector<Length> targets = {};                ///< of the plan; only with all points (from 0)
+    std::shared_ptr<const FiguresSoFar> so_far = {}; ///< as RunStatus::so_far, of all `count`
 };
 
 /// The beam while it is aligned, or how it was left.

@@ -6,6 +6,7 @@
 #include "acquisition/run/reading_rule.hpp"
 #include "acquisition/run/run_events.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -69,6 +70,12 @@ public:
     [[nodiscard]] RunView view() const;
     /// In the order they were taken; none ever goes.
     [[nodiscard]] const std::vector<AcceptedPoint>& accepted() const { return accepted_; }
+    /// Those that figures use: of each place in the plan the last one, unless it is left out.
+    [[nodiscard]] std::vector<AcceptedPoint> counting() const;
+    /// The reading of that step is left out, and the order for it is on disk.
+    [[nodiscard]] bool leaves_out(int step) const;
+    /// Readings of which leaves_out() says so. None is ever taken in again.
+    [[nodiscard]] std::size_t left_out() const;
     [[nodiscard]] const ReadingRule& reading() const { return *setup_.reading; }
     /// What a step of the plan, or behind it of a retake, is planned to be.
     [[nodiscard]] PlannedPoint planned_at(int step) const;

@@ -49,6 +49,27 @@ bool RunMachine::is_left_out(int planned_step) const {
     return std::ranges::find(excluded_, last_reading_[place(planned_step)]) != excluded_.end();
 }
 
+bool RunMachine::leaves_out(int step) const {
+    const auto holds_step = [step](const std::vector<int>& steps) {
+        return std::ranges::find(steps, step) != steps.end();
+    };
+    return holds_step(excluded_) && !(unkept_ && holds_step(unkept_->excluded));
+}
+
+std::size_t RunMachine::left_out() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(excluded_, [this](int step) { return leaves_out(step); }));
+}
+
+std::vector<AcceptedPoint> RunMachine::counting() const {
+    std::vector<AcceptedPoint> points;
+    for (const AcceptedPoint& point : accepted_) {
+        const bool is_last = last_reading_[place(point.planned.step)] == point.step;
+        if (is_last && !leaves_out(point.step)) points.push_back(point);
+    }
+    return points;
+}
+
 bool RunMachine::awaits_retake(int planned_step) const {
     for (std::size_t k = 0; k < retaken_.size(); ++k) {
         const std::size_t step = setup_.plan.points.size() + k;

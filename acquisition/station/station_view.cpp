@@ -57,8 +57,10 @@ AxisView Station::axis_view() const {
     axis.name = config_.axis.name;
     axis.kind = config_.cycle.axis_kind;
     axis.reads_angle = reads_polygon();
+    axis.stale_after_s = seconds_of(laser_limit);
     const MonotonicTime now = scheduler_.now();
     const auto newest = readings_.reference().newest();
+    if (newest) axis.age_s = seconds_of(now - newest->at);
     if (!newest || now - newest->at > laser_limit) return axis;
     const MonotonicTime begin = newest->at - config_.capture.window;
     const StillnessVerdict verdict =

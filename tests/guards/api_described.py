@@ -26,6 +26,8 @@ KEY = re.compile(r'\{"(\w+)",\s')
 # the table of the example that each type becomes; trigger_json() and the whole are both written from StationStatus
 TABLES = {"AxisView": "axis", "ChannelView": "channels", "InstrumentView": "instruments", "RunStatus": "run",
           "DriftView": "drift", "OutboxView": "outbox", "ToDo": "to_do"}
+# the first key of the example that a type has for itself, and what it is called
+EXAMPLES = {"FiguresSoFar": ("standing", "run.so_far")}
 
 
 def functions_of(source):
@@ -97,6 +99,9 @@ def keys_complaints(writers, page):
         keys = set(KEY.findall(body))
         if kind in TABLES:
             yield from differences(TABLES[kind], keys, keys_in(status.get(TABLES[kind])))
+        elif kind in EXAMPLES:
+            first, what = EXAMPLES[kind]
+            yield from differences(what, keys, keys_in(example_of(page, first)))
         elif kind == "StationStatus" and "protocol" in keys:
             whole = keys
         elif kind == "StationStatus":
@@ -134,6 +139,13 @@ nlohmann::ordered_json to_json(const StationStatus& status) {
 '''
 
 
+SO_FAR = '''nlohmann::ordered_json to_json(const FiguresSoFar& so_far) {
+    limits.push_back({{"value_um", limit.value_um}});
+    return {{"standing", so_far.standing}, {"limits", limits}};
+}
+'''
+
+
 def self_test():
     def calls(face=FACE, page=PAGE, others=None):
         return len(list(calls_complaints(face, {"stream_path": "/v1/stream"}, page, others or {})))
@@ -158,6 +170,8 @@ def self_test():
         keys(writers=WRITERS.replace('{"still", axis.still}', '{"still", a}, {"warm", b}')) == 1,
         keys(writers=WRITERS.replace('{"still", axis.still}', '{"quiet", a}')) == 2,
         keys(page=PAGE.replace('"protocol":"x",', '"protocol":"x","notes":[…],')) == 1,
+        keys(writers=WRITERS + SO_FAR, page=PAGE + '```\n{"standing":"inside","limits":[{"value_um":1.0}]}\n```\n') == 0,
+        keys(writers=WRITERS + SO_FAR) == 3,
     ]
     for nth, right in enumerate(judged):
         if not right:
@@ -180,7 +194,7 @@ def main():
     writers = [writer for text in sources.values() for writer in WRITER.findall(text)]
     found = [*calls_complaints(sources["http_server.cpp"], constants, page, others), *keys_complaints(writers, page)]
     calls = calls_of(sources["http_server.cpp"], constants)
-    seen = set(TABLES) - {kind for kind, _ in writers}
+    seen = {*TABLES, *EXAMPLES} - {kind for kind, _ in writers}
     found += [f"no function writes {kind} any more: look at this guard" for kind in sorted(seen)]
     print("\n".join(found))
     print(f"{len(calls)} calls, {len(keys_in(example_of(page, 'protocol')))} keys of the status")

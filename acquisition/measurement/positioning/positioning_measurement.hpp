@@ -12,6 +12,7 @@
 #include "acquisition/measurement/positioning/left_positioning.hpp"
 #include "acquisition/measurement/positioning/positioning_port.hpp"
 #include "acquisition/measurement/positioning/set_up_watch.hpp"
+#include "acquisition/measurement/positioning/shown_figures.hpp"
 #include "acquisition/measurement/revisable.hpp"
 #include "acquisition/run/run_machine.hpp"
 #include "analysis/record/run_record.hpp"
@@ -250,6 +251,7 @@ private:
     /// Points that became durable under this daemon, for the time that is left.
     int taken_ = 0;
     MonotonicTime first_taken_, last_taken_;
+    mutable ShownFigures figures_; ///< remembers what it computed; a look changes nothing else
 };
 
 } // namespace axiscal

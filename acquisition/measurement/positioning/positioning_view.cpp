@@ -89,15 +89,19 @@ RunStatus PositioningMeasurement::status() const {
     run.excluded = view.excluded;
     run.skipped = view.without_point;
     run.seconds_left = seconds_left(view);
+    run.so_far = figures_.of(header_, machine_);
     tell_trouble(run, view);
     return run;
 }
 
 PointsView PositioningMeasurement::points(std::size_t from) const {
     const std::vector<AcceptedPoint>& all = machine_.accepted();
-    PointsView view{run_.run_id, all.size(), {}};
+    PointsView view{run_.run_id, all.size(), {}, machine_.left_out()};
     for (std::size_t nth = from; nth < all.size(); ++nth)
-        view.points.push_back(all[nth]);
+        view.points.push_back(
+            {all[nth], target_of(all[nth].planned), machine_.leaves_out(all[nth].step)});
+    if (from == 0) view.targets = header_.plan.targets;
+    view.so_far = figures_.of(header_, machine_);
     return view;
 }
 

@@ -214,6 +214,8 @@ TEST_F(Events, PointsComeAsTheyBecomeDurableWithAnIdThatCountsThem) {
     EXPECT_EQ(point.at("direction"), "positive");
     EXPECT_EQ(point.at("approach"), 0);
     EXPECT_EQ(point.at("sequence"), 2);
+    EXPECT_NEAR(point.at("nominal_mm").get<double>(), 100, 1e-9);
+    EXPECT_EQ(point.at("excluded"), false);
     EXPECT_NEAR(point.at("deviation_um").get<double>(), -2.5, 1e-9);
     ASSERT_TRUE(last_id(client));
     EXPECT_EQ(last_id(client)->points, 2U);
@@ -257,6 +259,94 @@ TEST_F(Events, AnIdOfAnotherRunOrAnotherDaemonBringsAllPoints) {
         EXPECT_EQ(events(*client, "points").front().at("points").size(), 2U);
     }
     EXPECT_EQ(events(before, "points").back().at("from"), 0);
+}
+
+TEST_F(Events, AnExclusionSendsAllPointsAnewAndNoIdOfBeforeHolds) {
+    station.run = "bench-1";
+    for (const int target : {0, 1, 2})
+        station.accept(target, 1);
+    Client before = connect(), gone = connect();
+    listen(milliseconds{300}, {&before, &gone});
+    const auto has = last_id(gone);
+    ASSERT_TRUE(has);
+    station.exclude(1);
+    listen(milliseconds{300}, {&before});
+    const auto shown = events(before, "points");
+    ASSERT_EQ(shown.size(), 2U);
+    EXPECT_EQ(shown.back().at("run"), "bench-1");
+    EXPECT_EQ(shown.back().at("from"), 0);
+    EXPECT_EQ(shown.back().at("count"), 3);
+    ASSERT_EQ(shown.back().at("points").size(), 3U);
+    EXPECT_EQ(shown.back().at("points").at(1).at("excluded"), true);
+    EXPECT_EQ(shown.back().at("points").at(2).at("excluded"), false);
+    EXPECT_NE(last_id(before)->run, has->run);
+    Client back = connect({0, has});
+    Client knows = connect({0, last_id(before)});
+    listen(milliseconds{300}, {&back, &knows});
+    ASSERT_EQ(events(back, "points").size(), 1U) << "as many points, but no longer the same";
+    EXPECT_EQ(events(back, "points").front().at("from"), 0);
+    EXPECT_TRUE(events(knows, "points").empty()) << "it has heard of it";
+}
+
+TEST_F(Events, APointAfterAnExclusionComesAlone) {
+    station.run = "bench-1";
+    for (const int target : {0, 1, 2})
+        station.accept(target, 1);
+    Client client = connect();
+    listen(milliseconds{300}, {&client});
+    station.exclude(0);
+    listen(milliseconds{300}, {&client});
+    station.accept(3, 1);
+    listen(milliseconds{300}, {&client});
+    const auto shown = events(client, "points");
+    ASSERT_EQ(shown.size(), 3U);
+    EXPECT_EQ(shown.back().at("from"), 3);
+    EXPECT_EQ(shown.back().at("points").size(), 1U);
+}
+
+TEST_F(Events, TheTargetsOfThePlanComeBeforeTheFirstPointAndNotAgain) {
+    station.run = "bench-1";
+    station.targets = {mm(0), mm(100.5)};
+    Client client = connect();
+    listen(milliseconds{300}, {&client});
+    for (const int target : {0, 1}) {
+        station.accept(target, 1);
+        listen(milliseconds{300}, {&client});
+    }
+    const auto shown = events(client, "points");
+    ASSERT_EQ(shown.size(), 3U);
+    EXPECT_EQ(shown.at(0).at("count"), 0);
+    ASSERT_EQ(shown.at(0).at("target_nominals_mm").size(), 2U);
+    EXPECT_NEAR(shown.at(0).at("target_nominals_mm").at(1).get<double>(), 100.5, 1e-9);
+    EXPECT_EQ(shown.at(2).at("from"), 1);
+    EXPECT_FALSE(shown.at(2).contains("target_nominals_mm"));
+}
+
+TEST_F(Events, OnlyTheTargetsOfPointsThatAreSentComeWithTheirMeans) {
+    station.run = "bench-1";
+    FiguresSoFar so_far;
+    so_far.targets.resize(3);
+    so_far.targets[0].positive = {1, 1.5, {}, {}};
+    so_far.targets[2].positive = {2, -2.5, -3.0, -2.0};
+    station.so_far = std::make_shared<const FiguresSoFar>(so_far);
+    station.accept(0, 1.5);
+    Client client = connect();
+    listen(milliseconds{300}, {&client});
+    station.accept(2, -2.5);
+    listen(milliseconds{300}, {&client});
+    const auto shown = events(client, "points");
+    ASSERT_EQ(shown.size(), 2U);
+    ASSERT_EQ(shown.at(0).at("targets").size(), 1U);
+    EXPECT_EQ(shown.at(0).at("targets").at(0).at("target"), 0);
+    EXPECT_TRUE(shown.at(0).at("targets").at(0).at("positive").at("low_um").is_null());
+    ASSERT_EQ(shown.at(1).at("targets").size(), 1U);
+    const auto& row = shown.at(1).at("targets").at(0);
+    EXPECT_EQ(row.at("target"), 2);
+    EXPECT_EQ(row.at("positive").at("points"), 2);
+    EXPECT_EQ(row.at("positive").at("mean_um"), -2.5);
+    EXPECT_EQ(row.at("positive").at("low_um"), -3.0);
+    EXPECT_EQ(row.at("positive").at("high_um"), -2.0);
+    EXPECT_EQ(row.at("negative").at("points"), 0);
 }
 
 TEST_F(Events, WithoutARunThePointsAreNoneAndSaySo) {

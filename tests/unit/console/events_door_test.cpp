@@ -173,9 +173,11 @@ TEST_F(EventsDoor, ThePointsSinceTheLastEventIdAreSent) {
     const std::string id = heard.substr(at, heard.find('\n', at) - at);
     on_loop([this] { station.accept(1, 2); });
     const auto again = ask("GET", "/v1/events", "Last-Event-ID: " + id + "\r\n");
-    EXPECT_NE(until(*again, "}]}\n\n").find("\"count\":2,\"from\":1,"), std::string::npos);
+    EXPECT_NE(until(*again, "\"targets\":[]}\n\n").find("\"count\":2,\"from\":1,"),
+              std::string::npos);
     const auto stranger = ask("GET", "/v1/events", "Last-Event-ID: \xff-7\r\n");
-    EXPECT_NE(until(*stranger, "}]}\n\n").find("\"count\":2,\"from\":0,"), std::string::npos);
+    EXPECT_NE(until(*stranger, "\"targets\":[]}\n\n").find("\"count\":2,\"from\":0,"),
+              std::string::npos);
 }
 
 TEST_F(EventsDoor, TheDaemonsEndEndsThem) {

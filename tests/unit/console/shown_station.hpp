@@ -3,6 +3,7 @@
 
 #include "acquisition/live/station_interface.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,9 +40,10 @@ public:
         return view;
     }
     [[nodiscard]] PointsView points(std::size_t from) const override {
-        PointsView view{run, accepted.size(), {}};
+        PointsView view{run, accepted.size(), {}, excluded, {}, so_far};
         for (std::size_t nth = from; nth < accepted.size(); ++nth)
             view.points.push_back(accepted[nth]);
+        if (from == 0) view.targets = targets;
         return view;
     }
     [[nodiscard]] AlignmentView alignment() const override { return {}; }
@@ -49,15 +51,23 @@ public:
 
     void accept(int target, double deviation_um) {
         const int step = static_cast<int>(accepted.size());
-        accepted.push_back({step, static_cast<std::uint16_t>(step + 1),
-                            PlannedPoint{step, target, Direction::positive, 0}, um(deviation_um)});
+        accepted.push_back({{step, static_cast<std::uint16_t>(step + 1),
+                             PlannedPoint{step, target, Direction::positive, 0}, um(deviation_um)},
+                            mm(100.0 * target)});
+    }
+    void exclude(std::size_t nth) {
+        accepted.at(nth).excluded = true;
+        ++excluded;
     }
 
     mutable StationStatus shown;
     bool shown_change_each_time = false;
     mutable std::optional<StreamView> streamed;
     std::string run;
-    std::vector<AcceptedPoint> accepted;
+    std::vector<ShownPoint> accepted;
+    std::size_t excluded = 0;
+    std::vector<Length> targets;
+    std::shared_ptr<const FiguresSoFar> so_far;
     mutable int looks = 0, stream_looks = 0;
 
 private:
