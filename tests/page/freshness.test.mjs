@@ -14,6 +14,25 @@ test("a reading of the laser is stale after two seconds by the page's own clock"
     assert.equal(judge(laser, { contact: true, status_age_ms: 1901 }).mark, "stale");
 });
 
+test("every channel is stale beyond the limit that the station tells for it", () => {
+    for (const channel of [channel_of({ age_s: 59, stale_after_s: 60 }), laser_of({ age_s: 59, stale_after_s: 60 })]) {
+        assert.equal(judge(channel, { contact: true, status_age_ms: 999 }).mark, "good");
+        assert.equal(judge(channel, { contact: true, status_age_ms: 1001 }).mark, "stale");
+    }
+});
+
+test("a limit that is none makes nothing stale, of the laser neither; one that is not told is two seconds of laser and ballbar", () => {
+    assert.equal(judge(laser_of({ age_s: 500, stale_after_s: null }), hears).mark, "good");
+    assert.equal(judge(channel_of({ age_s: 500, stale_after_s: null }), hears).mark, "good");
+    assert.equal(judge(laser_of({ age_s: 2.1, role: "ballbar" }), hears).mark, "stale");
+    assert.equal(judge(laser_of({ age_s: 2.1, role: "" }), hears).mark, "good");
+    assert.equal(judge(channel_of({ age_s: 500 }), hears).mark, "good");
+});
+
+test("a limit does not hold a value up without contact", () => {
+    assert.equal(judge(channel_of({ stale_after_s: 60 }), { contact: false, status_age_ms: 0 }).mark, "stale");
+});
+
 test("without contact every value is stale, and its age grows", () => {
     const judged = judge(channel_of({ age_s: 1 }), { contact: false, status_age_ms: 9000 });
     assert.deepEqual(judged, { mark: "stale", age_s: 10 });

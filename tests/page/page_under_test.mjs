@@ -64,3 +64,24 @@ export function status_of(changed = {}) {
 export function point_of(step, changed = {}) {
     return { step, target: step, direction: "positive", approach: 0, deviation_um: step * 0.5, sequence: step + 1, ...changed };
 }
+
+/** What the points of a target give in one direction, as the station computes it. */
+export function side_of(mean_um = null, s_um = null) {
+    const reach = s_um === null ? null : 2 * s_um;
+    const points = mean_um === null ? 0 : s_um === null ? 1 : 2;
+    return { points, mean_um, low_um: reach === null ? null : mean_um - reach, high_um: reach === null ? null : mean_um + reach };
+}
+
+export function target_of(target, positive = side_of(), negative = side_of()) {
+    return { target, nominal_mm: target * 100, positive, negative };
+}
+
+export function so_far_of(changed = {}) {
+    return {
+        standing: "outside", sentence: "So far already outside: A 14.2 of 12.0 um.", basis: "as shown at the machine: without U",
+        points_per_target: 3, deviation_range_um: 13.1, reversal_max_um: 2.6, standard: "ISO 230-2:2014",
+        figures: [{ parameter: "A", value_um: 14.2 }, { parameter: "B_mean", value_um: -2.6 }],
+        limits: [{ parameter: "A", limit_um: 12, value_um: 14.2, standing: "outside", sentence: "A 14.2 of 12.0 um so far" }],
+        ...changed,
+    };
+}

@@ -1,37 +1,21 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { AcceptedPoints } from "../../acquisition/console/page/accepted_points.js";
 import { nice_step, plot_of, point_at, value_range } from "../../acquisition/console/page/plot_geometry.js";
-import { point_of } from "./page_under_test.mjs";
+import { labels_of } from "../../acquisition/console/page/plot_labels.js";
+import { stretches_of } from "../../acquisition/console/page/plot_bands.js";
+import { short_place } from "../../acquisition/console/page/plot_view.js";
+import { point_of, side_of, target_of, words_of } from "./page_under_test.mjs";
 
 const view = Object.freeze({ width: 800, height: 400, factor: 1, next: 5 });
-const event_of = (from, points, run = "a") => ({ run, from, count: from + points.length, points });
 
-test("points are added behind those that are there, and a new run begins anew", () => {
-    const accepted = new AcceptedPoints();
-    assert.equal(accepted.take(event_of(0, [point_of(0), point_of(1)])), true);
-    assert.equal(accepted.take(event_of(2, [point_of(2)])), true);
-    assert.equal(accepted.points.length, 3);
-    assert.equal(accepted.take(event_of(0, [point_of(0)], "b")), true);
-    assert.deepEqual([accepted.run, accepted.points.length], ["b", 1]);
-    assert.equal(accepted.take({ run: null, from: 0, count: 0, points: [] }), true);
-    assert.deepEqual([accepted.run, accepted.points], [null, []]);
-});
+/** @param points  all of them count */
+function drawn_of(points, changed = {}) {
+    const judged = points.map((point) => ({ point, counts: true, left_out: false }));
+    return { judged, nominals: null, targets: new Map(), ...changed };
+}
 
-test("points of another run, or with a hole before them, are not taken", () => {
-    const accepted = new AcceptedPoints();
-    accepted.take(event_of(0, [point_of(0)]));
-    assert.equal(accepted.take(event_of(5, [point_of(5)])), false);
-    assert.equal(accepted.take(event_of(1, [point_of(1)], "b")), false);
-    assert.equal(accepted.points.length, 1);
-});
-
-test("of a point that was taken again the last one counts, and the first is still drawn", () => {
-    const accepted = new AcceptedPoints();
-    accepted.take(event_of(0, [point_of(0), point_of(1), point_of(110, { target: 0 })]));
-    assert.deepEqual(accepted.judged().map(({ counts }) => counts), [false, true, true]);
-    assert.equal(plot_of(accepted.judged(), view).dots.length, 3);
-});
+const targets_of = (...rows) => new Map(rows.map((row) => [row.target, row]));
+const corners_of = (path) => (path.match(/-?[\d.]+ -?[\d.]+/g) ?? []).map((pair) => pair.split(" ").map(Number));
 
 test("steps are 1, 2 or 5 times a power of ten", () => {
     assert.equal(nice_step(10, 5), 2);
@@ -51,22 +35,130 @@ test("every point lies within the frame, the two directions beside each other", 
     const points = [0, 1, 2, 3].flatMap((target) =>
         ["positive", "negative"].map((direction) => point_of(target, { direction, deviation_um: target * 7 - 11 })),
     );
-    const plot = plot_of(points.map((point) => ({ point, counts: true })), view);
+    const plot = plot_of(drawn_of(points), view);
     for (const dot of plot.dots) assert.ok(dot.x > plot.left && dot.x < plot.right && dot.y >= plot.top && dot.y <= plot.bottom);
     assert.ok(plot.dots[0].x < plot.dots[1].x);
     assert.ok(plot.next_x > plot.dots.at(-1).x);
 });
 
 test("a plot without points has a frame and no dot", () => {
-    const plot = plot_of([], { ...view, next: null });
+    const plot = plot_of(drawn_of([]), { ...view, next: null });
     assert.deepEqual([plot.dots, plot.next_x], [[], null]);
     assert.ok(plot.lines.length >= 2 && plot.lines.every(({ y }) => Number.isFinite(y)));
 });
 
-test("two hundred targets have as many names as have room", () => {
-    const points = Array.from({ length: 200 }, (_, step) => ({ point: point_of(step), counts: true }));
-    const { targets } = plot_of(points, view);
-    assert.ok(targets.length <= 800 / 40);
+test("targets stand at their places, also before the first point", () => {
+    const nominals = [0, 100, 400];
+    const { targets, ends, left, right } = plot_of(drawn_of([], { nominals }), { ...view, next: null });
+    const [a, b, c] = targets.map(({ x }) => x);
+    assert.ok(Math.abs((b - a) / (c - a) - 0.25) < 1e-9);
+    assert.ok(a > left && c < right);
+    assert.deepEqual(ends, { first: 0, last: 400 });
+});
+
+test("targets of a plan that runs downwards stand from the lowest place to the highest", () => {
+    const { targets, ends } = plot_of(drawn_of([], { nominals: [0, -100, -400] }), { ...view, next: null });
+    assert.deepEqual(targets.map(({ target }) => target), [2, 1, 0]);
+    assert.deepEqual(ends, { first: -400, last: 0 });
+});
+
+test("one target, or several in one place, stand in the middle", () => {
+    for (const nominals of [[250], [250, 250]]) {
+        const { targets, left, right } = plot_of(drawn_of([point_of(0)], { nominals }), { ...view, next: null });
+        for (const { x } of targets) assert.equal(x, (left + right) / 2);
+    }
+});
+
+test("of a station of before, targets stand one beside the other, and no place is told", () => {
+    const { targets, ends } = plot_of(drawn_of([point_of(0), point_of(1), point_of(2)]), { ...view, next: 3 });
+    const [a, b, c, d] = targets.map(({ x }) => x);
+    assert.ok(Math.abs(b - a - (c - b)) < 1e-9 && Math.abs(b - a - (d - c)) < 1e-9);
+    assert.equal(ends, null);
+});
+
+test("a target that the plan does not name has room beside the others", () => {
+    const plot = plot_of(drawn_of([point_of(0), point_of(7)], { nominals: [0, 100] }), { ...view, next: null });
+    assert.equal(plot.ends, null);
+    assert.ok(plot.dots[0].x < plot.dots[1].x && plot.dots[1].x < plot.right);
+});
+
+test("the mean of each direction is a line through the middle of its points, and a band around it", () => {
+    const rows = [target_of(0, side_of(1, 0.5), side_of(-2)), target_of(1, side_of(3, 0.5), side_of(-3))];
+    const points = [point_of(0, { deviation_um: 1 }), point_of(1, { deviation_um: 3 })];
+    const plot = plot_of(drawn_of(points, { nominals: [0, 100], targets: targets_of(...rows) }), view);
+    const [positive, negative] = plot.sides;
+    assert.deepEqual(corners_of(positive.means[0]), plot.dots.map(({ x, y }) => [x, y]));
+    const [[x, high], , , [also_x, low]] = corners_of(positive.bands[0]);
+    assert.equal(x, also_x);
+    assert.ok(high < plot.dots[0].y && plot.dots[0].y < low);
+    assert.equal(positive.bands.length, 1);
+    assert.deepEqual([negative.means.length, negative.bands], [1, []]);
+});
+
+test("a band has room in the plot, in the unit that is shown", () => {
+    const targets = targets_of(target_of(0, side_of(0, 10)));
+    const { sides, top, bottom, lines } = plot_of(drawn_of([point_of(0)], { nominals: [0], targets }), { ...view, factor: 3.6 });
+    for (const [, y] of corners_of(sides[0].bands[0])) assert.ok(y >= top && y <= bottom);
+    assert.ok(lines.at(-1).value >= 72);
+});
+
+test("no line and no band goes over a target that has no mean", () => {
+    const targets = targets_of(target_of(0, side_of(1, 1)), target_of(1), target_of(2, side_of(2)), target_of(3, side_of(3, 1)));
+    const { sides } = plot_of(drawn_of([], { nominals: [0, 100, 200, 300], targets }), view);
+    assert.deepEqual(sides[0].means.map((path) => corners_of(path).length), [2, 2]); // a dash, a line
+    assert.deepEqual(sides[0].bands.map((path) => corners_of(path).length), [4, 4]); // two bars
+    assert.deepEqual(sides[1], { direction: "negative", means: [], bands: [] });
+    assert.deepEqual(stretches_of([null, 1, 2, null, null, 3]), [[1, 2], [3]]);
+});
+
+test("a station of before has no lines of means", () => {
+    const { sides } = plot_of(drawn_of([point_of(0)]), view);
+    assert.deepEqual(sides.flatMap(({ means, bands }) => [...means, ...bands]), []);
+});
+
+const room = Object.freeze({ left: 40, right: 600 });
+const spread_over = (count, width = 500) =>
+    Array.from({ length: count }, (_, target) => ({ target, x: 80 + (count === 1 ? 0 : (target * width) / (count - 1)) }));
+const texts_of = (labels) => labels.map(({ text }) => text);
+
+test("the first and the last target have their place, those between their names where there is room", () => {
+    const ends = { first: "0", last: "500 mm" };
+    assert.deepEqual(texts_of(labels_of(spread_over(3), ends, room)), ["P1 = 0", "P2", "P3 = 500 mm"]);
+    const many = texts_of(labels_of(spread_over(21), ends, room));
+    assert.deepEqual([many[0], many.at(-1)], ["P1 = 0", "P21 = 500 mm"]);
+    assert.ok(many.slice(1, -1).every((text) => /^P\d+$/.test(text)) && many.length > 6);
+});
+
+test("with little room the two places stand without names, and then the last alone", () => {
+    const ends = { first: "-1000.125", last: "1000.125 mm" };
+    const narrow = { left: 40, right: 300 };
+    assert.deepEqual(texts_of(labels_of(spread_over(2, 200), ends, narrow)), ["-1000.125", "1000.125 mm"]);
+    assert.deepEqual(texts_of(labels_of(spread_over(2, 60), ends, { left: 40, right: 180 })), ["1000.125 mm"]);
+});
+
+test("a plan of one target has one name with its place", () => {
+    assert.deepEqual(texts_of(labels_of(spread_over(1), { first: "0", last: "0 mm" }, room)), ["P1 = 0 mm"]);
+});
+
+test("names stand apart, and within their room, of two hundred targets too", () => {
+    for (const places of [null, { first: "0", last: "1990 mm" }])
+        for (const count of [2, 7, 11, 50, 200]) {
+            const labels = labels_of(spread_over(count), places, room);
+            const reach = labels.map(({ text, x, anchor }) => {
+                const wide = text.length * 10;
+                return anchor === "start" ? [x, x + wide] : anchor === "end" ? [x - wide, x] : [x - wide / 2, x + wide / 2];
+            });
+            assert.ok(labels.length >= 2, `${count}`);
+            reach.forEach(([low, high], nth) => {
+                assert.ok(low >= room.left && high <= room.right, `${count}: ${labels[nth].text}`);
+                assert.ok(nth === 0 || reach[nth - 1][1] < low, `${count}: ${labels[nth].text}`);
+            });
+        }
+});
+
+test("a place below the plot has no zeros behind its last digit", () => {
+    assert.deepEqual([0, 500, 301.412, -0.5, 1e-9].map((place) => short_place(place, words_of("en"))), ["0", "500", "301.412", "\u22120.5", "0"]);
+    assert.equal(short_place(100.25, words_of("de")), "100,25");
 });
 
 test("a finger means the nearest point within half a finger, and of two in one place the later", () => {

@@ -41,6 +41,20 @@ test("without contact the last reading is stale", () => {
     assert.deepEqual([main.text, main.mark, main.age], ["\u2007301.4112", "stale", "4 s"]);
 });
 
+test("the axis has the age and the limit of the reading it is shown by, where the station tells them", () => {
+    const shown_with = (changed) => {
+        const status = status_of();
+        status.axis = { ...status.axis, ...changed };
+        const { position } = axis_shown(status, kept_of(status), hears, words);
+        return [position.mark, position.age];
+    };
+    assert.deepEqual(shown_with({}), ["good", "0 s"]); // the channel's, 0.01 s
+    assert.deepEqual(shown_with({ age_s: 1.5, stale_after_s: 2 }), ["good", "1 s"]);
+    assert.deepEqual(shown_with({ age_s: 1.5, stale_after_s: 1 }), ["stale", "1 s"]);
+    assert.deepEqual(shown_with({ age_s: 2.5 }), ["stale", "2 s"]);
+    assert.deepEqual(shown_with({ age_s: null, position_mm: null }), ["none", "never"]);
+});
+
 test("a lost reading is dashes and never a number, also after the contact broke", () => {
     const status = silenced("beam_lost");
     const kept = kept_of(status_of(), status);

@@ -2,8 +2,8 @@
 
 /** Nothing heard for so long is no contact, whatever the connection says (docs/api.md, Events). */
 export const contact_limit_ms = 2000;
-/** An older reading of laser or ballbar is no reading: the station's own limit, seen here without waiting for its word. */
-export const reading_limit_s = 2;
+/** Of laser and ballbar, where a station of before does not tell its own limit. */
+const reading_limit_of_before_s = 2;
 
 /** @typedef {"good" | "moving" | "stale" | "lost" | "none"} Mark  shape, word and colour of a value */
 
@@ -39,7 +39,8 @@ export function is_number(value) {
  */
 
 /**
- * @param {{quality: string, age_s: number | null, value: number | null, role?: string}} channel
+ * The station's own limits, seen here without waiting for its word.
+ * @param {{quality: string, age_s: number | null, value: number | null, role?: string, stale_after_s?: number | null}} channel
  * @param {Heard} heard
  * @returns {{mark: Mark, age_s: number | null}}
  */
@@ -54,8 +55,15 @@ export function judge(channel, heard) {
 /** A status that stands still while its values have an age is old, even where heartbeats come. */
 function is_old(channel, age_s, heard) {
     if (!heard.contact || heard.status_age_ms > contact_limit_ms) return true;
+    const limit_s = stale_after_s(channel);
+    return limit_s !== null && age_s !== null && age_s > limit_s;
+}
+
+/** @returns {number | null} null: age alone makes nothing stale here */
+function stale_after_s(channel) {
+    if (channel.stale_after_s !== undefined) return is_number(channel.stale_after_s) ? channel.stale_after_s : null;
     const reads = channel.role === "axis" || channel.role === "ballbar";
-    return reads && age_s !== null && age_s > reading_limit_s;
+    return reads ? reading_limit_of_before_s : null;
 }
 
 /** The last good values: a stale one is shown struck through, a lost one is forgotten and never comes back. */

@@ -1,7 +1,7 @@
 // The page: hears the station, and shows what it says. Everything that can be judged without a browser stands in the
 // modules beside this one.
 
-import { AcceptedPoints } from "./accepted_points.js";
+import { AcceptedPoints, still_picked } from "./accepted_points.js";
 import { buttons_of, revision_of } from "./actions.js";
 import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
 import { SleeplessClock } from "./clock.js";
@@ -14,7 +14,7 @@ import { OrderBar } from "./order_bar.js";
 import { OrderSheet, answer_text } from "./order_sheet.js";
 import { delete_order, lacks_rights, send_order } from "./orders.js";
 import { ask_session, not_asked, refusal_of } from "./pairing.js";
-import { PlotView, TableView, point_text, still_picked } from "./plot_view.js";
+import { PlotView, TableView, point_text } from "./plot_view.js";
 import { remember, remembered, use_theme } from "./settings.js";
 import { cells_shown, keep, next_shown, reading_shown, run_shown, state_text } from "./status_view.js";
 import { TouchGuard } from "./touch_guard.js";
@@ -84,7 +84,9 @@ function take_points(event) {
     const run = accepted.run;
     if (!accepted.take(event)) return false;
     if (accepted.run !== run) forget_picked(); // the same place of another run is another point
-    shown.picked = still_picked(shown.picked, accepted);
+    const picked = still_picked(shown.picked, accepted);
+    if (shown.picked !== null && picked === null) forget_picked();
+    shown.picked = picked;
     const last = event.points.at(-1);
     if (event.from > 0 && last && shown.status !== null)
         set_text(by_id("spoken"), words.text("point_accepted", { point: point_text(last, shown.status, words) }));
@@ -261,8 +263,8 @@ function paint(at) {
     if (name === "run") paint_orders(status, view.contact);
     else paint_now_cells(cells_shown(status, kept, heard, words));
     if (guard.is_pressed()) return; // nothing moves under a finger
-    const extra = name === "run" ? [shown.message, refusal_of(shown.session)].filter((line, nth, all) => line !== "" && all.indexOf(line) === nth) : [];
-    paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), status.run_open, extra, words);
+    const extra = name === "run" && shown.message !== "" ? [shown.message] : [];
+    paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), extra);
     (name === "run" ? run_plot : now_plot).paint(accepted, status, shown.picked, words);
     if (name === "run" && !by_id("run_table").hidden) table.paint(accepted, status, words);
 }

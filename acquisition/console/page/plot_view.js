@@ -2,8 +2,9 @@
 
 import { keep_children, make, make_svg, set_attribute, set_text } from "./dom.js";
 import { number_text, axis_units } from "./number_text.js";
-import { place_of } from "./accepted_points.js";
 import { plot_of, point_at } from "./plot_geometry.js";
+import { labels_of } from "./plot_labels.js";
+import { table_of } from "./point_table.js";
 
 /** @typedef {import("./accepted_points.js").Point} Point */
 /** @typedef {import("./accepted_points.js").AcceptedPoints} AcceptedPoints */
@@ -21,13 +22,20 @@ export function point_text(point, status, words) {
     });
 }
 
+/** Without the zeros behind the last digit: there is little room below the plot. @param {number} place @param {Catalogue} words */
+export function short_place(place, words) {
+    const text = number_text(place, 3, { decimal_mark: words.decimal_mark }).trim();
+    return text.replace(/0+$/, "").replace(/[.,]$/, "");
+}
+
 /** Approach from below points right and is filled, from above left and hollow: the two differ without colour. */
 function arrow_path(x, y, direction) {
     const ahead = direction === "positive" ? 7 : -7;
     return `M${x - ahead} ${y - 7}L${x + ahead} ${y}L${x - ahead} ${y + 7}Z`;
 }
 
-const cross_path = (x, y) => `M${x - 6} ${y - 6}L${x + 6} ${y + 6}M${x - 6} ${y + 6}L${x + 6} ${y - 6}`;
+const cross_path = (x, y, reach) =>
+    `M${x - reach} ${y - reach}L${x + reach} ${y + reach}M${x - reach} ${y + reach}L${x + reach} ${y - reach}`;
 
 export class PlotView {
     /** @param {HTMLElement} place @param {((point: Point | null) => void) | null} pick */
@@ -60,21 +68,28 @@ export class PlotView {
     paint(accepted, status, picked, words) {
         const { width, height } = this;
         if (width < 120 || height < 60) return;
-        const next = status.run_open && status.run?.next ? status.run.next.target : null;
+        const { deviation, coordinate } = axis_units(status.axis);
+        const next = status.run_open && status.run?.next && status.run.id === accepted.run ? status.run.next.target : null;
         const count = accepted.points.length;
-        const key = [accepted.run, count, accepted.points[count - 1]?.step, next, picked?.step, width, height, words.tag, words.text("no_points")].join("|");
+        const key = [accepted.version, next, picked?.step, width, height, deviation.unit, words.tag, words.text("no_points")].join("|");
         if (key === this.shown) return;
         this.shown = key;
-        const { deviation } = axis_units(status.axis);
-        const plot = plot_of(accepted.judged(), { width, height, factor: deviation.factor, next });
+        const { nominals, targets } = accepted;
+        const plot = plot_of({ judged: accepted.judged(), nominals, targets }, { width, height, factor: deviation.factor, next });
         this.dots = plot.dots;
         set_attribute(this.svg, "viewBox", `0 0 ${width} ${height}`);
         const latest = plot.dots.at(-1);
         const said = latest ? point_text(latest.point, status, words) : words.text("no_points");
-        set_attribute(this.svg, "aria-label", `${words.text("points_accepted")}: ${count}. ${said}`);
+        const left_out = plot.dots.filter((dot) => dot.left_out).length;
+        const also = left_out > 0 ? ` ${words.text("excluded", { count: left_out })}.` : "";
+        set_attribute(this.svg, "aria-label", `${words.text("points_accepted")}: ${count}.${also} ${said}`);
+        const units = { deviation: words.unit(deviation.unit), place: words.unit(coordinate) };
         this.svg.replaceChildren(
-            ...this.frame(plot, words.unit(deviation.unit), words),
-            ...plot.dots.flatMap((dot) => this.dot(dot, picked)),
+            ...this.frame(plot, units.deviation, words),
+            ...this.labels(plot, units, words),
+            ...plot.sides.flatMap(({ direction, bands }) => bands.map((d) => make_svg("path", { class: `band_${direction}`, d }))),
+            ...plot.sides.flatMap(({ direction, means }) => means.map((d) => make_svg("path", { class: `mean_${direction}`, d }))),
+            ...this.dots_of(plot.dots, picked),
             ...(count === 0 ? [make_svg("text", { x: width / 2, y: height / 2, "text-anchor": "middle" }, words.text("no_points"))] : []),
         );
     }
@@ -90,18 +105,31 @@ export class PlotView {
                     make_svg("text", { x: plot.left - 6, y: y + 6, "text-anchor": "end" }, number_text(value, plot.decimals, style).trim()),
                 ),
             make_svg("line", { class: "zero", x1: plot.left, x2: plot.right, y1: plot.zero_y, y2: plot.zero_y }),
-            ...plot.targets.map(({ target, x }) => make_svg("text", { x, y: plot.bottom + 24, "text-anchor": "middle" }, `P${target + 1}`)),
             make_svg("text", { x: 4, y: plot.bottom + 24 }, unit),
             ...(plot.next_x === null ? [] : [make_svg("line", { class: "next_line", x1: plot.next_x, x2: plot.next_x, y1: plot.top, y2: plot.bottom })]),
         ];
     }
 
-    dot(dot, picked) {
-        const mark = dot.counts
-            ? make_svg("path", { class: dot.direction, d: arrow_path(dot.x, dot.y, dot.direction) })
-            : make_svg("path", { class: "replaced", d: cross_path(dot.x, dot.y) });
-        const ring = (name, r) => make_svg("circle", { class: name, cx: dot.x, cy: dot.y, r });
-        return [mark, ...(dot.latest ? [ring("latest", 13)] : []), ...(picked?.step === dot.point.step ? [ring("picked_ring", 18)] : [])];
+    labels(plot, units, words) {
+        const { ends } = plot;
+        const places = ends && { first: short_place(ends.first, words), last: `${short_place(ends.last, words)} ${units.place}` };
+        const room = { left: 12 + 12 * units.deviation.length, right: plot.right + 12 };
+        return labels_of(plot.targets, places, room).map(({ text, x, anchor }) =>
+            make_svg("text", { x, y: plot.bottom + 24, "text-anchor": anchor }, text),
+        );
+    }
+
+    /** Taken again: a cross in its place. Left out: its arrow stays, and is crossed out above all others. */
+    dots_of(dots, picked) {
+        const cross = ({ x, y }, name, reach) => make_svg("path", { class: name, d: cross_path(x, y, reach) });
+        const arrow = ({ x, y, direction }) => make_svg("path", { class: direction, d: arrow_path(x, y, direction) });
+        const ring = ({ x, y }, name, r) => make_svg("circle", { class: name, cx: x, cy: y, r });
+        return [
+            ...dots.map((dot) => (dot.counts || dot.left_out ? arrow(dot) : cross(dot, "replaced", 6))),
+            ...dots.filter((dot) => dot.left_out).map((dot) => cross(dot, "left_out", 10)),
+            ...dots.filter((dot) => dot.latest).map((dot) => ring(dot, "latest", 13)),
+            ...dots.filter((dot) => dot.point.step === picked?.step).map((dot) => ring(dot, "picked_ring", 18)),
+        ];
     }
 }
 
@@ -120,31 +148,23 @@ export class TableView {
 
     /** @param {AcceptedPoints} accepted @param {any} status @param {Catalogue} words */
     paint(accepted, status, words) {
-        const key = [accepted.run, accepted.points.length, words.tag, words.text("no_points")].join("|");
+        const { deviation, coordinate } = axis_units(status.axis);
+        const key = [accepted.version, deviation.unit, words.tag, words.text("no_points")].join("|");
         if (key === this.shown) return;
         this.shown = key;
-        const { deviation } = axis_units(status.axis);
         set_text(this.close_button, words.text("show_plot"));
-        const heads = ["target_head", "side_head", "approach_head"].map((one) => words.text(one));
-        heads.push(`${words.text("deviation")} ${words.unit(deviation.unit)}`);
+        const units = { factor: deviation.factor, deviation: words.unit(deviation.unit), place: words.unit(coordinate) };
+        const { heads, rows } = table_of(accepted, units, words);
         keep_children(this.head, heads.length, () => make("th")).forEach((one, nth) => set_text(one, heads[nth]));
-        this.body.replaceChildren(...accepted.judged().map((one) => this.row(one, deviation.factor, words)));
+        this.body.replaceChildren(...rows.map((row) => this.row(row)));
     }
 
-    row({ point, counts }, factor, words) {
-        const button = make("button", "", [`P${point.target + 1}`]);
+    row({ point, label, cells }) {
+        const [target, ...others] = cells;
+        const button = make("button", "", [target]);
         button.type = "button";
-        button.setAttribute("aria-label", `P${point.target + 1} ${words.text(`side_${point.direction}`)} ${point.approach + 1}`);
+        button.setAttribute("aria-label", label);
         button.addEventListener("click", () => this.pick(point));
-        const number = number_text(point.deviation_um * factor, 2, { decimal_mark: words.decimal_mark, plus: true });
-        const note = counts ? "" : ` (${words.text("point_replaced")})`;
-        const texts = [words.text(`side_${point.direction}`), String(point.approach + 1), number + note];
-        return make("tr", "", [make("td", "", [button]), ...texts.map((text) => make("td", "", [text]))]);
+        return make("tr", "", [make("td", "", [button]), ...others.map((text) => make("td", "", [text]))]);
     }
-}
-
-/** @param {Point | null} picked @param {AcceptedPoints} accepted @returns {Point | null} as it stands in the run now */
-export function still_picked(picked, accepted) {
-    if (picked === null) return null;
-    return accepted.points.find((one) => one.step === picked.step && place_of(one) === place_of(picked)) ?? null;
 }

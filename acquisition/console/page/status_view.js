@@ -2,6 +2,7 @@
 
 import { judge, is_number, mark_of } from "./freshness.js";
 import { age_of, axis_units, minutes_text, no_number, number_text, shop_unit } from "./number_text.js";
+import { so_far_lines } from "./so_far_text.js";
 
 /** @typedef {import("./freshness.js").Mark} Mark */
 /** @typedef {import("./freshness.js").Heard} Heard */
@@ -53,13 +54,21 @@ export function channel_shown(channel, kept, heard, words) {
     };
 }
 
+/** With age and limit of the reading that the axis is shown by, where the station tells them. @param {any} status */
+function axis_reading(status) {
+    const channel = reading_channel(status, "axis");
+    if (channel === null) return null;
+    const { age_s = channel.age_s, stale_after_s = channel.stale_after_s } = status.axis;
+    return { ...channel, age_s, stale_after_s };
+}
+
 /**
  * The axis as it is read now, each part with the mark of what it is read by.
  * @param {any} status @param {KeptValues} kept @param {Heard} heard @param {Catalogue} words
  * @returns {{position: Shown, deviation: Shown, spread: Shown}}
  */
 export function axis_shown(status, kept, heard, words) {
-    const channel = reading_channel(status, "axis");
+    const channel = axis_reading(status);
     const { mark, age_s } = channel ? judge(channel, heard) : { mark: /** @type {Mark} */ ("none"), age_s: null };
     const units = axis_units(status.axis);
     const shown = (name, factor, decimals, unit, label, plus) => {
@@ -148,13 +157,12 @@ export function state_text(state, words) {
 }
 
 /**
- * How far the run is, and what the station says of it so far. The status gives no figure before the certificate, and
- * this page computes none.
- * @returns {{title: string, state: string, lines: string[], sentence: string, fault: boolean, part: number}}
+ * How far the run is, and what the station says of it so far. This page computes no figure.
+ * @returns {{title: string, state: string, lines: string[], sentence: string, fault: boolean, so_far: import("./so_far_text.js").SoFarLine[], part: number}}
  */
 export function run_shown(status, words) {
     const { run } = status;
-    if (run === null) return { title: words.text("run_none"), state: "", lines: [], sentence: "", fault: false, part: 0 };
+    if (run === null) return { title: words.text("run_none"), state: "", lines: [], sentence: "", fault: false, so_far: [], part: 0 };
     const units = axis_units(status.axis);
     const lines = [words.text("points_done", { done: run.step, of: run.steps })];
     if (is_number(run.last_deviation_um))
@@ -175,6 +183,7 @@ export function run_shown(status, words) {
         lines,
         sentence: run.sentence,
         fault: run.fault !== "",
+        so_far: so_far_lines(run, status.run_open === true, units.deviation, words),
         part: run.steps > 0 ? Math.min(1, run.step / run.steps) : 0,
     };
 }

@@ -77,18 +77,21 @@ export function paint_next(parent, next, words) {
     set_text(part(parent, ".side"), `${arrows[next.direction] ?? ""} ${next.side}`.trim());
 }
 
-/** @param {Element} parent @param {ReturnType<typeof import("./status_view.js").run_shown>} run @param {boolean} open @param {string[]} extra  of the last order @param {Catalogue} words */
-export function paint_so_far(parent, run, open, extra, words) {
+/** @param {Element} parent @param {ReturnType<typeof import("./status_view.js").run_shown>} run @param {string[]} extra  of the last order */
+export function paint_so_far(parent, run, extra) {
+    const line = (text, name, title = "") => ({ text, name, title });
     const lines = [
-        ...extra.map((line) => [line, "fault"]),
-        [run.title, "title"],
-        [run.state, "state"],
-        ...run.lines.map((line) => [line, "line"]),
-        ...(run.sentence === "" ? [] : [[run.sentence, run.fault ? "fault" : "remark"]]),
-        ...(open ? [[words.text("no_verdict"), "remark"]] : []),
-    ].filter(([text]) => text !== "");
-    keep_children(parent, lines.length, () => make("div")).forEach((line, nth) => {
-        set_text(line, lines[nth][0]);
-        set_attribute(line, "class", lines[nth][1]);
+        ...extra.map((text) => line(text, "fault")),
+        line(run.title, "title"),
+        line(run.state, "state"),
+        ...run.lines.map((text) => line(text, "line")),
+        line(run.sentence, run.fault ? "fault" : "remark"),
+        ...run.so_far.map(({ text, basis }) => line(text, "remark", basis)),
+    ].filter(({ text }) => text !== "");
+    keep_children(parent, lines.length, () => make("div")).forEach((element, nth) => {
+        const { text, name, title } = lines[nth];
+        set_text(element, text);
+        set_attribute(element, "class", name);
+        set_attribute(element, "title", title === "" ? null : title);
     });
 }
