@@ -2,6 +2,7 @@
 #include "acquisition/console/api_token.hpp"
 #include "acquisition/console/http_server.hpp"
 #include "acquisition/console/page_files.hpp"
+#include "acquisition/daemon_log.hpp"
 #include "acquisition/measurement/certificate_writer.hpp"
 #include "acquisition/runfile/digest.hpp"
 #include "acquisition/runfile/folder_owner.hpp"
@@ -12,7 +13,6 @@
 #include "config/version.hpp"
 #include "drivers/boot_id.hpp"
 #include "drivers/loop/asio_scheduler.hpp"
-#include "drivers/loop/line_writer.hpp"
 #include "drivers/loop/service_manager.hpp"
 #include "drivers/loop/spawn.hpp"
 #include "drivers/trigger/trigger_ports.hpp"
@@ -24,16 +24,13 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <sys/file.h>
 #include <unistd.h>
@@ -159,34 +156,6 @@ struct Daemon {
     int code = exit_ok;
 };
 
-/// spdlog's own queue wakes each ten seconds for nothing, and waits without end for a pipe
-/// that nobody reads when it is taken down.
-class StderrSink final : public spdlog::sinks::base_sink<std::mutex> {
-    void sink_it_(const spdlog::details::log_msg& message) override {
-        spdlog::memory_buf_t line;
-        formatter_->format(message, line);
-        writer_.put({line.data(), line.size()});
-    }
-    void flush_() override {} // the writer keeps nothing back
-
-    LineWriter writer_{STDERR_FILENO};
-};
-
-/// While it lives, log lines go to stderr, and nobody who logs waits for it.
-struct LogToStderr {
-    LogToStderr() {
-        auto log = std::make_shared<spdlog::logger>("axiscald", std::make_shared<StderrSink>());
-        // Under systemd the journal stamps the lines itself.
-        // NOLINTNEXTLINE(concurrency-mt-unsafe): no other thread changes the environment
-        const bool journal = std::getenv("JOURNAL_STREAM") != nullptr;
-        log->set_pattern(journal ? "%l: %v" : "%H:%M:%S.%e %l: %v");
-        spdlog::set_default_logger(std::move(log));
-    }
-    ~LogToStderr() { spdlog::shutdown(); }
-    LogToStderr(const LogToStderr&) = delete;
-    LogToStderr& operator=(const LogToStderr&) = delete;
-};
-
 int run(int argc, char** argv) {
     CLI::App app{"axiscald: the axiscal calibration station. It reads the instruments, serves the "
                  "CNC's triggers and keeps every point on disk.",
@@ -201,7 +170,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? exit_ok : exit_usage;
     }
-    const LogToStderr log; // to the very end: the last words of all else are written, too
+    const DaemonLog log; // to the very end: the last words of all else are written, too
     auto loaded = load_station(config);
     if (!loaded) {
         for (const Refusal& refusal : loaded.error())

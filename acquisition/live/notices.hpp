@@ -4,11 +4,14 @@
 
 #include "analysis/quantity/result.hpp"
 #include "drivers/loop/doorbell.hpp"
+#include "drivers/loop/log_line.hpp"
 #include "drivers/loop/scheduler.hpp"
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
+#include <utility>
 
 namespace axiscal {
 
@@ -19,7 +22,12 @@ public:
         : scheduler_{scheduler}
         , bell_{bell} {}
 
-    void note(const std::string& sentence);
+    /// @param id  is asked at each sentence for the run that is open, "" for none: of a sentence
+    ///            that names no other it is the run
+    void ask_for_run(std::function<std::string()> id) { open_run_ = std::move(id); }
+
+    /// @param facts  for the fields of the log
+    void note(const std::string& sentence, LogFacts facts = {});
     /// Of the trigger port: the same again, as of an address that is tried each second, is not.
     void note_port(Fault fault, std::string sentence);
     void port_works() { port_.clear(); }
@@ -35,6 +43,7 @@ public:
 private:
     Scheduler& scheduler_;
     Doorbell& bell_;
+    std::function<std::string()> open_run_;
     std::deque<std::string> last_;
     std::string port_, refused_;
 };

@@ -29,14 +29,15 @@ Task<Result<std::string>> Certificates::make(std::string run_id, std::string run
     const auto written = co_await write_certificate(scheduler_, report_program_, run_file, outbox_);
     if (!written) {
         notices_.note("No certificate for run " + run_id + ": " + describe(written.error()) +
-                      " 'axiscal export " + run_file + "' tries again.");
+                          " 'axiscal export " + run_file + "' tries again.",
+                      {written.error().fault, run_id});
         co_return tl::unexpected<Error>(written.error());
     }
     made_of_ = run_id;
     unanswered_ = written->unanswered;
-    notices_.note(news_of(*written));
+    notices_.note(news_of(*written), {Fault::none, run_id});
     for (const std::string& finding : written->setup_findings)
-        notices_.note(finding);
+        notices_.note(finding, {Fault::none, run_id});
     co_return written->entry;
 }
 

@@ -48,7 +48,7 @@ Task<void> DiskWait::wait() {
     trouble_ = {std::string{fault_sentence(Fault::not_durable)}, ""};
     if (const auto why = context_.journal.failure()) {
         const std::string sentence = std::string{fault_sentence(why->fault)} + " ";
-        context_.notices.note(sentence + text_of(*why));
+        context_.notices.note(sentence + text_of(*why), {why->fault});
         trouble_ = trouble_of(sentence, *why);
     }
     while (!context_.stopping) {
@@ -66,7 +66,8 @@ std::string DiskWait::begin_to_take_over(const Error& why) {
     trouble_ = trouble_of(not_taken_over, why);
     context_.notices.note(
         not_taken_over + text +
-        " The station tries again by itself; until then the trigger port stays shut.");
+            " The station tries again by itself; until then the trigger port stays shut.",
+        {why.fault});
     return text;
 }
 
@@ -82,7 +83,7 @@ Task<bool> DiskWait::until_taken_over(Recovery& recovery, std::string told) {
         if (!taken) {
             std::string why = text_of(taken.error());
             trouble_ = trouble_of(not_taken_over, taken.error());
-            if (why != told) context_.notices.note(not_taken_over + why);
+            if (why != told) context_.notices.note(not_taken_over + why, {taken.error().fault});
             told = std::move(why);
             continue;
         }

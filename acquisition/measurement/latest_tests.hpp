@@ -52,6 +52,11 @@ public:
     [[nodiscard]] bool is_unwritten() const { return run_ && !run_->is_written(); }
 
     [[nodiscard]] bool rest_goes_on() const { return resting_ && resting_->is_open(); }
+    /// Of the one that is open, before the CNC or at rest; empty: none.
+    [[nodiscard]] std::string open_id() const {
+        if (run_open()) return run_->run().run_id;
+        return rest_goes_on() ? resting_->run().run_id : std::string{};
+    }
 
 private:
     std::shared_ptr<Measurement> run_, resting_;

@@ -55,7 +55,8 @@ Task<Result<void>> Recovery::take_over_stored_runs() {
         }
         if (!resumed)
             context_.notices.note("The open run " + run.path +
-                                  " could not be continued: " + describe(resumed.error()));
+                                      " could not be continued: " + describe(resumed.error()),
+                                  {resumed.error().fault, run.run_id});
         auto now = co_await journal.summarize(run.path);
         if (now) run = *std::move(now);
     }
@@ -118,14 +119,17 @@ Task<Result<void>> Recovery::close(std::string path, LeftClosing closing) {
     const bool complete = closing.as != LeftClosing::As::incomplete;
     std::string reason = std::move(closing.reason);
     if (again) reason = "Every planned point is durable; not every retake was done: " + reason;
-    if (auto closed = co_await context_.files.close_for_now(complete, reason); !closed) {
+    // Another one may be open, which the log would take for it.
+    std::string run_id = stored ? stored->run_id : std::filesystem::path{path}.stem().string();
+    if (auto closed = co_await context_.files.close_for_now(run_id, complete, reason); !closed) {
         co_await journal.let_go();
         co_return closed;
     }
     const std::string how = again      ? " is closed again: "
                             : complete ? " is closed as complete: "
                                        : " is closed as incomplete: ";
-    context_.notices.note("The open run " + path + how + reason);
+    context_.notices.note("The open run " + path + how + reason,
+                          {closing.fault, std::move(run_id)});
     if (closing.as != LeftClosing::As::complete)
         why_not_ = Error{closing.fault, std::move(reason), {}, {}};
     co_return Result<void>{};

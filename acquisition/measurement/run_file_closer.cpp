@@ -37,10 +37,12 @@ Task<Result<void>> RunFileCloser::close(bool complete, std::string reason) {
     }
 }
 
-Task<Result<void>> RunFileCloser::close_for_now(bool complete, std::string reason) {
+Task<Result<void>>
+RunFileCloser::close_for_now(std::string run_id, bool complete, std::string reason) {
     Result<void> closed = co_await journal_.close(complete, std::move(reason));
     if (closed || closed.error().fault != Fault::busy) co_return closed;
-    notices_.note("The run is closed and safe. " + closed.error().detail + ".");
+    notices_.note("The run is closed and safe. " + closed.error().detail + ".",
+                  {Fault::none, std::move(run_id)});
     co_await journal_.let_go();
     co_return Result<void>{};
 }

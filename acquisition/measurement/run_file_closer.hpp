@@ -28,8 +28,9 @@ public:
 
     /// The same without waiting: at a start, and after an order about a closed run, nobody waits
     /// for a reader. wait_for_readers() does what is left.
+    /// @param run_id  of the file, for the log
     /// @errors as Journal::close, but for Fault::busy.
-    Task<Result<void>> close_for_now(bool complete, std::string reason);
+    Task<Result<void>> close_for_now(std::string run_id, bool complete, std::string reason);
     /// A closed run has its certificate once it is one file: its bytes are what the certificate
     /// names. Returns when those in `folder` are, or when the daemon ends.
     Task<void> wait_for_readers(std::string folder);

@@ -81,6 +81,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     if (config_.axis.angle)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
+    notices_.ask_for_run([this] { return tests_.open_id(); });
     sign_with(std::move(parts.key));
 }
 
@@ -212,16 +213,16 @@ void Station::on_instrument_state(const InstrumentView& view) {
     const auto id = roles_.autocollimator;
     const bool sees_faces = id && view.name == supervisor_.channel(*id).instrument_name;
     const std::string how = sees_faces ? news_of_autocollimator(view) : news_of_state(view);
-    if (!how.empty()) record_instrument(view.name + " " + how + ".", Fault::none);
+    if (!how.empty()) record_instrument(view.name + " " + how + ".", {Fault::none, {}, view.name});
 }
 
 void Station::on_instrument_note(const InstrumentView& view) {
-    record_instrument(view.name + ": " + view.last_note, view.last_fault);
+    record_instrument(view.name + ": " + view.last_note, {view.last_fault, {}, view.name});
 }
 
-void Station::record_instrument(const std::string& sentence, Fault fault) {
-    note(sentence);
-    if (takes_records() || drift_open()) record(EventKind::instrument, sentence, fault);
+void Station::record_instrument(const std::string& sentence, const LogFacts& about) {
+    notices_.note(sentence, about);
+    if (takes_records() || drift_open()) record(EventKind::instrument, sentence, about.fault);
 }
 
 void Station::on_trigger(const TriggerEvent& event) {

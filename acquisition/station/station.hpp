@@ -141,7 +141,7 @@ private:
     Task<void> serve_port();
     Task<void> try_out_sleep_lock();
     void keep_reading(const Sample& sample);
-    void record_instrument(const std::string& sentence, Fault fault);
+    void record_instrument(const std::string& sentence, const LogFacts& about);
     [[nodiscard]] static std::string news_of_state(const InstrumentView& view); ///< "is faulty"
     /// What its change of state is worth: nothing where it sees no face on the way.
     [[nodiscard]] std::string news_of_autocollimator(const InstrumentView& view);

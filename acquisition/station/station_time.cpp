@@ -55,7 +55,7 @@ void Station::judge_environment() {
     if (!config_.environment.stated()) return;
     const MonotonicTime now = scheduler_.now();
     if (const auto news = readings_.judge_limits(channels().environment(now), now))
-        record_instrument(news->sentence, news->fault);
+        record_instrument(news->sentence, {news->fault});
 }
 
 void Station::look_at_the_time() {

@@ -1,48 +1,52 @@
 #include "drivers/loop/line_writer.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <condition_variable>
+#include <deque>
 #include <mutex>
 #include <poll.h>
-#include <string>
+#include <syslog.h>
 #include <unistd.h>
+#include <utility>
 
 namespace axiscal {
 
 /// What both sides know. The thread holds it, too: it may outlive its writer.
 struct LineWriter::Queue {
-    explicit Queue(int to)
-        : descriptor{to} {}
+    explicit Queue(Deliver to)
+        : deliver{std::move(to)} {}
 
-    void put(std::string_view line);
+    void put(LogLine line);
     void drop_oldest();
-    bool take(std::string& batch);
+    bool take(std::deque<LogLine>& batch);
     void serve();
 
-    const int descriptor;
+    const Deliver deliver;
     std::mutex mutex; ///< guards the rest
     std::condition_variable wake, left;
-    std::string kept;
-    std::size_t missing = 0; ///< lines that went before the first one kept
+    std::deque<LogLine> kept;
+    std::size_t kept_bytes = 0; ///< of their text
+    std::size_t missing = 0;    ///< lines that went before the first one kept
     bool finishing = false, ended = false;
 };
 
 namespace {
 
-std::string word_of(std::size_t missing) {
-    if (missing == 0) return {};
-    return "axiscald: " + std::to_string(missing) +
-           " lines are missing here: whoever reads this log did not take them in time\n";
+LogLine word_of(std::size_t missing) {
+    std::string text =
+        "axiscald: " + std::to_string(missing) +
+        " lines are missing here: whoever reads this log did not take them in time\n";
+    return {std::move(text), LOG_WARNING, {}};
 }
 
-/// A descriptor that is closed or refuses takes nothing more of this; there is nobody to tell.
+} // namespace
+
 void write_all(int descriptor, std::string_view text) {
     while (!text.empty()) {
         const ssize_t count = ::write(descriptor, text.data(), text.size());
         if (count >= 0) {
             text.remove_prefix(static_cast<std::size_t>(count));
-        } else if (errno == EAGAIN) { // somebody who shares it made it so
+        } else if (errno == EAGAIN) {
             ::pollfd ready{descriptor, POLLOUT, 0};
             (void)::poll(&ready, 1, -1);
         } else if (errno != EINTR) {
@@ -51,50 +55,50 @@ void write_all(int descriptor, std::string_view text) {
     }
 }
 
-} // namespace
-
 /// A line longer than all that may be kept is kept alone.
-void LineWriter::Queue::put(std::string_view line) {
+void LineWriter::Queue::put(LogLine line) {
     {
         const std::lock_guard lock{mutex};
         if (finishing) return;
-        while (!kept.empty() && kept.size() + line.size() > most_kept_bytes)
+        while (!kept.empty() && kept_bytes + line.text.size() > most_kept_bytes)
             drop_oldest();
-        kept.append(line);
+        kept_bytes += line.text.size();
+        kept.push_back(std::move(line));
     }
     wake.notify_one();
 }
 
-/// A sixteenth of the room at once: dropped one by one, each line would move all the others.
 void LineWriter::Queue::drop_oldest() {
-    const std::size_t newline = kept.find('\n', std::min(most_kept_bytes / 16, kept.size() - 1));
-    const auto end = kept.begin() + static_cast<std::ptrdiff_t>(
-                                        newline == std::string::npos ? kept.size() : newline + 1);
-    missing += static_cast<std::size_t>(std::count(kept.begin(), end, '\n'));
-    kept.erase(kept.begin(), end);
+    kept_bytes -= kept.front().text.size();
+    kept.pop_front();
+    ++missing;
 }
 
 /// Waits for lines. False when there are none and will be none.
-bool LineWriter::Queue::take(std::string& batch) {
+bool LineWriter::Queue::take(std::deque<LogLine>& batch) {
+    batch.clear();
     std::unique_lock lock{mutex};
     wake.wait(lock, [this] { return finishing || !kept.empty(); });
-    batch.clear();
     batch.swap(kept);
-    batch.insert(0, word_of(missing));
-    missing = 0;
+    kept_bytes = 0;
+    if (missing != 0) batch.push_front(word_of(std::exchange(missing, 0)));
     ended = batch.empty();
     return !ended;
 }
 
 void LineWriter::Queue::serve() {
-    std::string batch;
+    std::deque<LogLine> batch;
     while (take(batch))
-        write_all(descriptor, batch);
+        for (const LogLine& line : batch)
+            deliver(line);
     left.notify_all();
 }
 
 LineWriter::LineWriter(int descriptor)
-    : queue_{std::make_shared<Queue>(descriptor)}
+    : LineWriter{[descriptor](const LogLine& line) { write_all(descriptor, line.text); }} {}
+
+LineWriter::LineWriter(Deliver deliver)
+    : queue_{std::make_shared<Queue>(std::move(deliver))}
     , thread_{[queue = queue_] { queue->serve(); }} {}
 
 LineWriter::~LineWriter() {
@@ -106,11 +110,11 @@ LineWriter::~LineWriter() {
     if (ended)
         thread_.join();
     else
-        thread_.detach(); // it hangs in write(2) and goes with the process
+        thread_.detach(); // it hangs in the delivery and goes with the process
 }
 
-void LineWriter::put(std::string_view line) {
-    queue_->put(line);
+void LineWriter::put(LogLine line) {
+    queue_->put(std::move(line));
 }
 
 } // namespace axiscal

@@ -38,6 +38,12 @@ def journal(unit="axiscald"):
     return run("journalctl", "-u", unit, "--no-pager", "-o", "cat")
 
 
+def entries(*fields):
+    """What the daemon itself told with all these fields, and all that the journal knows of each."""
+    told = run("journalctl", "-u", "axiscald", "-t", "axiscald", "--no-pager", "-o", "json", *fields)
+    return [json.loads(line) for line in told.splitlines()]
+
+
 def told_of(name, since, last):
     """Lines of the journal about an instrument, once one of them ends so."""
     lines = [line for line in journal().splitlines()[since:] if f"{name} is " in line or f"{name}:" in line]
@@ -312,6 +318,21 @@ def sensor_unplugged(station):
     print("\n".join(told))
     gone = [line for line in told if any(f"material is {state}." in line for state in GONE)]
     expect(len(gone) == 1, f"that it is gone is told {len(gone)} times: {told}")
+
+
+@check("JournalIsSearchedByFaultRunAndInstrument")
+def journal_fields(station):
+    """docs/install.md. The run and the sensor are those of the check before; what is about nothing has no such field."""
+    run_id = station.run()["id"]
+    refused = entries("AXISCAL_FAULT=environment_stale", f"AXISCAL_RUN={run_id}")
+    expect(refused and all("is refused: " in one["MESSAGE"] for one in refused), f"{refused}")
+    of_sensor = entries("AXISCAL_INSTRUMENT=material")
+    expect(any(one["MESSAGE"] == "material is available." for one in of_sensor), f"{of_sensor}")
+    ready = next(one for one in entries() if one["MESSAGE"] == "ready")
+    expect(not any(name.startswith("AXISCAL_") for name in ready), f"{ready}")
+    for one in (*refused, *of_sensor, ready):
+        named = {name: one.get(name) for name in ("PRIORITY", "SYSLOG_FACILITY", "_SYSTEMD_UNIT")}
+        expect(named == {"PRIORITY": "6", "SYSLOG_FACILITY": "3", "_SYSTEMD_UNIT": "axiscald.service"}, f"{one}")
 
 
 @check("RunGoesOnAfterTheWatchdogKilledTheDaemon")

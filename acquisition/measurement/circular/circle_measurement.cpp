@@ -146,7 +146,7 @@ void CircleMeasurement::keep(StreamChunk chunk) {
     if (context_.journal.note(std::move(chunk))) return;
     if (dropped_++ > 0) return;
     const std::string message = "The disk does not keep up: readings of the ballbar are dropped.";
-    context_.notices.note(message);
+    context_.notices.note(message, {Fault::not_durable});
     record(EventKind::instrument, message, Fault::not_durable);
 }
 
@@ -159,7 +159,7 @@ void CircleMeasurement::judge_instruments() {
     std::string exchanged = exchanged_instrument(header_, serials_of_circles(context_));
     if (exchanged.empty()) return;
     resumed_ = false; // told once
-    context_.notices.note(exchanged);
+    context_.notices.note(exchanged, {Fault::unknown_instrument});
     end(false, std::move(exchanged), Fault::unknown_instrument);
 }
 

@@ -74,7 +74,7 @@ Error CircleMeasurement::refused(const CircleVerdict& verdict, Fault fault, Trig
 
 void CircleMeasurement::refuse(std::uint16_t sequence, Error error, TriggerOrigin origin) {
     if (origin == TriggerOrigin::manual)
-        context_.notices.note("Refused: " + describe(error));
+        context_.notices.note("Refused: " + describe(error), {error.fault});
     else
         context_.cnc.refuse_on_port(sequence, error);
     refusal_ = std::move(error);
@@ -119,7 +119,7 @@ void CircleMeasurement::settle(const Result<JournalReceipt>& receipt,
                                TriggerOrigin origin) {
     if (!receipt) {
         order_.failed();
-        context_.notices.note("Not durable: " + describe(receipt.error()));
+        context_.notices.note("Not durable: " + describe(receipt.error()), {Fault::not_durable});
         return refuse(sequence, Error{Fault::not_durable, describe(receipt.error()), {}, {}},
                       origin);
     }
@@ -147,10 +147,12 @@ CircleMeasurement::close(std::shared_ptr<CircleMeasurement> test, RunEnding endi
     RunState& run = test->run_;
     const Result<void> closed = co_await context.files.close(ending.complete, ending.reason);
     if (!closed)
-        context.notices.note("The run file could not be closed: " + describe(closed.error()));
+        context.notices.note("The run file could not be closed: " + describe(closed.error()),
+                             {closed.error().fault});
     context.notices.note(
         "Run " + run.run_id +
-        (ending.complete ? " is complete." : " is closed as incomplete: " + ending.reason));
+            (ending.complete ? " is complete." : " is closed as incomplete: " + ending.reason),
+        {fault});
     run.complete = ending.complete;
     run.reason = std::move(ending.reason);
     run.fault = fault;

@@ -119,7 +119,8 @@ Task<void> DriftMeasurement::close(bool complete, std::string reason) {
     run_.complete = complete && closed;
     context_.notices.note(
         "Drift test " + run_.run_id +
-        (run_.complete ? " is complete." : " is closed as incomplete: " + reason));
+            (run_.complete ? " is complete." : " is closed as incomplete: " + reason),
+        {closed ? Fault::none : closed.error().fault});
     run_.reason = std::move(reason);
     run_.stage = RunState::Stage::closed;
     if (run_.complete) co_await certify();

@@ -168,7 +168,7 @@ void PositioningMeasurement::perform(const Refuse& action) {
 /// arming, that ends later the run tells.
 void PositioningMeasurement::refused_manually(const Refuse& action, Error error) {
     if (answering_) return;
-    note("Refused: " + describe(error));
+    context_.notices.note("Refused: " + describe(error), {error.fault});
     (action.sequence == 0 ? not_tied_ : refusal_) = std::move(error);
 }
 
@@ -205,9 +205,14 @@ void PositioningMeasurement::perform(Close action) {
 Task<void> PositioningMeasurement::close(Self test, Close action) {
     RunState& run = test->run_;
     const Result<void> closed = co_await test->context_.files.close(action.complete, action.reason);
-    if (!closed) test->note("The run file could not be closed: " + describe(closed.error()));
-    test->note("Run " + run.run_id +
-               (action.complete ? " is complete." : " is closed as incomplete: " + action.reason));
+    Notices& notices = test->context_.notices;
+    if (!closed)
+        notices.note("The run file could not be closed: " + describe(closed.error()),
+                     {closed.error().fault});
+    notices.note(
+        "Run " + run.run_id +
+            (action.complete ? " is complete." : " is closed as incomplete: " + action.reason),
+        {action.fault});
     run.complete = action.complete;
     run.reason = std::move(action.reason);
     run.fault = action.fault;

@@ -62,7 +62,7 @@ std::string PositioningMeasurement::runs_folder() const {
 }
 
 void PositioningMeasurement::note(const std::string& sentence) const {
-    context_.notices.note(sentence);
+    context_.notices.note(sentence, {Fault::none, run_.run_id});
 }
 
 void PositioningMeasurement::record(EventKind kind, std::string sentence, Fault fault) {

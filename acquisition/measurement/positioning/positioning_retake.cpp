@@ -160,7 +160,7 @@ Task<Result<int>> PositioningMeasurement::exclude(RevisionRequest request) {
 Task<Result<void>> PositioningMeasurement::close_again() {
     if (taken_over_) note_another_boot(context_, header_.boot_id, context_.boot_id);
     written_ = false;
-    auto closed = co_await context_.files.close_for_now(true, run_.reason);
+    auto closed = co_await context_.files.close_for_now(run_.run_id, true, run_.reason);
     if (!closed) co_return closed; // the disk is waited for
     written_ = true;
     run_.certificate.clear();

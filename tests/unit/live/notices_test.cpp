@@ -3,6 +3,13 @@
 #include "drivers/loop/virtual_scheduler.hpp"
 
 #include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace axiscal::notices_test {
 namespace {
@@ -16,6 +23,30 @@ struct Board {
         const std::string& last = notices.last().back();
         return last.substr(last.find(' ') + 1);
     }
+};
+
+/// Of each line that is logged while it lives, what it is about.
+class Log {
+public:
+    Log()
+        : before_{spdlog::default_logger()} {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>("notices", sink_));
+    }
+    ~Log() { spdlog::set_default_logger(before_); }
+    Log(const Log&) = delete;
+    Log& operator=(const Log&) = delete;
+    [[nodiscard]] LogFacts last() const { return sink_->seen.back(); }
+
+private:
+    struct Sink final : spdlog::sinks::base_sink<std::mutex> {
+        void sink_it_(const spdlog::details::log_msg& /*message*/) override {
+            seen.push_back(LogAbout::of_this_thread());
+        }
+        void flush_() override {}
+        std::vector<LogFacts> seen;
+    };
+    std::shared_ptr<Sink> sink_ = std::make_shared<Sink>();
+    std::shared_ptr<spdlog::logger> before_;
 };
 
 TEST(Notices, KeepsTheLastTwentyWithTheirTimes) {
@@ -60,6 +91,35 @@ TEST(Notices, MakesWhatAClientSentPrintable) {
     Board board;
     board.notices.note("a client said \xff\xfe");
     EXPECT_EQ(board.newest().find('\xff'), std::string::npos);
+}
+
+TEST(Notices, TellTheLogTheFaultAndTheInstrumentOfASentenceAndNothingOfTheNextLine) {
+    const Log log;
+    Board board;
+    board.notices.note("laser: no beam", {Fault::beam_lost, {}, "laser"});
+    EXPECT_EQ(log.last().fault, Fault::beam_lost);
+    EXPECT_EQ(log.last().instrument, "laser");
+    EXPECT_EQ(log.last().run, "");
+    spdlog::info("another word");
+    EXPECT_FALSE(log.last().any());
+    board.notices.note_refusal(7, Error{Fault::not_still, "the axis moves", {}, {}});
+    EXPECT_EQ(log.last().fault, Fault::not_still);
+    board.notices.note_port(Fault::io, "192.168.1.1:502 is taken");
+    EXPECT_EQ(log.last().fault, Fault::io);
+}
+
+TEST(Notices, TellTheLogTheRunThatIsOpenUnlessTheSentenceIsAboutAnother) {
+    const Log log;
+    Board board;
+    std::string open = "run-1";
+    board.notices.ask_for_run([&open] { return open; });
+    board.notices.note("a point");
+    EXPECT_EQ(log.last().run, "run-1");
+    board.notices.note("a certificate", {Fault::none, "run-0"});
+    EXPECT_EQ(log.last().run, "run-0");
+    open.clear();
+    board.notices.note("rest");
+    EXPECT_EQ(log.last().run, "");
 }
 
 } // namespace
