@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""A whole calibration by the page at the machine alone: linuxcnc_page.py SOURCE_DIR BUILD_DIR SHAPE
+
+LinuxCNC runs the part program and waits at its datum. A real browser is paired, arms the run, sees each point come and
+names the certificate; the figures are judged as those of a run that was armed at a terminal."""
+import json
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+from browser import Browser
+from linuxcnc_bench import FIVE_TARGETS, free_port, run_in_bench, until
+from linuxcnc_figures import judge_E, judge_points
+
+ARM = "document.querySelector('[data-order=arm]')"
+
+
+def type_into_sheet(page, text):
+    page.wait("the sheet is open", lambda: page.ask("document.querySelector('#run_sheet input') === document.activeElement"))
+    page.keys(text)
+    page.click("#run_sheet button[type=submit]")
+    page.wait("the sheet is gone", lambda: page.ask("document.querySelector('#run_sheet').hidden"))
+
+
+def calibrate(bench):
+    port = free_port()
+    bench.changes.update(FIVE_TARGETS)
+    bench.changes['group = ""\nport = 0\n'] = f'group = ""\nport = {port}\n'
+    bench.environment["AXISCAL_PAGE_PATH"] = str(bench.source / "acquisition/console/page")
+    daemon, cnc, program = bench.make_ready()
+    until(bench.may_arm, "every pre-flight check to hold", [daemon, cnc])
+    plan = json.loads(bench.axiscal("program", "--json", "--config", bench.scratch / "station.toml", "--out", bench.scratch / "again"))
+    with Browser() as page:
+        page.open(f"http://127.0.0.1:{port}/")
+        page.wait("the page shows the station", lambda: page.text("#now_reading"))
+        page.keys("g", "r")
+        page.wait("this browser may only look", lambda: "axiscal pair" in (page.ask(f"{ARM}.getAttribute('title')") or ""))
+        page.click("[data-order=arm]")
+        type_into_sheet(page, bench.axiscal("pair", "panel").split("Code:")[1].split("counts")[0].strip())
+        page.wait("a run may be armed", lambda: page.ask(f"{ARM}.getAttribute('aria-disabled') === null"))
+        page.click("[data-order=arm]")
+        type_into_sheet(page, str(plan["programs"][0]["datum_mm"]))
+        page.wait_for_text("#run_so_far", "10 of 10", 240)
+        page.wait_for_text("#run_so_far", "certificate", 60)
+        drawn = page.ask("document.querySelectorAll('#run_plot .positive, #run_plot .negative').length")
+        assert drawn == 10, f"{drawn} points are drawn"
+        assert not page.complaints(), "the console of the browser is not silent"
+    folder = bench.reach_the_end(cnc)
+    assert "armed by page panel" in "\n".join(bench.status()["notes"]), bench.status()["notes"]
+    judge_points(next(folder.glob("*.axiscal")), 10)
+    print(judge_E(json.loads((folder / "certificate.json").read_text()), bench.truth(program)))
+
+
+sys.exit(run_in_bench(calibrate))
