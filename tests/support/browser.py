@@ -107,6 +107,22 @@ class Browser:
     def hold(self, selector, seconds):
         ActionChains(self.driver).click_and_hold(self.element(selector)).pause(seconds).release().perform()
 
+    def hold_key(self, key, seconds):
+        ActionChains(self.driver).key_down(key).pause(seconds).key_up(key).perform()
+
+    def processes(self):
+        """The browser's own, not its driver."""
+        found = []
+        for folder in os.listdir("/proc"):
+            try:
+                with open(f"/proc/{folder}/cmdline", "rb") as file:
+                    words = file.read()
+            except OSError:
+                continue  # no process, or gone meanwhile
+            if folder.isdigit() and f"--user-data-dir={self.folder}/".encode() in words and b"chromedriver" not in words.split(b"\0")[0]:
+                found.append(int(folder))
+        return found
+
     def keys(self, *keys):
         ActionChains(self.driver).send_keys(*keys).perform()
 

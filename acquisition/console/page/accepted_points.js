@@ -83,7 +83,7 @@ export class AcceptedPoints {
 }
 
 /** @param {Point} point */
-export function place_of(point) {
+function place_of(point) {
     return `${point.target}/${point.direction}/${point.approach}`;
 }
 

@@ -1,6 +1,6 @@
 // Hold to confirm: what cannot be undone takes a held finger, not a tap. No DOM.
 
-export const hold_ms = 800;
+const hold_ms = 800;
 /** A page that was frozen while the finger was down has not seen it held. */
 const longest_look_ms = 300;
 

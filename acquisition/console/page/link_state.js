@@ -3,9 +3,9 @@
 import { contact_limit_ms } from "./freshness.js";
 
 /** A break that is shorter is not worth a strip; the values are dimmed before. Since the last word of the station. */
-export const strip_after_ms = 3000;
+const strip_after_ms = 3000;
 /** The strip stays so long after the contact is back: it must not flap. */
-export const strip_stays_ms = 2000;
+const strip_stays_ms = 2000;
 const first_pause_ms = 250;
 const longest_pause_ms = 4000;
 

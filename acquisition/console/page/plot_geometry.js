@@ -40,7 +40,7 @@ export function value_range(values, most) {
  * @param {Drawn} drawn @param {number | null} next
  * @returns {{order: {target: number, place: number}[], by_place: boolean}} from left to right
  */
-export function places_of({ judged, nominals }, next) {
+function places_of({ judged, nominals }, next) {
     const last = Math.max(-1, next ?? -1, ...judged.map(({ point }) => point.target));
     const by_place = nominals !== null && nominals.length > last && nominals.length > 0;
     const places = by_place ? nominals : Array.from({ length: Math.max(2, last + 1) }, (_, target) => target);

@@ -13,7 +13,7 @@ import { so_far_lines } from "./so_far_text.js";
 const axis_values = Object.freeze(["position_mm", "deviation_um", "displacement_mm", "spread_um", "strength_percent"]);
 
 /** @param {any} status @param {string} role @returns {any} what the axis, or the ballbar, is read by; null: nothing */
-export function reading_channel(status, role) {
+function reading_channel(status, role) {
     return status.channels.find((one) => one.used && one.role === role) ?? null;
 }
 
@@ -40,7 +40,7 @@ const shown_if = (value, mark) => (mark === "lost" || mark === "none" ? null : v
  * @param {any} channel @param {KeptValues} kept @param {Heard} heard @param {Catalogue} words
  * @returns {Shown}
  */
-export function channel_shown(channel, kept, heard, words) {
+function channel_shown(channel, kept, heard, words) {
     const { mark, age_s } = judge(channel, heard);
     const { factor, decimals, unit } = shop_unit(channel.unit);
     const value = shown_if(kept.values.get(key_of(channel)) ?? null, mark);
@@ -94,7 +94,7 @@ export function axis_shown(status, kept, heard, words) {
 }
 
 /** @returns {boolean} circles are read by the ballbar: the axis has no place then that could be told */
-export function shows_ballbar(status) {
+function shows_ballbar(status) {
     const circular = status.run !== null && status.run.pass === "circular" && status.run_open === true;
     return reading_channel(status, "ballbar") !== null && (circular || reading_channel(status, "axis") === null);
 }

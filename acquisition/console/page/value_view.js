@@ -12,7 +12,7 @@ function part(parent, selector) {
 }
 
 /** @param {Shown} shown @param {Catalogue} words @returns {string} "● good · age 0 s" */
-export function quality_text(shown, words) {
+function quality_text(shown, words) {
     return `${shapes[shown.mark]} ${shown.word} · ${words.text("age_words", { age: shown.age })}`;
 }
 

@@ -1,9 +1,9 @@
 // The first touch after waking only wakes: whoever wakes a dark screen must not stop a run by it. No DOM.
 
 /** A screen that nobody touched for so long may be dark. */
-export const idle_limit_ms = 120000;
+const idle_limit_ms = 120000;
 /** Ticks come every 80 ms; a longer hole is a computer that slept, or a page that was frozen. */
-export const hole_limit_ms = 2000;
+const hole_limit_ms = 2000;
 
 export class Wakefulness {
     /** @param {number} now  ms of a clock that goes on while the computer sleeps */

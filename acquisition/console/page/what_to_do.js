@@ -13,7 +13,7 @@
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 
-export const rank_shapes = Object.freeze({ stop: "✕", look: "▲", note: "–" });
+const rank_shapes = Object.freeze({ stop: "✕", look: "▲", note: "–" });
 
 /** @param {any} status  of a daemon of before, too, which sends no list @returns {Task[]} what holds the CNC first */
 export function what_to_do(status) {

@@ -11,16 +11,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
 from browser import Browser
 from linuxcnc_bench import FIVE_TARGETS, free_port, run_in_bench, until
 from linuxcnc_figures import judge_E, judge_points
-
-ARM = "document.querySelector('[data-order=arm]')"
-
-
-def type_into_sheet(page, text):
-    page.wait("the sheet is open", lambda: page.ask("document.querySelector('#run_sheet input') === document.activeElement"))
-    page.keys(text)
-    page.click("#run_sheet button[type=submit]")
-    page.wait("the sheet is gone", lambda: page.ask("document.querySelector('#run_sheet').hidden"))
-
+from page_hands import arm, code_of, pair
 
 def calibrate(bench):
     port = free_port()
@@ -33,13 +24,8 @@ def calibrate(bench):
     with Browser() as page:
         page.open(f"http://127.0.0.1:{port}/")
         page.wait("the page shows the station", lambda: page.text("#now_reading"))
-        page.keys("g", "r")
-        page.wait("this browser may only look", lambda: "axiscal pair" in (page.ask(f"{ARM}.getAttribute('title')") or ""))
-        page.click("[data-order=arm]")
-        type_into_sheet(page, bench.axiscal("pair", "panel").split("Code:")[1].split("counts")[0].strip())
-        page.wait("a run may be armed", lambda: page.ask(f"{ARM}.getAttribute('aria-disabled') === null"))
-        page.click("[data-order=arm]")
-        type_into_sheet(page, str(plan["programs"][0]["datum_mm"]))
+        pair(page, code_of(bench.axiscal("pair", "panel")))
+        arm(page, plan["programs"][0]["datum_mm"])
         page.wait_for_text("#run_so_far", "10 of 10", 240)
         page.wait_for_text("#run_so_far", "certificate", 60)
         drawn = page.ask("document.querySelectorAll('#run_plot .positive, #run_plot .negative').length")

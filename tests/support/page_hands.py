@@ -1,0 +1,57 @@
+"""What a finger does on the page at the machine. The first touch after a pause of this computer only wakes the page, so
+each touch is repeated until what it is for has come."""
+
+KEYS = {"now": "n", "run": "r", "more": "m"}
+SHEET_HIDDEN = "document.querySelector('#run_sheet').hidden"
+
+
+def go(page, screen):
+    shown = f"!document.querySelector('#screen_{screen}').hidden"
+    page.wait(f"the screen {screen}", lambda: page.ask(shown) or page.keys("g", KEYS[screen]))
+
+
+def is_on(page, order):
+    return page.ask(f"document.querySelector('[data-order={order}]').getAttribute('aria-disabled') === null")
+
+
+def open_sheet(page, order):
+    page.wait(f"the sheet of {order}", lambda: not page.ask(SHEET_HIDDEN) or page.click(f"[data-order={order}]"))
+
+
+def send_sheet(page, text):
+    """`text` in the first field, and the order is given."""
+
+    def sent():
+        if page.ask(SHEET_HIDDEN):
+            return True
+        field = page.driver.find_element("css selector", "#run_sheet input")
+        if field.get_attribute("value") != text:
+            field.clear()
+            field.send_keys(text)
+        elif page.ask("!document.querySelector('#run_sheet [type=submit]').disabled"):
+            page.click("#run_sheet [type=submit]")
+        return False
+
+    page.wait("the order of the sheet is taken", sent)
+
+
+def pair(page, code):
+    """By the code that the command line shows."""
+    go(page, "run")
+    page.wait("this browser may only look",
+              lambda: page.ask("document.querySelector('[data-order=arm]').title.includes('axiscal pair')"))
+    open_sheet(page, "arm")
+    page.wait("the sheet asks for the code", lambda: page.ask("document.querySelector('#run_sheet input')?.inputMode === 'numeric'"))
+    send_sheet(page, code)
+    page.wait("its orders are its own", lambda: not page.ask("document.querySelector('[data-order=arm]').title.includes('axiscal pair')"))
+
+
+def code_of(shown):
+    """The eight digits in what `axiscal pair` prints."""
+    return shown.split("Code:")[1].split("counts")[0].strip()
+
+
+def arm(page, datum_mm):
+    page.wait("a run may be armed", lambda: is_on(page, "arm"))
+    open_sheet(page, "arm")
+    send_sheet(page, str(datum_mm))
