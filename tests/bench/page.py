@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""Rows of tools/bench: the page at the machine, and what a client of its events costs the daemon.
+
+page.py PROGRAM-FOLDER
+
+The station measures on the simulated machine of tests/simulation; the CNC holds in mid-run, the laser goes on. "First screen" is all that
+a browser asks for before the first value stands there, with the heads of HTTP, against the station's own status alone. The cost of a
+client is the daemon's processor time with ten that read GET /v1/events?stream=200 (at most 20 frames a second each), less that without any,
+a tenth of it; in the same run, one after the other. The page itself runs in Debian's Chromium: its heap after a collection at the
+beginning and at the end of some minutes, and the processor time of all its processes.
+"""
+import os
+import socket
+import sys
+import threading
+import time
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parents[2]
+os.environ.setdefault("AXISCAL_SOURCE", str(SOURCE))
+os.environ["AXISCAL_PATH"] = str(Path(sys.argv[1]).resolve())
+sys.path[:0] = [str(SOURCE / "tests/browser")]
+from page_bench import bench, opened, with_page
+
+CLIENTS, WATCH_S = 10, float(os.environ.get("AXISCAL_BENCH_CLIENT_SECONDS", "20"))
+PAGE_S = float(os.environ.get("AXISCAL_BENCH_PAGE_SECONDS", "300"))
+MOST_BYTES, MOST_CLIENT_PERCENT, MOST_PAGE_PERCENT, MOST_GROWTH_KIB = 150_000, 0.5, 10, 512
+TICKS = os.sysconf("SC_CLK_TCK")
+
+
+def spent_s(pids):
+    """Processor time of these processes, of all their threads."""
+    total = 0
+    for pid in pids:
+        try:
+            fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+        except FileNotFoundError:
+            continue  # ended meanwhile
+        total += int(fields[11]) + int(fields[12])
+    return total / TICKS
+
+
+def percent_of_a_core(pids, seconds):
+    before, began = spent_s(pids), time.monotonic()
+    time.sleep(seconds)
+    return 100 * (spent_s(pids) - before) / (time.monotonic() - began)
+
+
+class Listener(threading.Thread):
+    """Reads the events of the station as fast as they come."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.wire = socket.create_connection(("127.0.0.1", port))
+        self.wire.sendall(b"GET /v1/events?stream=200 HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        self.frames = 0
+
+    def run(self):
+        while data := self.wire.recv(1 << 16):
+            self.frames += data.count(b"event: ")
+
+
+def cost_of_a_client(b, port):
+    """(percent of a core for each client, frames a second of one)."""
+    daemon = [b.processes["axiscald"].pid]
+    alone = percent_of_a_core(daemon, WATCH_S)
+    listeners = [Listener(port) for _ in range(CLIENTS)]
+    for one in listeners:
+        one.start()
+    time.sleep(1)
+    before = sum(one.frames for one in listeners)
+    heard = percent_of_a_core(daemon, WATCH_S)
+    frames = (sum(one.frames for one in listeners) - before) / CLIENTS / WATCH_S
+    for one in listeners:
+        one.wire.shutdown(socket.SHUT_RDWR)
+    return (heard - alone) / CLIENTS, frames
+
+
+def heap_kib(page):
+    page.tell("HeapProfiler.collectGarbage")
+    return page.tell("Runtime.getHeapUsage")["usedSize"] / 1024
+
+
+def watch_page(address):
+    with opened(address) as page:
+        loaded = page.ask("performance.getEntriesByType('resource').concat(performance.getEntriesByType('navigation'))"
+                          ".filter((one) => !one.name.includes('/v1/')).reduce((sum, one) => sum + one.transferSize, 0)")
+        time.sleep(10)  # what is made once is made
+        began = heap_kib(page)
+        percent = percent_of_a_core(page.processes(), PAGE_S)
+        return loaded, percent, heap_kib(page) - began
+
+
+def row(name, this, limit, beside, ratio, goal, met):
+    print(f"{name} | {this} | {limit} | {beside} | {ratio} | {goal}{'' if met else '  MISSED'}")
+    return met
+
+
+def measure(b):
+    address = with_page(b)
+    b.begin_run(hold_after=3)
+    b.wait_for_points(3)
+    status_bytes = len(str(b.status()))
+    client, frames = cost_of_a_client(b, b.station["console"]["port"])
+    loaded, percent, growth = watch_page(address)
+    met = [
+        row("page: first screen", f"{loaded / 1000:.1f} kB", f"{status_bytes / 1000:.1f} kB (one status)", "-", f"{loaded / status_bytes:.0f}",
+            f"<= {MOST_BYTES // 1000} kB", loaded <= MOST_BYTES),
+        row("page: the daemon for each client of its events", f"{client:.2f} % of a core", "-", f"{frames:.1f} frames a second", "-",
+            f"<= {MOST_CLIENT_PERCENT} %", client <= MOST_CLIENT_PERCENT),
+        row("page: the browser, all processes", f"{percent:.1f} % of a core", "-", f"over {PAGE_S:.0f} s", "-", f"<= {MOST_PAGE_PERCENT} %",
+            percent <= MOST_PAGE_PERCENT),
+        row("page: growth of its heap", f"{growth:.0f} KiB", "-", f"over {PAGE_S:.0f} s", "-", f"<= {MOST_GROWTH_KIB} KiB", growth <= MOST_GROWTH_KIB),
+    ]
+    return 0 if all(met) else 1
+
+
+def main():
+    with bench.Bench() as b:
+        return measure(b)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
