@@ -218,7 +218,8 @@ class Circling(Deed):
         told = [note for note in status["notes"] if "No certificate for run" in note]
         if status["run"]:  # none after a death behind the closing; then the notes say it
             told.append(status["run"]["sentence"])
-        refused = next((words for words in told if "was not seen: half of feed_in" in words), None)
+        reasons = "was not seen: half of feed_in", "of path more than programmed"  # not seen, or seen too late
+        refused = next((words for words in told if any(reason in words for reason in reasons)), None)
         if refused is None:
             return False
         lost = [row["missing"] for row in self.rows("stream_block") if row["before"] == "gap"]
