@@ -20,7 +20,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 os.environ.setdefault("AXISCAL_SOURCE", str(SOURCE))
 os.environ["AXISCAL_PATH"] = str(Path(sys.argv[1]).resolve())
 sys.path[:0] = [str(SOURCE / "tests/browser")]
-from page_bench import bench, opened, with_page
+from page_bench import bench, in_mid_run, opened
 
 CLIENTS, WATCH_S = 10, float(os.environ.get("AXISCAL_BENCH_CLIENT_SECONDS", "20"))
 PAGE_S = float(os.environ.get("AXISCAL_BENCH_PAGE_SECONDS", "300"))
@@ -97,9 +97,7 @@ def row(name, this, limit, beside, ratio, goal, met):
 
 
 def measure(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     status_bytes = len(str(b.status()))
     client, frames = cost_of_a_client(b, b.station["console"]["port"])
     loaded, percent, growth = watch_page(address)

@@ -7,7 +7,7 @@ import time
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import ABORT_S, arm, bench, expect, go, is_on, opened, pair_with, sentence, wait_until, with_page
+from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, opened, pair_with, sentence, wait_until, with_page
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -18,9 +18,7 @@ STRUCK = "getComputedStyle(document.querySelector('#now_reading .number')).textD
 
 @sentence("FirstScreenIsSmallAndAsksNoOtherHost")
 def first_screen(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         page.wait_for_text("#now_so_far", "3 of 20")
         expect("mm" in page.text("#now_reading .big"), page.text("#now_reading"))
@@ -35,9 +33,7 @@ def first_screen(b):
 
 @sentence("SilentStationIsStruckThroughAndComesBackQuietly")
 def silent_station(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         page.wait("a good reading", lambda: page.ask(MARK) == "good")
         # Noted by the page's own clock, which is late where this computer is busy: so late is allowed.
@@ -83,9 +79,7 @@ def silent_station(b):
 
 @sentence("LostBeamIsDashesAndTheFirstThingToDo")
 def lost_beam(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         page.wait("a good reading", lambda: page.ask(MARK) == "good")
         b.sim("beam off")
@@ -116,9 +110,7 @@ def whole(b):
 
 @sentence("AbortIsHeldAndAShortTouchDoesNothing")
 def hold(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         pair_with(b, page, "panel")
         page.wait("abort is on", lambda: is_on(page, "abort"))
@@ -130,9 +122,7 @@ def hold(b):
 
 @sentence("ComputerThatSleptShowsNothingOldAsNewAndItsFirstTouchOnlyWakes")
 def slept(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         pair_with(b, page, "laptop")
         page.wait("abort is on", lambda: is_on(page, "abort"))
@@ -227,9 +217,7 @@ def tab_to(page, wanted):
 
 @sentence("RunGoesOnWithThePageOverARestartOfTheStation")
 def restarted(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as page:
         pair_with(b, page, "panel")
         b.end("axiscald", signal.SIGKILL)
@@ -245,9 +233,7 @@ def restarted(b):
 
 @sentence("TwoPagesAtOnceShowTheSame")
 def two_pages(b):
-    address = with_page(b)
-    b.begin_run(hold_after=3)
-    b.wait_for_points(3)
+    address = in_mid_run(b)
     with opened(address) as one, opened(address) as other:
         b.sim("go")
         for page in (one, other):
@@ -271,9 +257,7 @@ def clipped(page):
 
 @sentence("EveryLanguageHasRoomOnEveryScreen")
 def languages(b):
-    address = with_page(b)
-    b.begin_run(hold_after=13)
-    b.wait_for_points(13)
+    address = in_mid_run(b, points=13)
     with opened(address) as page:
         for language in ["en", "de", "ru", "zh", "pseudo"] * 2:
             if language == "en" and page.ask("localStorage.getItem('axiscal.language')") == "pseudo":

@@ -22,6 +22,14 @@ def with_page(b):
     return f"http://127.0.0.1:{b.station['console']['port']}/"
 
 
+def in_mid_run(b, points=3):
+    """A run whose CNC holds after so many points, all of them durable. Gives back the page's address."""
+    address = with_page(b)
+    b.begin_run(hold_after=points)
+    b.wait_for_points(points)
+    return address
+
+
 @contextlib.contextmanager
 def opened(address, **words):
     """A browser with the page, once it shows a reading. At the end its console must have been silent."""
