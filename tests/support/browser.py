@@ -10,13 +10,15 @@ import tempfile
 import time
 
 from selenium import webdriver
-from selenium.common.exceptions import StaleElementReferenceException
+from selenium.common.exceptions import ElementNotInteractableException, NoSuchElementException, StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 
 START_S = 60.0  # a browser comes up within this, on a machine that builds beside it
 LOOK_S = 0.05  # pause between two looks at a condition
 POINTER_S = 30.0
+# The page puts nodes up and takes them down while it is looked at: what is gone is looked for again.
+GONE_MEANWHILE = (ElementNotInteractableException, NoSuchElementException, StaleElementReferenceException)
 
 
 class Browser:
@@ -78,12 +80,16 @@ class Browser:
 
     def wait(self, what, probe, limit_s=30.0):
         end = time.monotonic() + limit_s
+        gone = ""
         while True:
-            found = probe()
+            try:
+                found = probe()
+            except GONE_MEANWHILE as error:
+                found, gone = None, f"; last gone: {error.msg}"
             if found:
                 return found
             if time.monotonic() > end:
-                raise AssertionError(f"after {limit_s:g} s still not: {what}; the page shows: {self.text('body')}")
+                raise AssertionError(f"after {limit_s:g} s still not: {what}{gone}; the page shows: {self.text('body')}")
             time.sleep(LOOK_S)
 
     def wait_for_text(self, selector, words, limit_s=30.0):
@@ -94,14 +100,7 @@ class Browser:
 
     def click(self, selector):
         """As a finger does: the page may put another node in its place meanwhile."""
-        def once():
-            try:
-                self.element(selector).click()
-            except StaleElementReferenceException:
-                return False
-            return True
-
-        self.wait(f"{selector} can be touched", once, POINTER_S)
+        self.wait(f"{selector} can be touched", lambda: self.element(selector).click() or True, POINTER_S)
 
     def hold(self, selector, seconds):
         ActionChains(self.driver).click_and_hold(self.element(selector)).pause(seconds).release().perform()

@@ -24,12 +24,12 @@ def send_sheet(page, text):
     def sent():
         if page.ask(SHEET_HIDDEN):
             return True
-        field = page.driver.find_element("css selector", "#run_sheet input")
+        field = page.element("#run_sheet input")
         if field.get_attribute("value") != text:
             field.clear()
             field.send_keys(text)
         elif page.ask("!document.querySelector('#run_sheet [type=submit]').disabled"):
-            page.click("#run_sheet [type=submit]")
+            page.element("#run_sheet [type=submit]").click()
         return False
 
     page.wait("the order of the sheet is taken", sent)
