@@ -173,6 +173,7 @@ struct RunSummary {
     bool closed = false, complete = false;
     bool evaluated = false;         ///< a result is stored since the last closing
     std::optional<std::string> bar; ///< its channel, "gauge/axis 1": of a drift test of a ballbar
+    std::string machine_serial, machine_state; ///< as stated: "4711", "as found"; empty: not stated
 };
 Result<RunSummary> summarize_run_file(const std::string& path);
 /// Folder of its certificate: the run's id, made anew by id_of_name() in case the file comes from

@@ -343,6 +343,9 @@ Result<RunSummary> summarize_run_file(const std::string& path) {
     AXISCAL_CHECK(take_opening(*database, summary));
     AXISCAL_TRY(summary.machine, text_of("SELECT value FROM statement WHERE name='machine'"));
     AXISCAL_TRY(summary.axis, text_of("SELECT value FROM statement WHERE name='axis'"));
+    AXISCAL_TRY(summary.machine_serial,
+                text_of("SELECT value FROM statement WHERE name='machine_serial'"));
+    AXISCAL_TRY(summary.machine_state, text_of("SELECT value FROM statement WHERE name='state'"));
     const std::string last_closing = " FROM closing ORDER BY link DESC LIMIT 1";
     AXISCAL_TRY(summary.closing_reason, text_of("SELECT reason" + last_closing));
     AXISCAL_TRY(const std::string kind, text_of("SELECT kind FROM test"));

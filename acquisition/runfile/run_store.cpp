@@ -50,19 +50,6 @@ std::set<std::string> names_in(const std::string& folder) {
     return names;
 }
 
-/// The last instant in a name; empty where it bears none.
-std::string instant_of(std::string_view name) {
-    constexpr std::string_view shape = "00000000T000000Z";
-    const auto fits = [](char letter, char wanted) {
-        return wanted == '0' ? letter >= '0' && letter <= '9' : letter == wanted;
-    };
-    for (std::size_t left = name.size(); left >= shape.size(); --left) {
-        const std::string_view word = name.substr(left - shape.size(), shape.size());
-        if (std::ranges::equal(word, shape, fits)) return std::string{word};
-    }
-    return {};
-}
-
 enum class Look : std::uint8_t { into, past, no_further };
 
 /// Whether a file whose name bears `instant` can be newer than those seen, the later names being
@@ -89,7 +76,7 @@ std::optional<RunSummary> newest_of(const StoredRuns& runs, const PresentBoot& p
     std::vector<std::pair<std::string, std::string>> claims; // instant, path
     claims.reserve(runs.folded.size());
     for (const std::string& path : runs.folded)
-        claims.emplace_back(instant_of(std::filesystem::path{path}.stem().string()), path);
+        claims.emplace_back(instant_of_name(std::filesystem::path{path}.stem().string()), path);
     const auto dated = std::partition(claims.begin(), claims.end(),
                                       [](const auto& claim) { return claim.first.empty(); });
     std::sort(dated, claims.end(), std::greater{});
@@ -109,6 +96,18 @@ std::string instant_in_name(std::int64_t utc_ns) {
     std::string instant = iso8601_utc(utc_ns);
     std::erase_if(instant, [](char letter) { return letter == '-' || letter == ':'; });
     return instant;
+}
+
+std::string instant_of_name(std::string_view name) {
+    constexpr std::string_view shape = "00000000T000000Z";
+    const auto fits = [](char letter, char wanted) {
+        return wanted == '0' ? letter >= '0' && letter <= '9' : letter == wanted;
+    };
+    for (std::size_t left = name.size(); left >= shape.size(); --left) {
+        const std::string_view word = name.substr(left - shape.size(), shape.size());
+        if (std::ranges::equal(word, shape, fits)) return std::string{word};
+    }
+    return {};
 }
 
 Result<StoredRuns> look_through_runs(const std::string& folder, const PresentBoot& present) {

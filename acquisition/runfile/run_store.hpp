@@ -9,12 +9,15 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace axiscal {
 
 /// "20261121T100007Z", the instant as names of runs bear it. Sorts as time does.
 std::string instant_in_name(std::int64_t utc_ns);
+/// The last instant of that shape in a name; empty where it bears none.
+std::string instant_of_name(std::string_view name);
 
 struct StoredRuns {
     std::vector<RunSummary> looked_into; ///< those that may be open; by name
