@@ -80,7 +80,8 @@ struct Daemon {
     StationParts parts_of(LoadedStation loaded, std::unique_ptr<TriggerPort> port, StationKey key) {
         StationParts parts;
         console_config = loaded.config.console;
-        paired_file = loaded.config.state_directory + "/paired-browsers";
+        state_directory = loaded.config.state_directory;
+        paired_file = state_directory + "/paired-browsers";
         parts.config_hash = sha256_hex(loaded.config.text);
         parts.config = std::move(loaded.config);
         parts.roles = std::move(loaded.roles);
@@ -150,7 +151,7 @@ struct Daemon {
     AsioScheduler scheduler{loop};
     RealLinkOpener links{scheduler};
     ConsoleConfig console_config;
-    std::string paired_file;
+    std::string paired_file, state_directory;
     Station station;
     HttpServer console;
     int code = exit_ok;
@@ -194,6 +195,7 @@ int run(int argc, char** argv) {
         daemon.console.show_page(*std::move(page));
     else
         spdlog::info("No page at the machine: {}.", describe(page.error()));
+    daemon.console.show_runs(daemon.state_directory);
     return daemon.serve();
 }
 

@@ -10,6 +10,7 @@
 #include "acquisition/console/http_page.hpp"
 #include "acquisition/console/http_pairing.hpp"
 #include "acquisition/console/http_reading.hpp"
+#include "acquisition/console/http_runs.hpp"
 #include "acquisition/console/listening.hpp"
 #include "acquisition/console/metrics_text.hpp"
 #include "acquisition/console/metrics_writer.hpp"
@@ -65,11 +66,12 @@ struct ClientSeat {
     std::size_t& taken;
 };
 
-/// Who asks. A request for the events leaves its place with them here.
+/// Who asks. A request for the events leaves its place with them here, a large answer its own.
 struct Caller {
     Door door = Door::tcp;
     int descriptor = -1;
     std::optional<EventSeat> events;
+    LargeAnswerSeat large; ///< until the answer is sent
 };
 
 } // namespace
@@ -85,7 +87,8 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
         , config{std::move(with)}
         , tcp{on.executor()}
         , local{on.executor()}
-        , pairing{on, std::move(paired_file)} {
+        , pairing{on, std::move(paired_file)}
+        , runs{on, of} {
         rules.token = std::move(secret);
         events = std::make_shared<EventHub>(on, of, [this] { return shown_status(); });
     }
@@ -113,6 +116,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     asio::ip::tcp::acceptor tcp;
     asio::local::stream_protocol::acceptor local;
     PairingDoor pairing;
+    RunsDoor runs;
     SocketFile socket_file;
     PageFiles page;
     bool bound = false, ended = false;
@@ -155,7 +159,7 @@ template <class Acceptor> Task<void> HttpServer::Impl::accept(Acceptor& acceptor
 template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door door) {
     const auto self = shared_from_this();
     const ClientSeat seat{clients[seat_of(door)]};
-    Caller caller{door, socket.native_handle(), {}};
+    Caller caller{door, socket.native_handle(), {}, {}};
     beast::basic_stream<typename Socket::protocol_type> stream{std::move(socket)};
     beast::flat_buffer buffer;
     for (bool alive = true; alive;) {
@@ -174,6 +178,7 @@ template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door d
         alive = response.keep_alive();
         stream.expires_after(idle_limit);
         const auto [write_error, sent] = co_await http::async_write(stream, response, quiet);
+        caller.large.reset();
         if (write_error) break;
         if (!alive) co_await end_gently(stream);
     }
@@ -208,6 +213,11 @@ Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
     if (is_page_path(path)) co_return answer_page(request, page, path);
     if (path == session_path) co_return pairing.show_session(request);
     if (path == pair_path) co_return pairing.list(request);
+    const std::string_view of_runs = runs_call_of(path);
+    if (of_runs == runs_path) co_return co_await runs.list(std::move(request));
+    if (of_runs == one_run_path) co_return co_await runs.show_one(std::move(request), caller.large);
+    if (of_runs == run_paper_path)
+        co_return co_await runs.give_paper(std::move(request), caller.large);
     if (path == "/v1/alignment")
         co_return answer(request, http::status::ok, to_json(station.alignment()));
     if (path == events_path) co_return seat_for_events(request, caller);
@@ -230,7 +240,8 @@ Task<Response> HttpServer::Impl::respond(Request request, Caller& caller) {
     co_return answer_in_words(
         request, http::status::not_found,
         "known are GET /v1/status, GET /v1/instruments, GET "
-        "/v1/preflight, GET /v1/alignment, GET /v1/stream, GET /v1/events, GET /metrics, POST "
+        "/v1/preflight, GET /v1/alignment, GET /v1/stream, GET /v1/events, GET /v1/runs, GET "
+        "/v1/runs/ID, GET /v1/runs/ID/PAPER, GET /metrics, POST "
         "/v1/run, POST /v1/run/trigger, POST /v1/run/reading, POST /v1/run/abort, POST "
         "/v1/run/retake, POST "
         "/v1/run/exclude, POST /v1/run/answer, POST /v1/preflight, POST /v1/alignment, POST "
@@ -374,6 +385,7 @@ HttpServer::~HttpServer() {
     impl_->ended = true;
     impl_->events->end();
     impl_->pairing.stop();
+    impl_->runs.stop();
     boost::system::error_code ignored;
     impl_->tcp.close(ignored);
     impl_->local.close(ignored);
@@ -388,6 +400,10 @@ Result<void> HttpServer::bind() {
 
 void HttpServer::show_page(PageFiles page) {
     impl_->page = std::move(page);
+}
+
+void HttpServer::show_runs(std::string state_directory) {
+    impl_->runs.show(std::move(state_directory));
 }
 
 Result<void> HttpServer::start() {

@@ -30,6 +30,9 @@ public:
     /// What GET / and GET /page/... show (docs/page.md); until then they answer 404. Before
     /// start().
     void show_page(PageFiles page);
+    /// Where GET /v1/runs finds runs/, outbox/ and published/; until then it answers 404. Before
+    /// start().
+    void show_runs(std::string state_directory);
     /// Whom console.allowed_clients does not name is hung up on at once. Each door has room for 64
     /// clients of its own.
     /// bind(), unless done, and serves both doors. A TCP address that cannot be had yet is told and

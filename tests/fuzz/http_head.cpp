@@ -4,6 +4,7 @@
 #include "acquisition/console/event_stream.hpp"
 #include "acquisition/console/http_answer.hpp"
 #include "acquisition/console/http_reading.hpp"
+#include "acquisition/console/runs_query.hpp"
 #include "acquisition/console/session_cookie.hpp"
 #include "acquisition/console/stream_json.hpp"
 #include "tests/fuzz/judge.hpp"
@@ -86,6 +87,23 @@ void judge_events(const HttpRequest& request) {
     fuzz::require(event.find("\n\n") == event.size() - 2, "one event stays one event");
 }
 
+/// A name out of a path is looked for among names: none of them leads out of a folder.
+void judge_runs(const HttpRequest& request) {
+    const std::string path = asked_path(request);
+    const RunNamed named = run_named_in(path);
+    for (const std::string& name : {named.id, named.paper})
+        fuzz::require(name.empty() || (name.front() != '.' &&
+                                       name.find_first_of("/\\%\"\r\n") == std::string::npos),
+                      "what a path names is a plain name");
+    fuzz::require(runs_call_of(path) != run_paper_path || !named.paper.empty(),
+                  "a paper is asked for by its name");
+    const auto asked = runs_asked_of({request.target().data(), request.target().size()});
+    if (!asked) return judge_answer(answer(request, asked.error()));
+    fuzz::require(asked->limit >= 1 && asked->limit <= 100, "a page has 1 to 100 rows");
+    fuzz::require(asked->before.empty() || is_run_name(asked->before), "before is a run");
+    fuzz::require(asked->text.size() <= 3 * 200, "a search is short");
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -107,6 +125,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         judge_verdict(request, head, rules);
     }
     judge_events(request);
+    judge_runs(request);
     const auto points = stream_points_of({request.target().data(), request.target().size()});
     if (points) {
         fuzz::require(*points >= 1 && *points <= 4096,

@@ -27,7 +27,7 @@ KEY = re.compile(r'\{"(\w+)",\s')
 TABLES = {"AxisView": "axis", "ChannelView": "channels", "InstrumentView": "instruments", "RunStatus": "run",
           "DriftView": "drift", "OutboxView": "outbox", "ToDo": "to_do"}
 # the first key of the example that a type has for itself, and what it is called
-EXAMPLES = {"FiguresSoFar": ("standing", "run.so_far")}
+EXAMPLES = {"FiguresSoFar": ("standing", "run.so_far"), "StoredRun": ("id", "a stored run")}
 
 
 def functions_of(source):

@@ -17,6 +17,7 @@ import sys
 NO_CODEC = {
     "acquisition/console/metrics_text.hpp": "writes alone; names of the station file go in, and station_file reads those",
     "acquisition/console/so_far_json.hpp": "writes alone; what goes in was computed here",
+    "acquisition/console/stored_run_json.hpp": "writes alone; run_file and certificate_facts read what goes in",
     "drivers/appearance.hpp": "a table of what instruments show themselves as",
     "drivers/canopen/pdo_stream.hpp": "counts frames by their times; the frames are judged by canopen",
     "drivers/canopen/register_watch.hpp": "one object read; its frames are judged by canopen",
