@@ -7,7 +7,7 @@ import time
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, opened, pair_with, sentence, wait_until, with_page
+from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, sentence, wait_until, with_page
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -174,6 +174,8 @@ def keyboard(b):
     b.sim("hold 3")
     with opened(address) as page:
         pair_with(b, page, "keyboard")
+        for screen, letter in {"result": "s", "more": "m", "now": "n", "run": "r"}.items():
+            page.wait(f"{letter} goes to {screen}", lambda: is_shown(page, screen) or page.keys("g", letter))
         page.wait("a run may be armed", lambda: is_on(page, "arm"))
         tab_to(page, "one.dataset.order === 'arm'")
         page.keys(Keys.ENTER)
@@ -255,6 +257,16 @@ def clipped(page):
     }).map((one) => `${one.id || one.className || one.localName}: ${one.innerText}`)""")
 
 
+@sentence("OpenRunIsARowOfHistoryAndHasNoVerdict")
+def open_run_in_history(b):
+    address = in_mid_run(b)
+    with opened(address) as page:
+        go(page, "history")
+        page.wait_for_text("#history_rows li", "open")
+        page.wait("Result says that it is open", lambda: "open" in page.text("#result_head .verdict") or page.click("#history_rows li button"))
+        expect(page.ask("document.querySelectorAll('#result_papers a').length") == 0, "papers of an open run")
+
+
 @sentence("EveryLanguageHasRoomOnEveryScreen")
 def languages(b):
     address = in_mid_run(b, points=13)
@@ -269,7 +281,7 @@ def languages(b):
             page.wait("the page shows the station", lambda: page.text("#now_reading"))
             for size in [(1280, 800), (800, 480), (390, 844)]:
                 page.resize(size)
-                for screen in ["now", "run", "more"]:
+                for screen in ["now", "run", "result", "history", "more"]:
                     go(page, screen)
                     cut = clipped(page)
                     expect(not cut, f"{language}, {size}, {screen}: {cut}")

@@ -1,13 +1,15 @@
 """What a finger does on the page at the machine. The first touch after a pause of this computer only wakes the page, so
 each touch is repeated until what it is for has come."""
 
-KEYS = {"now": "n", "run": "r", "more": "m"}
 SHEET_HIDDEN = "document.querySelector('#run_sheet').hidden"
 
 
+def is_shown(page, screen):
+    return page.ask(f"!document.querySelector('#screen_{screen}').hidden")
+
+
 def go(page, screen):
-    shown = f"!document.querySelector('#screen_{screen}').hidden"
-    page.wait(f"the screen {screen}", lambda: page.ask(shown) or page.keys("g", KEYS[screen]))
+    page.wait(f"the screen {screen}", lambda: is_shown(page, screen) or page.click(f"nav [data-screen={screen}]"))
 
 
 def is_on(page, order):

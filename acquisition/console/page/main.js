@@ -23,6 +23,7 @@ import { Wakefulness } from "./wakefulness.js";
 import { task_line, what_to_do } from "./what_to_do.js";
 
 const tick_ms = 80; // stale values are marked within 2.1 s of their last reading
+const load_stored_after_ms = 30000;
 const checks_every_ms = 60000; // and whenever somebody goes to a screen that shows what arming would meet
 
 const clock = new SleeplessClock(
@@ -30,9 +31,11 @@ const clock = new SleeplessClock(
     () => Date.now(),
 );
 const now = () => clock.now();
+const started_at = now();
 const link = new LinkState(now());
 const wake = new Wakefulness(now());
-const guard = new TouchGuard(wake, now);
+// Letters on History search and do nothing else: a barcode must not lose its first one.
+const guard = new TouchGuard(wake, now, ({ key }) => shown.screen === "history" && key.length === 1 && key !== " ");
 const kept = new KeptValues();
 const accepted = new AcceptedPoints();
 
@@ -108,7 +111,7 @@ const events = new EventLink({
 
 /** While somebody looks and no run is open, the station judges anew what arming would meet, and puts it into its list. */
 async function ask_checks(at) {
-    const wanted = shown.screen !== "now" && shown.status !== null && !shown.status.run_open && link.has_contact(at);
+    const wanted = ["run", "more"].includes(shown.screen) && shown.status !== null && !shown.status.run_open && link.has_contact(at);
     if (!wanted || at - shown.checks_at < checks_every_ms) return;
     shown.checks_at = at;
     try {
@@ -200,14 +203,34 @@ table_button.addEventListener("click", (event) => {
 });
 by_id("run_plot").append(table_button);
 
+const shows_stored = () => shown.screen === "result" || shown.screen === "history";
+/** @type {import("./stored_screens.js").StoredScreens | null} */
+let stored = null;
+let stored_asked = false;
+
+/** Result and History are loaded by who goes there, or a while later: the first screen is not to wait for them. */
+async function load_stored() {
+    if (stored_asked || !link.has_contact(now())) return;
+    stored_asked = true;
+    try {
+        const { StoredScreens } = await import("./stored_screens.js");
+        stored = new StoredScreens((path, options) => fetch(path, options), go_to);
+        stored.enter(shown.screen, "now");
+    } catch {
+        stored_asked = false; // the next tick tries again
+    }
+}
+
 /** @param {string} screen */
 function go_to(screen) {
-    if (shown.screen !== screen) shown.checks_at = -checks_every_ms;
+    const before = shown.screen;
+    if (before !== screen) shown.checks_at = -checks_every_ms;
     shown.screen = screen;
-    for (const name of ["now", "run", "more"]) by_id(`screen_${name}`).hidden = name !== screen;
+    for (const name of ["now", "run", "result", "history", "more"]) by_id(`screen_${name}`).hidden = name !== screen;
     for (const button of document.querySelectorAll("nav button"))
         set_attribute(button, "aria-current", button.getAttribute("data-screen") === screen ? "page" : null);
     if (screen === "more") paint_settings();
+    stored?.enter(screen, before);
     paint(now());
 }
 
@@ -257,13 +280,15 @@ function paint(at) {
     paint_head(status);
     const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
     if (shown.screen === "more") return guard.is_pressed() ? undefined : paint_tasks(by_id("more_tasks"), tasks, status.notes, words);
+    stored?.hear(shown.screen, status, view.contact);
     const name = shown.screen;
+    if (shows_stored()) return guard.is_pressed() ? undefined : stored?.paint(name, words);
     paint_reading(by_id(`${name}_reading`), reading_shown(status, kept, heard, words), words);
     paint_next(by_id(`${name}_next`), next_shown(status, words), words);
     if (name === "run") paint_orders(status, view.contact);
     else paint_now_cells(cells_shown(status, kept, heard, words));
     if (guard.is_pressed()) return; // nothing moves under a finger
-    const extra = name === "run" && shown.message !== "" ? [shown.message] : [];
+    const extra = name === "run" ? [shown.message, refusal_of(shown.session)].filter((line, nth, all) => line !== "" && all.indexOf(line) === nth) : [];
     paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), extra);
     (name === "run" ? run_plot : now_plot).paint(accepted, status, shown.picked, words);
     if (name === "run" && !by_id("run_table").hidden) table.paint(accepted, status, words);
@@ -294,6 +319,7 @@ function tick() {
     if (document.hidden) return; // nobody looks: nothing is painted
     paint(at);
     ask_checks(at);
+    if (at - started_at > load_stored_after_ms || shows_stored()) load_stored();
     load_anew_if_replaced();
 }
 
@@ -334,11 +360,15 @@ function choose(name, value) {
     paint_settings();
 }
 
-const keys = Object.freeze({ n: "now", r: "run", m: "more" });
+const keys = Object.freeze({ n: "now", r: "run", s: "result", h: "history", m: "more" });
 let after_g = false;
 
 document.addEventListener("keydown", (event) => {
     if (event.target instanceof HTMLInputElement || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (shown.screen === "history" && stored?.take_key(event.key, now())) {
+        after_g = false;
+        return event.preventDefault();
+    }
     if (after_g && Object.hasOwn(keys, event.key)) go_to(keys[event.key]);
     after_g = event.key === "g";
 });

@@ -4,10 +4,14 @@
 const longest_press_ms = 1500;
 
 export class TouchGuard {
-    /** @param {import("./wakefulness.js").Wakefulness} wake @param {() => number} now */
-    constructor(wake, now) {
+    /**
+     * @param {import("./wakefulness.js").Wakefulness} wake @param {() => number} now
+     * @param {(event: KeyboardEvent) => boolean} is_harmless  keys that may do what they do, and wake
+     */
+    constructor(wake, now, is_harmless = () => false) {
         this.wake = wake;
         this.now = now;
+        this.is_harmless = is_harmless;
         this.swallows_click = false;
         this.swallowed_key = "";
         /** @type {number | null} */
@@ -38,7 +42,7 @@ export class TouchGuard {
     }
 
     on_key_down(event) {
-        if (!this.wake.touch(this.now())) this.swallowed_key = event.key;
+        if (!this.wake.touch(this.now()) && !this.is_harmless(event)) this.swallowed_key = event.key;
         if (this.swallowed_key === event.key) end(event);
     }
 
