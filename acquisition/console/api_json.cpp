@@ -35,6 +35,7 @@ Json to_json(const AxisView& axis) {
             {"deviation_um", or_null(axis.deviation_um)},
             {"displacement_mm", or_null(axis.displacement_mm)},
             {"strength_percent", or_null(axis.strength_percent)},
+            {"least_strength_percent", or_null(axis.least_strength_percent)},
             {"spread_um", or_null(axis.spread_um)},
             {"slope_um_per_s", or_null(axis.slope_um_per_s)},
             {"still", axis.still},

@@ -11,6 +11,16 @@
 #include <string>
 
 namespace axiscal {
+namespace {
+
+/// Beyond this age a sample of such a channel is no value.
+Duration oldest_of(ChannelKind kind, const StationConfig& config) {
+    if (kind == ChannelKind::displacement || kind == ChannelKind::angle) return laser_limit;
+    if (kind == ChannelKind::strength) return strength_limit;
+    return config.axis.air.oldest;
+}
+
+} // namespace
 
 ChannelView ChannelFacts::view(const StationChannel& channel, MonotonicTime now) const {
     ChannelView view;
@@ -30,9 +40,7 @@ ChannelView ChannelFacts::view(const StationChannel& channel, MonotonicTime now)
     else if (std::ranges::find(environment, channel.id) != environment.end())
         view.role = "environment";
     view.used = !view.role.empty();
-    const bool measures =
-        channel.kind == ChannelKind::displacement || channel.kind == ChannelKind::angle;
-    const Duration oldest = measures ? laser_limit : config_.axis.air.oldest;
+    const Duration oldest = oldest_of(channel.kind, config_);
     view.stale_after_s = seconds_of(oldest);
     const auto& sample = readings_.latest(channel.id);
     if (!sample) return view;

@@ -50,7 +50,8 @@ struct AxisView {
     std::optional<double> position_mm, deviation_um; ///< needs a datum
     std::optional<double> displacement_mm;           ///< raw: vacuum wavelengths, or of a scale
     std::optional<double> strength_percent;
-    std::optional<double> spread_um, slope_um_per_s; ///< over the last window
+    std::optional<double> least_strength_percent = {}; ///< below it the check `strength` fails
+    std::optional<double> spread_um, slope_um_per_s;   ///< over the last window
     bool still = false;
     std::optional<double> age_s;         ///< of the last reading, good or not
     std::optional<double> stale_after_s; ///< an older reading shows nothing of the axis

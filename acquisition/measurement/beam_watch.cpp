@@ -4,15 +4,11 @@
 #include "acquisition/live/notices.hpp"
 #include "acquisition/live/roles.hpp"
 #include "acquisition/live/supervisor.hpp"
+#include "acquisition/live/time_limits.hpp"
 #include "acquisition/measurement/latest_tests.hpp"
 #include "acquisition/measurement/positioning/axis_instruments.hpp"
 
 namespace axiscal {
-namespace {
-
-constexpr Duration strength_limit = std::chrono::seconds{2}; // an older strength is no strength
-
-} // namespace
 
 BeamWatch::BeamWatch(const CncContext& context, const LatestTests& tests)
     : context_(context)

@@ -58,6 +58,7 @@ AxisView Station::axis_view() const {
     axis.kind = config_.cycle.axis_kind;
     axis.reads_angle = reads_polygon();
     axis.stale_after_s = seconds_of(laser_limit);
+    axis.least_strength_percent = config_.preflight.least_strength_percent;
     const MonotonicTime now = scheduler_.now();
     const auto newest = readings_.reference().newest();
     if (newest) axis.age_s = seconds_of(now - newest->at);

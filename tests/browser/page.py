@@ -8,11 +8,15 @@ import time
 from selenium.webdriver.common.keys import Keys
 
 from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, sentence, wait_until, with_page
+from page_beam import STRUCK_STRENGTH, WATCH_AUDIO, at_far_end, signal_mark, steered_away, strength_shown, tone_hz
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
 NUMBER = re.compile(r"\d+\.\d{4}")
 MARK = "document.querySelector('#now_reading').getAttribute('data-mark')"
+# What stands on a screen that is loaded by who goes there first.
+HOLDS = {"setup": "document.querySelector('#setup_devices li')", "doctor": "document.querySelector('#doctor_settings button')",
+         "result": "document.querySelector('#result_head *')", "history": "document.querySelector('#history_rows *')"}
 STRUCK = "getComputedStyle(document.querySelector('#now_reading .number')).textDecorationLine"
 
 
@@ -86,10 +90,10 @@ def lost_beam(b):
         page.wait("the reading is lost", lambda: page.ask(MARK) == "lost")
         expect(page.text("#now_reading .big .number") == "– – –", page.text("#now_reading"))
         page.wait_for_text("#strip", "Restore the beam")
-        go(page, "more")
-        page.wait_for_text("#more_tasks li[data-rank=stop]", "beam")
+        go(page, "doctor")
+        page.wait_for_text("#doctor_tasks li[data-rank=stop]", "beam")
         said = b.axiscal("status")
-        expect(page.text("#more_tasks .action").removeprefix("→ ") in said, f"the command line says\n{said}\nthe page {page.text('#more_tasks')}")
+        expect(page.text("#doctor_tasks .action").removeprefix("→ ") in said, f"the command line says\n{said}\nthe page {page.text('#doctor_tasks')}")
 
 
 @sentence("WholeCalibrationIsDoneByThePageAlone")
@@ -174,7 +178,7 @@ def keyboard(b):
     b.sim("hold 3")
     with opened(address) as page:
         pair_with(b, page, "keyboard")
-        for screen, letter in {"result": "s", "more": "m", "now": "n", "run": "r"}.items():
+        for screen, letter in {"setup": "u", "result": "s", "doctor": "d", "now": "n", "run": "r"}.items():
             page.wait(f"{letter} goes to {screen}", lambda: is_shown(page, screen) or page.keys("g", letter))
         page.wait("a run may be armed", lambda: is_on(page, "arm"))
         tab_to(page, "one.dataset.order === 'arm'")
@@ -257,13 +261,66 @@ def clipped(page):
     }).map((one) => `${one.id || one.className || one.localName}: ${one.innerText}`)""")
 
 
+@sentence("SetUpShowsTheStrengthOfTheBeamAndHowItFalls")
+def strength(b):
+    address = at_far_end(b)
+    with opened(address) as page:
+        go(page, "setup")
+        page.wait("the strength of a beam that is aligned", lambda: (strength_shown(page) or 0) > 80)
+        page.wait_for_text("#setup_beam .signal .mark", "strong enough")
+        page.wait_for_text("#setup_devices li[data-name=laser]", "answers")
+        page.wait_for_text("#setup_checks li[data-name=strength]", "● holds")
+        left = steered_away(b)
+        page.wait(f"{left:.1f} % are left", lambda: abs((strength_shown(page) or 100) - left) < 0.2)
+        expect(signal_mark(page) == "warn", page.text("#setup_beam"))
+        page.wait_for_text("#setup_beam .signal .mark", "too weak: at least 20 %")
+        bar = page.ask("Number(document.querySelector('#setup_beam .meter').getAttribute('aria-valuenow'))")
+        expect(abs(bar - left) < 1, f"the bar stands at {bar}")
+        # The first touch may only wake the page.
+        page.wait("the check does not hold", lambda: "does not hold" in page.text("#setup_checks li[data-name=strength]")
+                  or page.click("#setup_checks .again"))
+        b.sim("sensor laser off")
+        page.wait("a strength that is stale", lambda: signal_mark(page) == "stale")
+        expect(page.ask(STRUCK_STRENGTH) == "line-through" and strength_shown(page) is not None, page.text("#setup_beam"))
+
+
+@sentence("ToneFollowsTheStrengthOnlyAfterATouchAndEndsWithTheScreen")
+def tone(b):
+    address = at_far_end(b)
+    with opened(address) as page:
+        page.driver.execute_script(WATCH_AUDIO)
+        go(page, "setup")
+        page.wait("the strength of a beam that is aligned", lambda: (strength_shown(page) or 0) > 80)
+        expect(page.ask("window.heard.length") == 0 and tone_hz(page) is None, "a tone before any touch")
+        page.wait("a touch starts the tone", lambda: page.ask("window.heard.length > 0") or page.click("#setup_beam .tone"))
+        strong_hz = page.wait("it sounds", lambda: tone_hz(page))
+        steered_away(b)
+        page.wait("it falls with the strength", lambda: (tone_hz(page) or strong_hz) < strong_hz / 4)
+        b.sim("sensor laser off")
+        page.wait("it is silent without a fresh strength", lambda: tone_hz(page) is None)
+        expect(signal_mark(page) in ("stale", "lost"), page.text("#setup_beam"))
+        b.sim("sensor laser on")
+        page.wait("it is back with the strength", lambda: tone_hz(page), 60)
+        b.processes["axiscald"].send_signal(signal.SIGSTOP)
+        try:
+            page.wait("it is silent without contact", lambda: tone_hz(page) is None)
+        finally:
+            b.processes["axiscald"].send_signal(signal.SIGCONT)
+        page.wait("it is back with the contact", lambda: tone_hz(page))
+        go(page, "now")
+        page.wait("it has ended with the screen", lambda: page.ask("window.heard.at(-1).state") == "closed")
+        go(page, "setup")
+        page.wait("a strength", lambda: strength_shown(page))
+        expect(page.ask("window.heard.length") == 1 and tone_hz(page) is None, "the tone came back without a touch")
+
+
 @sentence("OpenRunIsARowOfHistoryAndHasNoVerdict")
 def open_run_in_history(b):
     address = in_mid_run(b)
     with opened(address) as page:
         go(page, "history")
         page.wait_for_text("#history_rows li", "open")
-        page.wait("Result says that it is open", lambda: "open" in page.text("#result_head .verdict") or page.click("#history_rows li button"))
+        page.wait("Result says that it is open", lambda: "open" in page.text("#result_head .verdict") or page.element("#history_rows li button").click())
         expect(page.ask("document.querySelectorAll('#result_papers a').length") == 0, "papers of an open run")
 
 
@@ -281,8 +338,9 @@ def languages(b):
             page.wait("the page shows the station", lambda: page.text("#now_reading"))
             for size in [(1280, 800), (800, 480), (390, 844)]:
                 page.resize(size)
-                for screen in ["now", "run", "result", "history", "more"]:
+                for screen in ["now", "setup", "run", "result", "history", "doctor"]:
                     go(page, screen)
+                    page.wait("it is shown", lambda screen=screen: screen not in HOLDS or page.ask(f"{HOLDS[screen]} !== null"))
                     cut = clipped(page)
                     expect(not cut, f"{language}, {size}, {screen}: {cut}")
 

@@ -30,7 +30,7 @@ class Browser:
         options.binary_location = shutil.which("chromium")
         # No sandbox: root has none, and containers have none for others; the page under test is our own.
         for word in ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
-                     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--js-flags=--expose-gc",
+                     "--disable-background-networking", "--disable-audio-output", "--disable-component-update", "--disable-sync", "--js-flags=--expose-gc",
                      f"--lang={languages.split(',')[0]}", f"--accept-lang={languages}", f"--user-data-dir={self.folder}/profile"]:
             options.add_argument(word)
         if dark:

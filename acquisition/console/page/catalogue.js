@@ -32,6 +32,8 @@ export class Catalogue {
     constructor(table) {
         this.table = table;
         this.tag = table._tag ?? "en";
+        // English dates of two countries differ by day and month, and have twelve hours: they are written by ISO 8601, as Swedish ones.
+        this.date_tag = this.tag.startsWith("en") ? "sv" : this.tag;
         this.decimal_mark = table._decimal_mark ?? ".";
     }
 

@@ -9,7 +9,6 @@ import { by_id, set_attribute, set_text } from "./dom.js";
 import { EventLink } from "./event_link.js";
 import { KeptValues } from "./freshness.js";
 import { LinkState } from "./link_state.js";
-import { make_settings, paint_tasks } from "./more_screen.js";
 import { OrderBar } from "./order_bar.js";
 import { OrderSheet, answer_text } from "./order_sheet.js";
 import { delete_order, lacks_rights, send_order } from "./orders.js";
@@ -23,7 +22,7 @@ import { Wakefulness } from "./wakefulness.js";
 import { task_line, what_to_do } from "./what_to_do.js";
 
 const tick_ms = 80; // stale values are marked within 2.1 s of their last reading
-const load_stored_after_ms = 30000;
+const load_later_after_ms = 30000;
 const checks_every_ms = 60000; // and whenever somebody goes to a screen that shows what arming would meet
 
 const clock = new SleeplessClock(
@@ -45,6 +44,7 @@ const shown = {
     status_at: 0,
     heard_wall: Date.now(),
     checks_at: -checks_every_ms,
+    /** @type {import("./setup_text.js").Judged | null} */ judged: null,
     screen: "now",
     /** @type {import("./accepted_points.js").Point | null} */ picked: null,
     revises: false, // the open sheet is about the picked point
@@ -110,15 +110,21 @@ const events = new EventLink({
 });
 
 /** While somebody looks and no run is open, the station judges anew what arming would meet, and puts it into its list. */
-async function ask_checks(at) {
-    const wanted = ["run", "more"].includes(shown.screen) && shown.status !== null && !shown.status.run_open && link.has_contact(at);
+async function judge_checks(at) {
+    if (shown.status?.run_open) judge_again(); // once it is closed
+    const wanted = ["run", "setup", "doctor"].includes(shown.screen) && shown.status !== null && !shown.status.run_open && link.has_contact(at);
     if (!wanted || at - shown.checks_at < checks_every_ms) return;
     shown.checks_at = at;
     try {
-        await fetch("/v1/preflight", { cache: "no-store" });
+        const { ask_checks } = await import("./setup_text.js");
+        shown.judged = await ask_checks((path, options) => fetch(path, options), now());
     } catch {
         // The strip tells of a link that is lost.
     }
+}
+
+function judge_again() {
+    shown.checks_at = -checks_every_ms;
 }
 
 // --- orders ------------------------------------------------------------------------------------
@@ -203,40 +209,51 @@ table_button.addEventListener("click", (event) => {
 });
 by_id("run_plot").append(table_button);
 
+const screens = Object.freeze(["now", "setup", "run", "result", "history", "doctor"]);
 const shows_stored = () => shown.screen === "result" || shown.screen === "history";
 /** @type {import("./stored_screens.js").StoredScreens | null} */
 let stored = null;
-let stored_asked = false;
+/** @type {import("./setup_screen.js").SetupScreen | null} */
+let setup = null;
+/** @type {typeof import("./doctor_screen.js") | null} */
+let doctor = null;
+let later_asked = false;
 
-/** Result and History are loaded by who goes there, or a while later: the first screen is not to wait for them. */
-async function load_stored() {
-    if (stored_asked || !link.has_contact(now())) return;
-    stored_asked = true;
+/** What is neither Now nor Run is loaded by who goes there, or a while later: the first screen is not to wait for them. */
+async function load_later() {
+    if (later_asked || !link.has_contact(now())) return;
+    later_asked = true;
     try {
-        const { StoredScreens } = await import("./stored_screens.js");
+        const [{ SetupScreen }, { StoredScreens }, doctor_screen] = await Promise.all([
+            import("./setup_screen.js"), import("./stored_screens.js"), import("./doctor_screen.js"),
+        ]);
+        setup = new SetupScreen(judge_again);
+        doctor = doctor_screen;
+        paint_settings();
         stored = new StoredScreens((path, options) => fetch(path, options), go_to);
         stored.enter(shown.screen, "now");
     } catch {
-        stored_asked = false; // the next tick tries again
+        later_asked = false; // the next tick tries again
     }
 }
 
 /** @param {string} screen */
 function go_to(screen) {
     const before = shown.screen;
-    if (before !== screen) shown.checks_at = -checks_every_ms;
+    if (before !== screen) judge_again();
+    if (before === "setup" && screen !== "setup") setup?.leave();
     shown.screen = screen;
-    for (const name of ["now", "run", "result", "history", "more"]) by_id(`screen_${name}`).hidden = name !== screen;
+    for (const name of screens) by_id(`screen_${name}`).hidden = name !== screen;
     for (const button of document.querySelectorAll("nav button"))
         set_attribute(button, "aria-current", button.getAttribute("data-screen") === screen ? "page" : null);
-    if (screen === "more") paint_settings();
+    if (screen === "doctor") paint_settings();
     stored?.enter(screen, before);
     paint(now());
 }
 
 function paint_settings() {
     const { session, version } = shown;
-    make_settings(by_id("more_settings"), { language, theme, version, session }, { choose, pair, unpair }, words);
+    doctor?.make_settings(by_id("doctor_settings"), { language, theme, version, session }, { choose, pair, unpair }, words);
 }
 
 /** One strip: the link, else the worst of what to do. Notes are for the list alone. */
@@ -256,7 +273,7 @@ function paint_strip(view, all_tasks) {
 }
 
 function link_text(view) {
-    const time = new Intl.DateTimeFormat(words.tag, { hour: "2-digit", minute: "2-digit", second: "2-digit", timeZoneName: "short" });
+    const time = new Intl.DateTimeFormat(words.date_tag, { hour: "2-digit", minute: "2-digit", second: "2-digit", timeZoneName: "short" });
     const said = words.text(`strip_${view.strip}`, { time: time.format(shown.heard_wall) });
     return view.refusal === "" ? said : `${said} ${view.refusal}`;
 }
@@ -279,7 +296,8 @@ function paint(at) {
     if (status === null) return;
     paint_head(status);
     const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
-    if (shown.screen === "more") return guard.is_pressed() ? undefined : paint_tasks(by_id("more_tasks"), tasks, status.notes, words);
+    if (shown.screen === "doctor") return guard.is_pressed() ? undefined : doctor?.paint_tasks(by_id("doctor_tasks"), tasks, status.notes, words);
+    if (shown.screen === "setup") return setup?.paint(status, kept, heard, { judged: shown.judged, at, pressed: guard.is_pressed() }, words);
     stored?.hear(shown.screen, status, view.contact);
     const name = shown.screen;
     if (shows_stored()) return guard.is_pressed() ? undefined : stored?.paint(name, words);
@@ -318,8 +336,8 @@ function tick() {
     bar.tick();
     if (document.hidden) return; // nobody looks: nothing is painted
     paint(at);
-    ask_checks(at);
-    if (at - started_at > load_stored_after_ms || shows_stored()) load_stored();
+    judge_checks(at);
+    if (at - started_at > load_later_after_ms || !["now", "run"].includes(shown.screen)) load_later();
     load_anew_if_replaced();
 }
 
@@ -360,7 +378,7 @@ function choose(name, value) {
     paint_settings();
 }
 
-const keys = Object.freeze({ n: "now", r: "run", s: "result", h: "history", m: "more" });
+const keys = Object.freeze({ n: "now", u: "setup", r: "run", s: "result", h: "history", d: "doctor" });
 let after_g = false;
 
 document.addEventListener("keydown", (event) => {
@@ -375,7 +393,10 @@ document.addEventListener("keydown", (event) => {
 for (const button of document.querySelectorAll("nav button"))
     button.addEventListener("click", () => go_to(button.getAttribute("data-screen") ?? "now"));
 document.addEventListener("visibilitychange", () => {
-    if (document.hidden) return wake.hide();
+    if (document.hidden) {
+        setup?.leave(); // no tone of a page that nobody sees
+        return wake.hide();
+    }
     tick(); // ages first: what stood there when it was hidden is old
     events.hurry();
 });

@@ -69,11 +69,11 @@ function limit_line(figure, unit, words) {
     return { ...said, text: `${figure_text(figure, unit, words)}${without_U}, ${limit}: ${said.word}${reason}` };
 }
 
-/** By the reader's own clock. English dates of two countries differ by day and month: theirs is ISO 8601's. @param {string} utc @param {Catalogue} words */
+/** By the reader's own clock. @param {string} utc @param {Catalogue} words */
 export function date_text(utc, words) {
     const at = new Date(utc);
     if (utc === "" || Number.isNaN(at.getTime())) return utc;
-    return new Intl.DateTimeFormat(words.tag.startsWith("en") ? "sv" : words.tag, { year: "numeric", month: "2-digit", day: "2-digit", hour: "2-digit", minute: "2-digit" }).format(at);
+    return new Intl.DateTimeFormat(words.date_tag, { year: "numeric", month: "2-digit", day: "2-digit", hour: "2-digit", minute: "2-digit" }).format(at);
 }
 
 const joined = (parts) => parts.filter((part) => part !== "").join(" · ");

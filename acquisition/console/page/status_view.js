@@ -13,11 +13,11 @@ import { so_far_lines } from "./so_far_text.js";
 const axis_values = Object.freeze(["position_mm", "deviation_um", "displacement_mm", "spread_um", "strength_percent"]);
 
 /** @param {any} status @param {string} role @returns {any} what the axis, or the ballbar, is read by; null: nothing */
-function reading_channel(status, role) {
+export function reading_channel(status, role) {
     return status.channels.find((one) => one.used && one.role === role) ?? null;
 }
 
-const key_of = (channel) => `${channel.instrument}/${channel.channel}`;
+export const key_of = (channel) => `${channel.instrument}/${channel.channel}`;
 
 /** Once for each status that comes. @param {any} status @param {KeptValues} kept */
 export function keep(status, kept) {
@@ -40,7 +40,7 @@ const shown_if = (value, mark) => (mark === "lost" || mark === "none" ? null : v
  * @param {any} channel @param {KeptValues} kept @param {Heard} heard @param {Catalogue} words
  * @returns {Shown}
  */
-function channel_shown(channel, kept, heard, words) {
+export function channel_shown(channel, kept, heard, words) {
     const { mark, age_s } = judge(channel, heard);
     const { factor, decimals, unit } = shop_unit(channel.unit);
     const value = shown_if(kept.values.get(key_of(channel)) ?? null, mark);

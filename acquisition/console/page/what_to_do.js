@@ -48,6 +48,6 @@ function since_text(utc, words) {
     const at = new Date(utc);
     if (Number.isNaN(at.getTime())) return utc;
     /** @type {Intl.DateTimeFormatOptions} */
-    const day = at.toDateString() === new Date().toDateString() ? {} : { month: "2-digit", day: "2-digit" };
-    return new Intl.DateTimeFormat(words.tag, { ...day, hour: "2-digit", minute: "2-digit", second: "2-digit" }).format(at);
+    const day = at.toDateString() === new Date().toDateString() ? {} : { year: "numeric", month: "2-digit", day: "2-digit" };
+    return new Intl.DateTimeFormat(words.date_tag, { ...day, hour: "2-digit", minute: "2-digit", second: "2-digit" }).format(at);
 }

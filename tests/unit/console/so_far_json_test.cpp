@@ -67,5 +67,12 @@ TEST(SoFarJson, AChannelThatNothingMakesStaleSaysNull) {
     EXPECT_EQ(to_json(status).at("axis").at("stale_after_s"), 2.0);
 }
 
+TEST(SoFarJson, TheAxisTellsBelowWhichStrengthTheCheckFails) {
+    StationStatus status;
+    EXPECT_TRUE(to_json(status).at("axis").at("least_strength_percent").is_null());
+    status.axis.least_strength_percent = 20.0;
+    EXPECT_EQ(to_json(status).at("axis").at("least_strength_percent"), 20.0);
+}
+
 } // namespace
 } // namespace axiscal::so_far_json_test

@@ -108,6 +108,25 @@ TEST_F(StationAligns, AStrengthStandsAtThePlaceWhereItWasTold) {
     EXPECT_LE(record->places.back().readings, 6); // five seconds, not a thousand readings
 }
 
+TEST_F(StationAligns, AStrengthThatIsOlderThanTwoSecondsIsStaleInTheStatus) {
+    shop.laser_strength = [](MonotonicTime) { return 82.0; };
+    Life life{shop};
+    const auto strength = [&life] {
+        const StationStatus status = life.status();
+        const auto told =
+            std::ranges::find(status.channels, ChannelKind::strength, &ChannelView::kind);
+        return told == status.channels.end() ? ChannelView{} : *told;
+    };
+    EXPECT_EQ(life.status().axis.least_strength_percent, 20.0);
+    EXPECT_EQ(strength().stale_after_s, 2.0);
+    EXPECT_EQ(strength().value, 82.0);
+    life.laser->silent = true;
+    life.run(2100ms);
+    EXPECT_EQ(strength().quality, "stale");
+    EXPECT_FALSE(strength().value);
+    EXPECT_FALSE(life.status().axis.strength_percent);
+}
+
 TEST_F(StationAligns, IsRefusedWhileARunIsOpen) {
     Life life{shop};
     ASSERT_TRUE(life.arm());

@@ -1,4 +1,4 @@
-// The list of what to do, and what one browser may choose for itself.
+// The screen Doctor: the one list of what to do, and what one browser may choose for itself.
 
 import { languages, pseudo_language } from "./catalogue.js";
 import { make, set_attribute } from "./dom.js";
