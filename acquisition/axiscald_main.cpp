@@ -9,6 +9,7 @@
 #include "acquisition/runfile/signing_key.hpp"
 #include "acquisition/station/station.hpp"
 #include "acquisition/station/station_loader.hpp"
+#include "acquisition/tls/tls_judgement.hpp"
 #include "config/standard_streams.hpp"
 #include "config/version.hpp"
 #include "drivers/boot_id.hpp"
@@ -26,7 +27,9 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
@@ -34,6 +37,7 @@
 #include <optional>
 #include <sys/file.h>
 #include <unistd.h>
+#include <vector>
 
 namespace axiscal {
 namespace {
@@ -157,6 +161,16 @@ struct Daemon {
     int code = exit_ok;
 };
 
+int tell_refusals(const std::vector<Refusal>& refusals) {
+    for (const Refusal& refusal : refusals)
+        std::fprintf(stderr, "%s\n", refusal.describe().c_str());
+    return exit_refused;
+}
+
+std::int64_t now_utc_ns() {
+    return std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
+}
+
 int run(int argc, char** argv) {
     CLI::App app{"axiscald: the axiscal calibration station. It reads the instruments, serves the "
                  "CNC's triggers and keeps every point on disk.",
@@ -173,13 +187,12 @@ int run(int argc, char** argv) {
     }
     const DaemonLog log; // to the very end: the last words of all else are written, too
     auto loaded = load_station(config);
-    if (!loaded) {
-        for (const Refusal& refusal : loaded.error())
-            std::fprintf(stderr, "%s\n", refusal.describe().c_str());
-        return exit_refused;
-    }
-    for (const Refusal& warning : loaded->config.warnings)
-        spdlog::warn("{}", warning.describe());
+    if (!loaded) return tell_refusals(loaded.error());
+    const TlsJudgement tls = judge_tls(loaded->config, now_utc_ns());
+    if (!tls.refusals.empty()) return tell_refusals(tls.refusals);
+    for (const auto& warnings : {loaded->config.warnings, tls.notes})
+        for (const Refusal& warning : warnings)
+            spdlog::warn("{}", warning.describe());
     const Result<int> lock = lock_state(loaded->config.state_directory);
     auto token = lock ? load_or_make_token(loaded->config.state_directory + "/token")
                       : tl::unexpected<Error>(lock.error());

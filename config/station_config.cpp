@@ -13,6 +13,21 @@ namespace {
 
 constexpr std::size_t longest_socket_path = 107; ///< bytes, sun_path without its end
 
+/// What stands in the files is judged where TLS is spoken (acquisition/tls): most readers of a
+/// station file may not read the key, and need not.
+void read_certificate_and_key(Settings& console, ConsoleConfig& config) {
+    const bool has_certificate = console.has("certificate"), has_key = console.has("key");
+    if (has_certificate) config.certificate = read_absolute_path(console, "certificate");
+    if (has_key) config.key = read_absolute_path(console, "key");
+    if (has_certificate && !has_key)
+        console.refuse("certificate", "needs its key, too: name the file as `key`");
+    if (has_key && !has_certificate)
+        console.refuse("key",
+                       "is of no use without its certificate: name the file as `certificate`");
+    config.certificate_line = console.line_of("certificate");
+    config.key_line = console.line_of("key");
+}
+
 ConsoleConfig read_console(Settings console) {
     const ConsoleConfig usual;
     ConsoleConfig config;
@@ -25,6 +40,7 @@ ConsoleConfig read_console(Settings console) {
     config.allowed_hosts = console.texts("allowed_hosts", usual.allowed_hosts);
     config.allowed_clients = read_allowed_clients(console);
     if (config.port != 0) refuse_open_door(console, config.host, config.allowed_clients);
+    read_certificate_and_key(console, config);
     return config;
 }
 

@@ -157,6 +157,10 @@ struct ConsoleConfig {
     int port = 8470;                        ///< 0: no TCP
     std::vector<std::string> allowed_hosts; ///< Host headers known besides host:port and localhost
     std::vector<AddressRange> allowed_clients; ///< who may connect over TCP; empty: everybody
+    /// PEM files; both, or neither: TCP speaks HTTP without TLS then.
+    std::string certificate, key;
+    int certificate_line = 0, key_line = 0; ///< of the station file
+    [[nodiscard]] bool speaks_tls() const { return port != 0 && !certificate.empty(); }
 };
 
 struct PublishConfig {

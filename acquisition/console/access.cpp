@@ -30,12 +30,19 @@ bool is_one_of(std::string_view host, const std::vector<std::string>& hosts) {
     return std::ranges::any_of(hosts, same);
 }
 
-bool is_origin_of(const std::string& origin, const std::vector<std::string>& hosts) {
+/// Without TLS also "https://": another web server may stand before the station.
+bool is_origin_of(const std::string& origin, const std::vector<std::string>& hosts, bool tls) {
     const std::string small = in_small(origin);
     for (const std::string_view scheme : {"http://", "https://"})
         if (small.starts_with(scheme))
-            return is_one_of(std::string_view{small}.substr(scheme.size()), hosts);
+            return (scheme == "https://" || !tls) &&
+                   is_one_of(std::string_view{small}.substr(scheme.size()), hosts);
     return false;
+}
+
+/// Browsers leave it out.
+constexpr int usual_port(bool tls) {
+    return tls ? 443 : 80;
 }
 
 /// What stands behind "Bearer ", whose case does not count (RFC 9110, 11.1).
@@ -51,7 +58,8 @@ std::string_view bearer_of(std::string_view authorization) {
 /// Browsers send Origin with each POST and DELETE; what sends a cookie without one is no page of
 /// the station.
 AccessVerdict judge_page(const RequestHead& head, const AccessRules& rules) {
-    if (is_origin_of(head.origin, rules.page_hosts)) return {200, {}, !head.page.empty()};
+    if (is_origin_of(head.origin, rules.page_hosts, rules.tls))
+        return {200, {}, !head.page.empty()};
     return {403, head.origin.empty()
                      ? "A page of the station orders with an Origin header, and there is none; "
                        "programs use the token in the state directory"
@@ -85,7 +93,7 @@ AccessVerdict judge_access(const RequestHead& head, const AccessRules& rules) {
     if (head.door == Door::tcp && !is_one_of(head.host, rules.known_hosts))
         return {421, "Host '" + head.host +
                          "' is not a name of this station; add it to console.allowed_hosts"};
-    if (!head.origin.empty() && !is_origin_of(head.origin, rules.known_hosts))
+    if (!head.origin.empty() && !is_origin_of(head.origin, rules.known_hosts, rules.tls))
         return {403, "Origin '" + head.origin +
                          "' is foreign; pages of other sites may not talk to the station"};
     if (head.matter == Matter::pairing && head.door == Door::tcp)
@@ -113,12 +121,13 @@ known_hosts_of(const std::string& host, int port, const std::vector<std::string>
     return names;
 }
 
-std::vector<std::string>
-page_hosts_of(const std::string& host, int port, const std::vector<std::string>& allowed) {
-    constexpr int usual = 80; // browsers leave it out
+std::vector<std::string> page_hosts_of(const std::string& host,
+                                       int port,
+                                       const std::vector<std::string>& allowed,
+                                       bool tls) {
     std::vector<std::string> names = known_hosts_of(host, port, allowed);
     const auto foreign = [&](const std::string& name) {
-        return port != usual && !has_port(name) &&
+        return port != usual_port(tls) && !has_port(name) &&
                std::ranges::find(allowed, name) == allowed.end();
     };
     std::erase_if(names, foreign);
@@ -126,12 +135,13 @@ page_hosts_of(const std::string& host, int port, const std::vector<std::string>&
 }
 
 std::string
-page_address(const std::string& host, int port, const std::vector<std::string>& allowed) {
+page_address(const std::string& host, int port, const std::vector<std::string>& allowed, bool tls) {
     const bool every_address = host == "0.0.0.0" || host == "::";
     const std::string named = allowed.empty() ? "localhost" : allowed.front();
     const std::string name = every_address ? named : in_brackets(host);
-    if (has_port(name) || port == 80) return "http://" + name + "/";
-    return "http://" + name + ":" + std::to_string(port) + "/";
+    const std::string begin = (tls ? "https://" : "http://") + name;
+    if (has_port(name) || port == usual_port(tls)) return begin + "/";
+    return begin + ":" + std::to_string(port) + "/";
 }
 
 } // namespace axiscal

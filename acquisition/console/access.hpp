@@ -34,6 +34,7 @@ struct AccessRules {
     std::vector<std::string> known_hosts; ///< "localhost", "127.0.0.1", ... with or without port
     std::string token;
     std::vector<std::string> page_hosts = {}; ///< whose pages may order by a cookie
+    bool tls = false; ///< a page that came without TLS may be anybody's, and is foreign
 };
 
 /// HTTP status: 200 may pass; 401 no or wrong token; 403 foreign Origin; 421 unknown Host.
@@ -53,11 +54,15 @@ std::vector<std::string>
 known_hosts_of(const std::string& host, int port, const std::vector<std::string>& allowed);
 /// Hosts whose pages are the station's own: names with its port, and the allowed ones also as they
 /// are written. A cookie does not tell ports apart: another program's page at port 80 of this
-/// computer is a stranger.
-std::vector<std::string>
-page_hosts_of(const std::string& host, int port, const std::vector<std::string>& allowed);
-/// Where a browser finds the station, "http://127.0.0.1:8470/".
-std::string
-page_address(const std::string& host, int port, const std::vector<std::string>& allowed);
+/// computer is a stranger. @param tls  the usual port is 443, not 80
+std::vector<std::string> page_hosts_of(const std::string& host,
+                                       int port,
+                                       const std::vector<std::string>& allowed,
+                                       bool tls = false);
+/// Where a browser finds the station, "http://127.0.0.1:8470/", "https://bay3.plant.example/".
+std::string page_address(const std::string& host,
+                         int port,
+                         const std::vector<std::string>& allowed,
+                         bool tls = false);
 
 } // namespace axiscal

@@ -103,7 +103,8 @@ HttpResponse PairingDoor::offer(const HttpRequest& request,
     const auto code = desk_.offer(*name, now());
     if (!code) return answer(request, code.error());
     if (!no_way.empty()) return answer(request, http::status::ok, offer_json(*code, "", no_way));
-    const std::string page = page_address(config.host, config.port, config.allowed_hosts);
+    const std::string page =
+        page_address(config.host, config.port, config.allowed_hosts, config.speaks_tls());
     return answer(request, http::status::ok, offer_json(*code, page, advice_on(config)));
 }
 

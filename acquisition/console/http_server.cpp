@@ -16,6 +16,7 @@
 #include "acquisition/console/metrics_writer.hpp"
 #include "acquisition/console/peer.hpp"
 #include "acquisition/console/stream_json.hpp"
+#include "acquisition/console/tls_entrance.hpp"
 #include "analysis/quantity/valid_text.hpp"
 #include "drivers/loop/spawn.hpp"
 #include "drivers/turned_away.hpp"
@@ -96,6 +97,8 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     Task<void> open_tcp_later();
     void serve_tcp();
     template <class Acceptor> Task<void> accept(Acceptor& acceptor, Door door);
+    void begin(asio::local::stream_protocol::socket client);
+    void begin(asio::ip::tcp::socket client);
     template <class Socket> Task<void> serve(Socket socket, Door door);
     bool is_stranger(const asio::local::stream_protocol::socket& socket);
     bool is_stranger(const asio::ip::tcp::socket& socket);
@@ -120,6 +123,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<HttpServer::Impl> {
     SocketFile socket_file;
     PageFiles page;
     bool bound = false, ended = false;
+    std::shared_ptr<TlsEntrance> tls;     ///< null: TCP speaks HTTP as it is
     std::array<std::size_t, 2> clients{}; ///< by door
     std::shared_ptr<EventHub> events;
     TurnedAway strangers;
@@ -152,8 +156,19 @@ template <class Acceptor> Task<void> HttpServer::Impl::accept(Acceptor& acceptor
             continue;
         }
         if (is_stranger(socket)) continue; // the socket closes here
-        if (clients[seat_of(door)] < client_limit) spawn(scheduler, serve(std::move(socket), door));
+        if (clients[seat_of(door)] < client_limit) begin(std::move(socket));
     }
+}
+
+void HttpServer::Impl::begin(asio::local::stream_protocol::socket client) {
+    spawn(scheduler, serve(std::move(client), Door::unix_socket));
+}
+
+/// A place is taken before the handshake: one that stalls ends as a slow client does.
+void HttpServer::Impl::begin(asio::ip::tcp::socket client) {
+    if (!tls) return spawn(scheduler, serve(std::move(client), Door::tcp));
+    auto plain = tls->take(std::move(client));
+    if (plain) spawn(scheduler, serve(*std::move(plain), Door::tcp));
 }
 
 template <class Socket> Task<void> HttpServer::Impl::serve(Socket socket, Door door) {
@@ -293,7 +308,8 @@ HttpServer::Impl::order(Request request, RequestHead head, AccessVerdict verdict
 
 Task<Response> HttpServer::Impl::remove(Request request) {
     const std::string target = asked_path(request);
-    if (target == session_path) co_return co_await pairing.close_session(std::move(request), false);
+    if (target == session_path)
+        co_return co_await pairing.close_session(std::move(request), config.speaks_tls());
     co_return answer_in_words(
         request, http::status::method_not_allowed,
         "GET reads, POST changes, DELETE ends the session of a browser alone");
@@ -312,7 +328,7 @@ Task<Response> HttpServer::Impl::change(Request request, Orderer by, int descrip
     if (target == pair_path) co_return pairing.offer(request, config, why_no_page());
     if (target == pair_end_path) co_return co_await pairing.end(std::move(request));
     if (target == session_path)
-        co_return co_await pairing.open_session(std::move(request), false); // TLS: true
+        co_return co_await pairing.open_session(std::move(request), config.speaks_tls());
     if (target == "/v1/run")
         co_return co_await arm_by_request(station, std::move(request), std::move(by), descriptor);
     if (target == "/v1/preflight") {
@@ -389,6 +405,7 @@ HttpServer::~HttpServer() {
     boost::system::error_code ignored;
     impl_->tcp.close(ignored);
     impl_->local.close(ignored);
+    impl_->tls = nullptr;
     impl_->socket_file = {};
 }
 
@@ -408,6 +425,9 @@ void HttpServer::show_runs(std::string state_directory) {
 
 Result<void> HttpServer::start() {
     AXISCAL_CHECK(bind());
+    if (impl_->config.speaks_tls()) {
+        AXISCAL_TRY(impl_->tls, TlsEntrance::open(impl_->scheduler, impl_->config));
+    }
     const Result<void> tcp = listen(impl_->tcp, impl_->config);
     if (!tcp && tcp.error().fault != Fault::io) return tcp;
     if (impl_->local.is_open())
@@ -424,7 +444,9 @@ Result<void> HttpServer::start() {
 
 void HttpServer::Impl::serve_tcp() {
     rules.known_hosts = known_hosts_of(config.host, config.port, config.allowed_hosts);
-    rules.page_hosts = page_hosts_of(config.host, config.port, config.allowed_hosts);
+    rules.page_hosts =
+        page_hosts_of(config.host, config.port, config.allowed_hosts, config.speaks_tls());
+    rules.tls = config.speaks_tls();
     if (tcp.is_open()) spawn(scheduler, accept(tcp, Door::tcp));
 }
 

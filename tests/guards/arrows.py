@@ -15,7 +15,7 @@ QUOTED = re.compile(r"`([^`]+)`")
 # How CMake names the libraries of the table.
 LINKED_AS = {"PkgConfig::pangocairo": "cairo", "PkgConfig::modbus": "modbus", "PkgConfig::libusb": "libusb", "PkgConfig::hidapi": "hidapi",
              "PkgConfig::tomlplusplus": "toml++", "PkgConfig::zstd": "zstd", "PkgConfig::nettle": "nettle", "SQLite::SQLite3": "sqlite3",
-             "PkgConfig::smbclient": "libsmbclient", "PkgConfig::tevent": "tevent", "PkgConfig::libarchive": "archive", "PkgConfig::pugixml": "pugixml",
+             "PkgConfig::smbclient": "libsmbclient", "PkgConfig::tevent": "tevent", "PkgConfig::libarchive": "archive", "PkgConfig::pugixml": "pugixml", "PkgConfig::openssl": "openssl",
              "Boost::headers": "boost/asio"}
 # Links that carry no arrow: compiler options, and libraries that stand in no row.
 FREE = {"axiscal_options", "Threads::Threads", "CLI11::CLI11", "spdlog::spdlog", "nlohmann_json::nlohmann_json", "PkgConfig::systemd"}
@@ -113,7 +113,9 @@ def include_self_test(table):
         "analysis/quantity/x.hpp": '#include "analysis/record/run_record.hpp"\n', "tools/axiscal-simulate/x.cpp": '#include "drivers/sample.hpp"\n',
         "acquisition/run/x.cpp": "#include <sqlite3.h>\n", "acquisition/publish/x.cpp": "#include <libsmbclient.h>\n",
         "acquisition/station/x.cpp": '#include "acquisition/publish/smb/smb_destination.hpp"\n', "config/x.cpp": '#include "analysis/positioning/positioning_certificate.hpp"\n',
-        "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
+        "acquisition/publish/y.cpp": "#include <cairo.h>\n", "acquisition/console/x.cpp": "#include <openssl/ssl.h>\n",
+        "acquisition/tls/x.cpp": '#include "acquisition/tls/module/carried_client.hpp"\n',
+        "acquisition/tls/module/x.cpp": '#include "config/station_config.hpp"\n', "acquisition/publish/smb/x.cpp": "#include <pango/pangocairo.h>\n",
         "acquisition/publish/z.cpp": '#include "acquisition/documents/pdf/page.hpp"\n', "drivers/y.cpp": '#include "analysis/circular/circular_run.hpp"\n',
         "drivers/framing/x.cpp": '#include "drivers/sample.hpp"\n', "acquisition/journal/x.cpp": '#include "drivers/sample.hpp"\n',
         "acquisition/live/x.cpp": '#include "acquisition/measurement/measurement.hpp"\n',
@@ -133,7 +135,7 @@ def link_self_test(table, files):
         "target_link_libraries(axiscal_publish PRIVATE PkgConfig::pangocairo)": 1, "target_link_libraries(axiscal_simulated axiscal_drivers)": 1,
         "target_link_libraries(axiscal_config PUBLIC axiscal_analysis)": 1, "target_link_libraries(axiscal_attic PUBLIC axiscal_quantity)": 1,
         "target_link_libraries(axiscal_journal PUBLIC axiscal_drivers)": 1, "target_link_libraries(axiscal_run PRIVATE ${whatever})": 1,
-        "target_link_libraries(axiscald PRIVATE axiscal_smb)": 1, "target_link_libraries(axiscal_measurement PUBLIC axiscal_station)": 1,
+        "target_link_libraries(axiscald PRIVATE axiscal_smb)": 1, "target_link_libraries(axiscald PRIVATE PkgConfig::openssl)": 1, "target_link_libraries(axiscal_measurement PUBLIC axiscal_station)": 1,
         "target_link_libraries(axiscal_drivers PRIVATE axiscal_record) # axiscal_analysis": 0,
     }
     alone = len(list(cmake_complaints(table, files)))

@@ -12,7 +12,7 @@ for package in axiscal axiscal-publish axiscal-doc; do
 done
 
 wanted=(/usr/share/doc/axiscal/copyright /usr/share/doc/axiscal-publish/copyright
-    /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
+    /usr/lib/axiscal/axiscald-tls.so /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
 while read -r file; do wanted+=("/usr/share/axiscal/page/${file#"$source"/acquisition/console/page/}")
@@ -40,6 +40,12 @@ for program in axiscald axiscal axiscal-publish axiscal-report; do
     [[ $said == *"$version"* ]] || fail "$program --version says: $said"
 done
 said=$("$root/usr/bin/axiscal" conformance --brief) || fail "the installed cases: $said"
+# What speaks TLS is found beside the programs, too, and says what is wrong with the files.
+tls=$root/tls.toml
+sed 's|^# certificate = .*|certificate = "/nowhere.pem"|; s|^# key = .*|key = "/nowhere.pem"|' \
+    "$root/usr/share/axiscal/station.example.toml" >"$tls"
+said=$(env -u AXISCAL_PROFILE_PATH "$root/usr/bin/axiscal" check-config "$tls" 2>&1) && fail "a certificate that is not there is accepted"
+[[ $said == *"/nowhere.pem is not there"* ]] || fail "check-config of a missing certificate says: $said"
 for program in "$root"/usr/bin/axiscal*; do
     "$program" --help >"$root/help.txt" || fail "${program##*/} --help ends with $?"
     ! grep -aqF "$build" "$root/help.txt" || fail "${program##*/} --help names the build folder"

@@ -3,7 +3,8 @@
 
 one_program_loads.py RULE SOURCE_DIR BUILD_DIR  every built program, and the licences that the rule wants
 one_program_loads.py RULE --self-test           proves that a planted link is seen
-RULE is `drawing` (Cairo and Pango live in the short-lived report process) or `gpl` (libsmbclient is under the GPL).
+RULE is `drawing` (Cairo and Pango live in the short-lived report process), `gpl` (libsmbclient is under the GPL) or
+`tls` (OpenSSL is loaded by stations that name a certificate, and by no program when it begins).
 """
 import dataclasses
 import pathlib
@@ -40,6 +41,11 @@ RULES = {
                  "libtalloc-report.so => /usr/lib/x86_64-linux-gnu/samba/libtalloc-report.so\n"),
         fine="the GPL stays where it is",
         licences=(("LICENSE", "Apache License"), ("LICENSES/GPL-3.0-or-later.txt", "GNU GENERAL PUBLIC LICENSE"))),
+    "tls": Rule(
+        must="axiscald-tls.so", tests="tls_tests", library=re.compile(r"libssl|libcrypto"),
+        why="OpenSSL belongs to axiscald-tls.so, which is loaded where a certificate is named",
+        planted=("libssl.so.3 => /lib/libssl.so.3\n", "libcrypto.so.3 => /lib/libcrypto.so.3\n"),
+        fine="OpenSSL waits until a certificate is named"),
 }
 
 
@@ -92,7 +98,8 @@ def main():
     if sys.argv[2] == "--self-test":
         found = self_test(rule)
     else:
-        loads = loads_of(pathlib.Path(sys.argv[3]) / "bin")
+        build = pathlib.Path(sys.argv[3])
+        loads = loads_of(build / "bin") | loads_of(build / "lib/axiscal")
         found = complaints(rule, loads) + list(licence_complaints(rule, pathlib.Path(sys.argv[2])))
         print(f"{len(loads)} programs looked at")
     print("\n".join(found) or rule.fine)

@@ -1,5 +1,6 @@
 // `axiscal check-config`: what the station file means, or every refusal with its line.
 #include "acquisition/station/station_loader.hpp"
+#include "acquisition/tls/tls_judgement.hpp"
 #include "analysis/quantity/counted.hpp"
 #include "config/certificate_dates.hpp"
 #include "config/json_text.hpp"
@@ -17,10 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::int64_t now_utc_ns() {
+    return std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count();
+}
+
 /// ISO date, UTC.
 std::string today() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return iso8601_utc(std::chrono::nanoseconds{now}.count()).substr(0, 10);
+    return iso8601_utc(now_utc_ns()).substr(0, 10);
 }
 
 /// Which channels play the parts that the file leaves to their kind.
@@ -52,9 +56,13 @@ void print_roles(const Json& roles) {
 int command_check_config(const std::string& station_file, bool json) {
     const auto station = load_station(station_file);
     if (!station) return complain(station.error(), json);
+    TlsJudgement tls = judge_tls(station->config, now_utc_ns());
+    if (!tls.refusals.empty()) return complain(tls.refusals, json);
     Json warnings = Json::array();
     std::vector<Refusal> notes = station->config.warnings;
     for (Refusal& note : expired_certificates(station->config, today()))
+        notes.push_back(std::move(note));
+    for (Refusal& note : tls.notes)
         notes.push_back(std::move(note));
     for (const Refusal& warning : notes) {
         warnings.push_back(warning.describe());

@@ -181,5 +181,21 @@ TEST(StationConfig, RefusesAConsoleThatOthersHearWithoutAListOfClients) {
         EXPECT_EQ(read_changed(commented, right).told, "") << right;
 }
 
+TEST(StationConfig, ACertificateGoesWithItsKeyAndBothAreWholePaths) {
+    const std::string commented = "# certificate = \"/etc/axiscal/tls/fullchain.pem\"\n"
+                                  "# key = \"/etc/axiscal/tls/key.pem\"\n";
+    expect_refused_once(read_changed(commented, "certificate = \"/a.pem\"\n"),
+                        "console.certificate: needs its key, too");
+    expect_refused_once(read_changed(commented, "key = \"/a.key\"\n"),
+                        "console.key: is of no use without its certificate");
+    expect_refused_once(read_changed(commented, "certificate = \"/a.pem\"\nkey = \"a.key\"\n"),
+                        "console.key: \"a.key\" is no whole path");
+    const auto both = read_changed(commented, "certificate = \"/a.pem\"\nkey = \"/a.key\"\n");
+    EXPECT_EQ(both.told, "");
+    EXPECT_TRUE(both.config.console.speaks_tls());
+    EXPECT_EQ(both.config.console.key_line, both.config.console.certificate_line + 1);
+    EXPECT_FALSE(read_changed(commented, "").config.console.speaks_tls());
+}
+
 } // namespace
 } // namespace axiscal::station_config_test

@@ -198,6 +198,42 @@ TEST(Access, ABrowserIsSentWhereTheStationAnswersIt) {
     EXPECT_EQ(page_address("0.0.0.0", 8470, {"bay3.shop.example:9000"}),
               "http://bay3.shop.example:9000/");
     EXPECT_EQ(page_address("::", 8470, {}), "http://localhost:8470/");
+    EXPECT_EQ(page_address("127.0.0.1", 8470, {}, true), "https://127.0.0.1:8470/");
+    EXPECT_EQ(page_address("0.0.0.0", 443, {"bay3.shop.example"}, true),
+              "https://bay3.shop.example/");
+    EXPECT_EQ(page_address("192.168.10.5", 80, {}, true), "https://192.168.10.5:80/");
+}
+
+TEST(Access, BehindTlsAPageThatCameWithoutItIsForeign) {
+    AccessRules strict = rules();
+    strict.tls = true;
+    RequestHead head = over_tcp(true);
+    head.page = "tablet";
+    head.origin = "http://127.0.0.1:8470";
+    EXPECT_EQ(judge_access(head, rules()).status, 200U);
+    EXPECT_EQ(judge_access(head, strict).status, 403U);
+    head.changes_state = false;
+    EXPECT_EQ(judge_access(head, strict).status, 403U);
+    head.changes_state = true;
+    head.origin = "HTTPS://127.0.0.1:8470";
+    EXPECT_EQ(judge_access(head, strict).status, 200U);
+    head.authorization = "Bearer " + std::string(64, 'a'); // a program has no Origin
+    head.origin.clear();
+    EXPECT_EQ(judge_access(head, strict).status, 200U);
+}
+
+TEST(Access, BehindTlsThePortThatBrowsersLeaveOutIs443) {
+    AccessRules strict = rules();
+    strict.tls = true;
+    strict.known_hosts = known_hosts_of("127.0.0.1", 443, {});
+    strict.page_hosts = page_hosts_of("127.0.0.1", 443, {}, true);
+    RequestHead head = over_tcp(true);
+    head.host = "127.0.0.1";
+    head.page = "tablet";
+    head.origin = "https://127.0.0.1";
+    EXPECT_EQ(judge_access(head, strict).status, 200U);
+    strict.page_hosts = page_hosts_of("127.0.0.1", 80, {}, true);
+    EXPECT_EQ(judge_access(head, strict).status, 403U) << "another program's page at port 443";
 }
 
 } // namespace
