@@ -225,6 +225,7 @@ StationConfig read_station(SettingsDocument& document) {
                                               "control that sends requests; choose another shape");
     config.console = read_console(root.table("console"));
     config.publish = read_publish(root.table("publish"));
+    read_webhook(root, config);
     config.uncertainty = read_uncertainty(root, config.cycle.axis_kind, config.eve_run);
     refuse_drift_test_of_polygon(root.table("uncertainty"), config);
     read_tolerances(root, config);

@@ -178,6 +178,16 @@ struct PublishConfig {
     int alarm_count = 10;                          ///< of waiting results
 };
 
+/// Who is told by a signed POST (docs/webhook.md).
+struct WebhookConfig {
+    std::string url;         ///< that parse_webhook_address() takes; never logged
+    std::string place;       ///< its scheme, server and port
+    std::string secret_file; ///< by which it is signed
+    std::string ca_file;     ///< of the authorities that vouch for the server; empty: the system's
+    bool on_complete = true, on_fault = true;
+    int line = 0; ///< of the table in the station file
+};
+
 /// A table that only one kind of test has: its set-up (TestSetup) names it, `section`.
 struct KindSection {
     TestKind kind = TestKind::positioning;
@@ -199,6 +209,7 @@ struct StationConfig {
     TriggerConfig trigger;
     ConsoleConfig console;
     PublishConfig publish;
+    std::optional<WebhookConfig> webhook;        ///< absent: nobody is told
     std::optional<UncertaintySetup> uncertainty; ///< of a linear axis; absent: no such table
     /// Drift test that E_VE comes from: its run id, or "latest"; empty: uncertainty->eve counts.
     std::string eve_run;

@@ -37,6 +37,8 @@ std::optional<UncertaintySetup>
 read_uncertainty(Settings root, AxisKind kind, std::string& eve_run);
 /// Nothing without the table. After the axis, whose kind gives the units.
 void read_tolerances(Settings root, StationConfig& config);
+/// Nothing without the table.
+void read_webhook(Settings root, StationConfig& station);
 Statements read_statements(Settings certificate, AxisUnits units, const StationConfig& config);
 
 /// Addresses and networks that may connect, as in ["192.168.10.20", "192.168.20.0/24"].

@@ -22,6 +22,7 @@ void Notices::note(const std::string& sentence, LogFacts facts) {
     std::string message = valid_text(sentence); // of errors, which may quote a client or a file
     if (facts.run.empty() && open_run_) facts.run = open_run_();
     log_about(facts, message);
+    if (listener_) listener_(message, facts);
     const ClockTie tie = scheduler_.clock_tie();
     last_.push_back(iso8601_utc(tie.utc_ns) + " " + std::move(message));
     if (last_.size() > kept_notes) last_.pop_front();

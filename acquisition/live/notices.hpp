@@ -26,6 +26,11 @@ public:
     ///            that names no other it is the run
     void ask_for_run(std::function<std::string()> id) { open_run_ = std::move(id); }
 
+    /// @param listener  hears each sentence with what it is about, on the loop
+    void tell_too(std::function<void(const std::string&, const LogFacts&)> listener) {
+        listener_ = std::move(listener);
+    }
+
     /// @param facts  for the fields of the log
     void note(const std::string& sentence, LogFacts facts = {});
     /// Of the trigger port: the same again, as of an address that is tried each second, is not.
@@ -44,6 +49,7 @@ private:
     Scheduler& scheduler_;
     Doorbell& bell_;
     std::function<std::string()> open_run_;
+    std::function<void(const std::string&, const LogFacts&)> listener_; ///< empty: nobody
     std::deque<std::string> last_;
     std::string port_, refused_;
 };

@@ -72,6 +72,7 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
     , stale_after_{age_that_matters(config_)}
     , bell_{scheduler.executor()}
     , notices_{scheduler, bell_}
+    , fault_teller_{scheduler, config_}
     , files_{scheduler, journal_, notices_, stopping_}
     , certificates_{scheduler, notices_, std::move(parts.report_program),
                     config_.state_directory + "/outbox"}
@@ -82,6 +83,9 @@ Station::Station(Scheduler& scheduler, LinkOpener& links, StationParts parts)
         config_.capture = in_readings(config_.capture, config_.axis.angle->setup);
     if (reads_faces()) config_.capture.fastest = Speed{}; // from face to face the reading jumps
     notices_.ask_for_run([this] { return tests_.open_id(); });
+    notices_.tell_too([this](const std::string& sentence, const LogFacts& about) {
+        fault_teller_.take(sentence, about);
+    });
     sign_with(std::move(parts.key));
 }
 
@@ -107,6 +111,8 @@ Task<Result<void>> Station::start() {
                                "; check station.state_directory and its owner",
                            error);
     }
+    if (const auto opened = fault_teller_.open(); !opened)
+        note("Nobody is told by the webhook: " + describe(opened.error()));
     supervisor_.start();
     judged_ = scheduler_.now();
     outbox_watch_.begin_judging(judged_);

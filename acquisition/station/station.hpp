@@ -24,6 +24,7 @@
 #include "acquisition/measurement/revisable.hpp"
 #include "acquisition/measurement/run_file_closer.hpp"
 #include "acquisition/runfile/signing_key.hpp"
+#include "acquisition/station/fault_teller.hpp"
 #include "acquisition/station/sleep_lock.hpp"
 #include "config/station_config.hpp"
 #include "drivers/loop/doorbell.hpp"
@@ -185,6 +186,7 @@ private:
     bool asleep_ = false;               ///< tick() waits for the bell
     Doorbell bell_;
     Notices notices_;
+    FaultTeller fault_teller_;
     bool stopping_ = false; ///< the daemon is about to end
     UnderWay under_way_;
     RunFileCloser files_;

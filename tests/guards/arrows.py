@@ -15,7 +15,7 @@ QUOTED = re.compile(r"`([^`]+)`")
 # How CMake names the libraries of the table.
 LINKED_AS = {"PkgConfig::pangocairo": "cairo", "PkgConfig::modbus": "modbus", "PkgConfig::libusb": "libusb", "PkgConfig::hidapi": "hidapi",
              "PkgConfig::tomlplusplus": "toml++", "PkgConfig::zstd": "zstd", "PkgConfig::nettle": "nettle", "SQLite::SQLite3": "sqlite3",
-             "PkgConfig::smbclient": "libsmbclient", "PkgConfig::tevent": "tevent", "PkgConfig::libarchive": "archive", "PkgConfig::pugixml": "pugixml", "PkgConfig::openssl": "openssl",
+             "PkgConfig::smbclient": "libsmbclient", "PkgConfig::tevent": "tevent", "PkgConfig::libarchive": "archive", "PkgConfig::pugixml": "pugixml", "PkgConfig::openssl": "openssl", "PkgConfig::libcurl": "curl",
              "Boost::headers": "boost/asio"}
 # Links that carry no arrow: compiler options, and libraries that stand in no row.
 FREE = {"axiscal_options", "Threads::Threads", "CLI11::CLI11", "spdlog::spdlog", "nlohmann_json::nlohmann_json", "PkgConfig::systemd"}

@@ -13,7 +13,7 @@ done
 
 wanted=(/usr/share/doc/axiscal/copyright /usr/share/doc/axiscal-publish/copyright
     /usr/lib/axiscal/axiscald-tls.so /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
-for program in axiscald axiscal axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
+for program in axiscald axiscal axiscal-notify axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
 while read -r file; do wanted+=("/usr/share/axiscal/page/${file#"$source"/acquisition/console/page/}")
 done < <(find "$source/acquisition/console/page" -type f ! -name package.json)
@@ -24,7 +24,7 @@ for file in "${wanted[@]}"; do
     [ -s "$root$file" ] || fail "not installed: $file"
 done
 # These stand where this system's systemd and udev look for them.
-for name in axiscald.service axiscal-publish.service 70-axiscal.rules; do
+for name in axiscald.service axiscal-notify.service axiscal-notify.path axiscal-publish.service 70-axiscal.rules; do
     [ "$(find "$root" -name "$name" -size +0 | wc -l)" = 1 ] || fail "not installed once: $name"
 done
 
@@ -35,7 +35,7 @@ while read -r file; do
     esac
 done < <(find "$root" -type f)
 
-for program in axiscald axiscal axiscal-publish axiscal-report; do
+for program in axiscald axiscal axiscal-notify axiscal-publish axiscal-report; do
     said=$("$root/usr/bin/$program" --version) || fail "$program --version ends with $?"
     [[ $said == *"$version"* ]] || fail "$program --version says: $said"
 done
@@ -53,4 +53,4 @@ done
 # The example names a profile: found beside the programs, not where the build was meant to go.
 env -u AXISCAL_PROFILE_PATH "$root/usr/bin/axiscal" check-config "$root/usr/share/axiscal/station.example.toml" \
     || fail "the installed example is refused by the installed program"
-echo "${#wanted[@]} files and 3 services' files are installed; programs say $version"
+echo "${#wanted[@]} files and 5 services' files are installed; programs say $version"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from guest import SOURCE, expect, run
 
-SERVICES = ("axiscald", "axiscal-publish")
+SERVICES = ("axiscald", "axiscal-publish", "axiscal-notify")
 PAGE = SOURCE / "docs/sandbox.md"
 WORDS = {"reads", "writes", "shut", "may", "may not"}
 
@@ -94,10 +94,10 @@ for name in names:
 
 
 def claimed():
-    """Of each row of the page, what it says of both services."""
+    """Of each row of the page, what it says of each service."""
     rows = {}
     for line in PAGE.read_text().splitlines():
-        row = re.fullmatch(r"\| `([^`]+)` \| ([a-z ]+) \| ([a-z ]+) \|.*\|", line)
+        row = re.fullmatch(r"\| `([^`]+)` \| ([a-z ]+) \| ([a-z ]+) \| ([a-z ]+) \|.*\|", line)
         expect(row or not line.startswith("| `"), f"docs/sandbox.md: no row of this form: {line}")
         if row:
             rows[row[1]] = row.groups()[1:]

@@ -11,7 +11,7 @@ for tool in g++ cmake python3; do
 done
 echo "ok installed without what building needs"
 
-for program in axiscald axiscal axiscal-publish axiscal-report axiscal-simulate; do
+for program in axiscald axiscal axiscal-notify axiscal-publish axiscal-report axiscal-simulate; do
     $program --version >/dev/null || fail "$program does not start"
 done
 axiscal conformance --brief >/dev/null || fail "the installed cases"

@@ -21,7 +21,7 @@ holds() { # page, program words...
     done
     count=$((count + 1))
 }
-for program in axiscal axiscald axiscal-publish axiscal-report axiscal-simulate; do holds "$program" "$program"; done
+for program in axiscal axiscald axiscal-notify axiscal-publish axiscal-report axiscal-simulate; do holds "$program" "$program"; done
 commands=$("$root/usr/bin/axiscal" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
 for command in $commands; do holds "axiscal-$command" axiscal "$command"; done
 

@@ -29,7 +29,7 @@ done
 
 units=/usr/lib/systemd/system
 [ -d "$root$units" ] || units=/lib/systemd/system # as the debhelper of Debian 12 lays them
-for file in "$units/axiscald.service" "$units/axiscal-publish.service" /usr/lib/sysusers.d/axiscal.conf \
+for file in "$units/axiscald.service" "$units/axiscal-notify.service" "$units/axiscal-notify.path" "$units/axiscal-publish.service" /usr/lib/sysusers.d/axiscal.conf \
     /usr/lib/tmpfiles.d/axiscal.conf /usr/lib/modules-load.d/axiscal.conf /usr/share/polkit-1/rules.d/axiscal.rules \
     /usr/share/axiscal/station.example.toml; do
     [ -s "$root/$file" ] || fail "not installed: $file"
@@ -39,7 +39,7 @@ rules=$(find "$root" -name 70-axiscal.rules)
 
 # The scratch root is a system of its own: stub programs, and systemd's own units to refer to.
 mkdir -p "$root/usr/bin" "$root/etc/axiscal"
-for program in axiscald axiscal-publish; do
+for program in axiscald axiscal-notify axiscal-publish; do
     grep -q "^ExecStart=/usr/bin/$program --config /etc/axiscal/station.toml$" "$root/$units/$program.service" \
         || fail "$program.service starts another program"
     printf '#!/bin/sh\n' >"$root/usr/bin/$program"
@@ -72,6 +72,7 @@ done < <(sed -n 's/^DeviceAllow=char-\([A-Za-z_]*\) .*/\1/p' "$root/$units/axisc
 # What docs/install.md claims; Kernel.UnitIsHardenedAsMuchAsItClaims holds the page.
 judge axiscald.service 16
 judge axiscal-publish.service 10
+judge axiscal-notify.service 10
 
 # The judge is awake: a planted mistake is told.
 sed 's/^NoNewPrivileges=/NoNewPriviliges=/' "$root/$units/axiscald.service" >"$root/$units/axiscal-planted.service"

@@ -10,6 +10,7 @@
 #include "acquisition/documents/conformity_json.hpp"
 #include "acquisition/documents/evaluate.hpp"
 #include "acquisition/documents/pdf/certificate_files.hpp"
+#include "acquisition/events/event_folder.hpp"
 #include "acquisition/publish/outbox.hpp"
 #include "acquisition/runfile/durable_file.hpp"
 #include "acquisition/runfile/run_file.hpp"
@@ -21,6 +22,7 @@
 #include "tools/describe/describe.hpp"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -37,14 +39,19 @@ struct Options {
     std::string to; ///< any folder; both get <run-id>/ in one rename
 };
 
+/// The folder that holds the outbox.
+std::string state_of(const std::string& outbox) {
+    const std::filesystem::path whole = std::filesystem::absolute(outbox);
+    return (whole / "").lexically_normal().parent_path().parent_path().string();
+}
+
 /// The first evaluation is the station's own report, numbered and signed with what lies beside its
 /// outbox; an export changes nothing.
 Result<TestResult> evaluate(const Options& options) {
     if (!options.to.empty()) return evaluate_run_file(options.run_file);
-    const std::filesystem::path outbox = std::filesystem::absolute(options.outbox);
-    const auto state = (outbox / "").lexically_normal().parent_path().parent_path();
-    AXISCAL_TRY(const auto key, read_station_key(state.string(), read_machine_id()));
-    const Issue issue{key.get(), state.string()};
+    const std::string state = state_of(options.outbox);
+    AXISCAL_TRY(const auto key, read_station_key(state, read_machine_id()));
+    const Issue issue{key.get(), state};
     return evaluate_run_file(options.run_file, &issue);
 }
 
@@ -54,7 +61,8 @@ std::string one_line(const nlohmann::ordered_json& object) {
 
 /// What is said of a result beside its paths.
 struct Said {
-    std::string verdict; ///< row of the figure that it rests on; empty: no limits
+    std::string parameter, word; ///< of the verdict: the figure that it rests on, "pass"
+    std::string verdict;         ///< row of the figure that it rests on; empty: no limits
     std::vector<std::string> setup_findings; ///< a sentence each
     nlohmann::ordered_json to_answer;        ///< those that nobody answered, in parts; null: none
 };
@@ -91,7 +99,15 @@ nlohmann::ordered_json unanswered_of(const TestResult& result) {
 }
 
 Said said_of(const TestResult& result) {
-    return {verdict_line_of(result), setup_findings_of(result), unanswered_of(result)};
+    Said said;
+    if (const auto& conformity = conformity_of(result); conformity && conformity->decisive()) {
+        said.parameter = conformity->decisive()->parameter;
+        said.word = conformity->decisive()->verdict;
+    }
+    said.verdict = verdict_line_of(result);
+    said.setup_findings = setup_findings_of(result);
+    said.to_answer = unanswered_of(result);
+    return said;
 }
 
 Result<Said> draw(const Options& options, const std::string& folder) {
@@ -119,6 +135,21 @@ void clear_away(const Options& options, const Error& why, const std::string& nam
     std::filesystem::remove(*emptied, ignored);
 }
 
+/// Before the entry has its name: a certificate that a power cut took back is made again, and so is
+/// this, under the same id. A disk that fails here fails the entry next, which is told.
+void tell_complete(const Options& options, const RunSummary& run, const Said& said) {
+    if (!options.to.empty()) return;
+    StationEvent event;
+    event.when_utc = iso8601_utc(
+        std::chrono::nanoseconds{std::chrono::system_clock::now().time_since_epoch()}.count());
+    event.run_id = run.run_id;
+    event.test = run.kind;
+    event.certificate = certificate_name(run);
+    event.parameter = said.parameter;
+    event.verdict = said.word;
+    static_cast<void>(lay_event(state_of(options.outbox), event));
+}
+
 /// The entry appears in the outbox only with all its content. Its folder is there before the result
 /// is stored: a station that finds it after a power cut knows that this was not finished.
 Result<Staged> stage(const Options& options) {
@@ -133,6 +164,7 @@ Result<Staged> stage(const Options& options) {
         clear_away(options, drawn.error(), name);
         return tl::unexpected<Error>(std::move(drawn).error());
     }
+    tell_complete(options, run, *drawn);
     AXISCAL_TRY(std::string entry, finish_entry(folder, name));
     return Staged{std::move(entry), *std::move(drawn)};
 }

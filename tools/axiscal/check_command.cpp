@@ -1,4 +1,5 @@
 // `axiscal check-config`: what the station file means, or every refusal with its line.
+#include "acquisition/events/webhook_signature.hpp"
 #include "acquisition/station/station_loader.hpp"
 #include "acquisition/tls/tls_judgement.hpp"
 #include "analysis/quantity/counted.hpp"
@@ -51,6 +52,15 @@ void print_roles(const Json& roles) {
     }
 }
 
+/// What is wrong with the file of the webhook's secret, as far as this user may read it.
+void add_note_on_secret(const StationConfig& config, std::vector<Refusal>& notes) {
+    if (!config.webhook) return;
+    const auto keys = read_webhook_secret(config.webhook->secret_file);
+    if (!keys && keys.error().cause != std::errc::permission_denied)
+        notes.push_back({config.file, config.webhook->line, "webhook.secret_file",
+                         "nothing can be signed: " + describe(keys.error())});
+}
+
 } // namespace
 
 int command_check_config(const std::string& station_file, bool json) {
@@ -64,6 +74,7 @@ int command_check_config(const std::string& station_file, bool json) {
         notes.push_back(std::move(note));
     for (Refusal& note : tls.notes)
         notes.push_back(std::move(note));
+    add_note_on_secret(station->config, notes);
     for (const Refusal& warning : notes) {
         warnings.push_back(warning.describe());
         if (!json) std::cout << "note: " << warning.describe() << "\n";

@@ -109,6 +109,7 @@ Examined examine(const DoctorRequest& request) {
     add(check_clock(request.places));
     add(check_disk(checked));
     if (station) add(check_share(checked, utc_ns));
+    if (station) add(check_webhook(checked));
     if (station) add(check_ports(checked));
     add(check_modules(checked, request.places));
     add(check_papers(request.places));

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 
-OF_THE_SYSTEM = ("axiscald", "axiscal-publish")  # section 8: services
+OF_THE_SYSTEM = ("axiscald", "axiscal-notify", "axiscal-publish")  # section 8: services
 CHOICES = re.compile(r"\{([^}]*)\}")
 # The date of the package (reproducible-builds.org), not of the day on which it is built.
 DAY = time.strftime("%Y-%m-%d", time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", time.time()))))

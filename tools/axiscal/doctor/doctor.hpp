@@ -42,6 +42,8 @@ std::vector<Finding> check_owners(const std::string& folder, const Account& serv
 /// The destination: there, mounted where a file of the system says so, writable; the publisher.
 std::vector<Finding>
 check_share(const CheckedSystem& checked, std::int64_t utc_ns, const MountPlaces& mounts = {});
+/// The secret of the webhook, and what waits for its receiver; none without [webhook].
+std::vector<Finding> check_webhook(const CheckedSystem& checked);
 /// Sockets: the Modbus port of the CNC, the port of the console.
 std::vector<Finding> check_ports(const CheckedSystem& checked);
 std::vector<Finding> check_modules(const CheckedSystem& checked, const DoctorPlaces& places);
