@@ -6,8 +6,10 @@ import os
 import re
 import shutil
 import signal
+import ssl
 import sys
 import time
+import urllib.request
 from pathlib import Path
 
 import guest_clock
@@ -26,6 +28,8 @@ DIRECT = {  # without a terminal: usbfs, hidraw, AF_CAN
 }
 GONE = ("unavailable", "faulty")
 INSTALL = SOURCE / "docs/install.md"
+TLS = Path("/etc/axiscal/tls")
+TLS_PORT = 8470
 WATCHDOG_S = 30.0  # 10 s of the unit, its end by a signal, its restart
 
 
@@ -50,6 +54,15 @@ def told_of(name, since, last):
     return lines if any(line.endswith(f"{name} {last}") for line in lines) else None
 
 
+def make_certificate():
+    """As docs/install.md has it: the service reads the key by its group."""
+    TLS.mkdir()
+    run("openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-noenc", "-days", "30", "-subj", "/CN=localhost",
+        "-addext", "subjectAltName=DNS:localhost", "-keyout", TLS / "key.pem", "-out", TLS / "fullchain.pem")
+    run("chown", "root:axiscal", TLS / "key.pem")
+    (TLS / "key.pem").chmod(0o640)
+
+
 class ServiceStation(UsbStation):
     """As UsbStation, but everything lies where an installed station has it and systemd starts it."""
 
@@ -62,6 +75,7 @@ class ServiceStation(UsbStation):
         self.station["station"]["state_directory"] = "/var/lib/axiscal"
         self.station["console"].pop("socket")
         self.station["console"].pop("group")  # as a station file that names none: axiscal
+        self.station["console"].update(port=TLS_PORT, certificate=str(TLS / "fullchain.pem"), key=str(TLS / "key.pem"))
         self.station["publish"]["destination"] = str(PUBLISHED)
         for instrument in self.station["instrument"]:
             if "profile" in instrument:
@@ -98,6 +112,7 @@ class ServiceStation(UsbStation):
         """What docs/install.md says after laying out the files."""
         run("systemd-sysusers")
         run("systemd-tmpfiles", "--create")
+        make_certificate()
         PUBLISHED.mkdir(parents=True, exist_ok=True)
         run("chown", "axiscal:axiscal", PUBLISHED)
         run("udevadm", "control", "--reload")
@@ -175,6 +190,15 @@ def control_socket(station):
         rights = place.stat().st_mode & 0o7777
         expect((place.owner(), place.group(), rights) == ("axiscal", "axiscal", mode),
                f"{place} belongs to {place.owner()}:{place.group()} and has mode {rights:o}")
+
+
+@check("ConsoleSpeaksTlsInsideTheUnit")
+def console_by_tls(station):
+    """The module is loaded, and its thread works, under all that the unit takes away."""
+    trusted = ssl.create_default_context(cafile=TLS / "fullchain.pem")
+    with urllib.request.urlopen(f"https://localhost:{TLS_PORT}/v1/status", timeout=30, context=trusted) as answer:
+        expect(json.load(answer)["station"] == station.status()["station"], "another station answers")
+    expect("axiscald-tls.so" in Path(f"/proc/{station.pid()}/maps").read_text(), "who speaks TLS here?")
 
 
 @check("InstrumentsPluggedInLaterAreNamedGroupedAndOpened")
