@@ -74,9 +74,17 @@ class Browser:
         """The value of a JavaScript expression in the page."""
         return self.driver.execute_script(f"return ({expression});")
 
+    def evaluate(self, expression):
+        """The same, awaited where it is a promise, and without what the driver runs in the page for ask(): it needs nothing of a browser."""
+        answer = self.tell("Runtime.evaluate", expression=expression, awaitPromise=True, returnByValue=True)
+        if "exceptionDetails" in answer:
+            raise AssertionError(f"{expression[:200]}: {answer['exceptionDetails']}")
+        return answer["result"].get("value")
+
     def text(self, selector):
         """What is seen of an element, one line; empty where it is not shown."""
-        return self.ask(f"(document.querySelector({json.dumps(selector)})?.innerText ?? '').replace(/\\s+/g, ' ').trim()")
+        # innerText of what is not rendered is its textContent.
+        return self.ask(f"((one) => one?.checkVisibility() ? one.innerText.replace(/\\s+/g, ' ').trim() : '')(document.querySelector({json.dumps(selector)}))")
 
     def wait(self, what, probe, limit_s=30.0):
         end = time.monotonic() + limit_s

@@ -265,7 +265,7 @@ function paint_strip(view, all_tasks) {
     const first = tasks[0];
     const rank = about_link ? "link" : (first?.rank ?? "well");
     set_attribute(strip, "data-rank", rank);
-    set_attribute(text, "role", rank === "link" || rank === "stop" ? "alert" : null);
+    set_attribute(text, "role", rank === "link" || rank === "stop" ? "alert" : "status");
     set_text(by_id("strip_shape"), about_link ? "✕" : first ? "" : "●");
     set_text(text, about_link ? link_text(view) : first ? task_line(first, words) : words.text("all_well"));
     const more = tasks.length - (about_link ? 0 : 1);
@@ -364,7 +364,7 @@ async function use_language(name) {
     language = name;
     document.documentElement.lang = words.tag;
     for (const element of document.querySelectorAll("[data-text]")) set_text(element, words.text(element.getAttribute("data-text") ?? ""));
-    set_attribute(by_id("strip"), "aria-label", words.text("what_to_do"));
+    for (const element of document.querySelectorAll("[data-label]")) set_attribute(element, "aria-label", words.text(element.getAttribute("data-label") ?? ""));
     set_text(table_button, words.text("show_table"));
     go_to(shown.screen);
 }
