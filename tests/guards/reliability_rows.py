@@ -57,6 +57,7 @@ def names_of_scripts(root):
             for name in re.findall(rf"add_test\(NAME ([\w.]+)\${{{each}}}\s", body):
                 names |= {name + word for word in words.split()}
     names |= {f"Simulation.{name}" for name in marked(root, ("simulation", "*.py"), "sentence")}
+    names |= {f"Browser.{name}" for name in marked(root, ("browser", "*.py"), "sentence")}
     names |= {f"Peers.Samba.{name}" for name in marked(root, ("peers", "samba", "*.py"), "sentence")}
     names |= {f"FirstHour.{name}" for name in marked(root, ("first_hour", "first_hour.py"), "(?:long_)?check")}
     return names | {f"Kernel.{name}" for name in marked(root, ("kernel", "boot_*.py"), "check")}
