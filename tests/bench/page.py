@@ -6,11 +6,15 @@ page.py PROGRAM-FOLDER
 The station measures on the simulated machine of tests/simulation; the CNC holds in mid-run, the laser goes on. "First screen" is all that
 a browser asks for before the first value stands there, with the heads of HTTP, against the station's own status alone. The cost of a
 client is the daemon's processor time with ten that read GET /v1/events?stream=200 (at most 20 frames a second each), less that without any,
-a tenth of it; in the same run, one after the other. The page itself runs in Debian's Chromium: its heap after a collection at the
+a tenth of it; in the same run, one after the other. What twenty such clients do to the CNC is the round trip of a request on its Modbus port: of a few
+thousand the median and the one that 99 of 100 do not exceed, beside the twenty and without them, in turns. The page itself runs in Debian's Chromium: its heap after a collection at the
 beginning and at the end of some minutes, and the processor time of all its processes.
 """
+import contextlib
 import os
 import socket
+import statistics
+import struct
 import sys
 import threading
 import time
@@ -24,6 +28,9 @@ from page_bench import bench, in_mid_run, opened
 
 CLIENTS, WATCH_S = 10, float(os.environ.get("AXISCAL_BENCH_CLIENT_SECONDS", "20"))
 PAGE_S = float(os.environ.get("AXISCAL_BENCH_PAGE_SECONDS", "300"))
+PAGES, ROUNDS, REQUESTS, MOST_SLOWER = 20, 5, 1000, 1.25
+READ = struct.pack(">HHHBBHH", 1, 0, 6, 1, 3, 0, 33)  # the whole register map of the sequence-block
+READ_ANSWER = 9 + 66
 MOST_BYTES, MOST_CLIENT_PERCENT, MOST_PAGE_PERCENT, MOST_GROWTH_KIB = 150_000, 0.5, 10, 512
 TICKS = os.sysconf("SC_CLK_TCK")
 
@@ -56,8 +63,9 @@ class Listener(threading.Thread):
         self.frames = 0
 
     def run(self):
-        while data := self.wire.recv(1 << 16):
-            self.frames += data.count(b"event: ")
+        with contextlib.suppress(ConnectionResetError):  # hung up on in mid-frame
+            while data := self.wire.recv(1 << 16):
+                self.frames += data.count(b"event: ")
 
 
 def cost_of_a_client(b, port):
@@ -74,6 +82,37 @@ def cost_of_a_client(b, port):
     for one in listeners:
         one.wire.shutdown(socket.SHUT_RDWR)
     return (heard - alone) / CLIENTS, frames
+
+
+def round_trips_us(port):
+    """Of requests of the CNC, one after the other, at the pace of a quick one."""
+    with socket.create_connection(("127.0.0.1", port), timeout=10) as wire:
+        wire.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        taken = []
+        for _ in range(REQUESTS):
+            began = time.perf_counter()
+            wire.sendall(READ)
+            rest = READ_ANSWER
+            while rest > 0:
+                rest -= len(wire.recv(rest)) or sys.exit("the station has hung up on the CNC")
+            taken.append(1e6 * (time.perf_counter() - began))
+            time.sleep(0.001)
+    return taken
+
+
+def beside_pages(b, port):
+    """(median, 99 of 100) in us with so many clients, and the same without any."""
+    alone, beside = [], []
+    for _ in range(ROUNDS):
+        alone += round_trips_us(b.station["trigger"]["port"])
+        listeners = [Listener(port) for _ in range(PAGES)]
+        for one in listeners:
+            one.start()
+        beside += round_trips_us(b.station["trigger"]["port"])
+        for one in listeners:
+            one.wire.shutdown(socket.SHUT_RDWR)
+            one.join()
+    return [(statistics.median(some), statistics.quantiles(some, n=100)[98]) for some in (beside, alone)]
 
 
 def heap_kib(page):
@@ -100,12 +139,16 @@ def measure(b):
     address = in_mid_run(b)
     status_bytes = len(str(b.status()))
     client, frames = cost_of_a_client(b, b.station["console"]["port"])
+    (median, most), (median_alone, most_alone) = beside_pages(b, b.station["console"]["port"])
     loaded, percent, growth = watch_page(address)
     met = [
         row("page: first screen", f"{loaded / 1000:.1f} kB", f"{status_bytes / 1000:.1f} kB (one status)", "-", f"{loaded / status_bytes:.0f}",
             f"<= {MOST_BYTES // 1000} kB", loaded <= MOST_BYTES),
         row("page: the daemon for each client of its events", f"{client:.2f} % of a core", "-", f"{frames:.1f} frames a second", "-",
             f"<= {MOST_CLIENT_PERCENT} %", client <= MOST_CLIENT_PERCENT),
+        row(f"page: a request of the CNC beside {PAGES} pages", f"{median:.0f} us", f"{median_alone:.0f} us (without pages)",
+            f"99 of 100: {most:.0f} against {most_alone:.0f} us", f"{median / median_alone:.2f}", f"<= {MOST_SLOWER} x without pages",
+            median <= MOST_SLOWER * median_alone),
         row("page: the browser, all processes", f"{percent:.1f} % of a core", "-", f"over {PAGE_S:.0f} s", "-", f"<= {MOST_PAGE_PERCENT} %",
             percent <= MOST_PAGE_PERCENT),
         row("page: growth of its heap", f"{growth:.0f} KiB", "-", f"over {PAGE_S:.0f} s", "-", f"<= {MOST_GROWTH_KIB} KiB", growth <= MOST_GROWTH_KIB),

@@ -22,6 +22,8 @@ import { Wakefulness } from "./wakefulness.js";
 import { task_line, what_to_do } from "./what_to_do.js";
 
 const tick_ms = 80; // stale values are marked within 2.1 s of their last reading
+const paint_every_ms = 160; // nobody reads what changes faster
+const calm_until_ms = 1500; // nothing is stale before 2 s
 const load_later_after_ms = 30000;
 const checks_every_ms = 60000; // and whenever somebody goes to a screen that shows what arming would meet
 
@@ -42,6 +44,7 @@ const accepted = new AcceptedPoints();
 const shown = {
     /** @type {any} */ status: null,
     status_at: 0,
+    painted_at: -Infinity,
     heard_wall: Date.now(),
     checks_at: -checks_every_ms,
     /** @type {import("./setup_text.js").Judged | null} */ judged: null,
@@ -284,8 +287,16 @@ function paint_head(status) {
     set_text(by_id("head_state"), state);
 }
 
+/** Fresh values wait for the second tick; what is about to be stale is looked at with each. @param {number} at */
+function may_wait(at) {
+    const { status, painted_at } = shown;
+    if (status === null || at - painted_at >= paint_every_ms || !link.has_contact(at)) return false;
+    return at - shown.status_at + 1000 * (status.axis.age_s ?? Infinity) < calm_until_ms;
+}
+
 /** @param {number} at */
 function paint(at) {
+    shown.painted_at = at;
     const view = link.view(at);
     document.documentElement.classList.toggle("no-contact", !view.contact);
     if (view.contact && !shown.contact) ask_rights();
@@ -335,7 +346,7 @@ function tick() {
     events.watch();
     bar.tick();
     if (document.hidden) return; // nobody looks: nothing is painted
-    paint(at);
+    if (!may_wait(at)) paint(at);
     judge_checks(at);
     if (at - started_at > load_later_after_ms || !["now", "run"].includes(shown.screen)) load_later();
     load_anew_if_replaced();
