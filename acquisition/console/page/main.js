@@ -5,7 +5,7 @@ import { AcceptedPoints, still_picked } from "./accepted_points.js";
 import { buttons_of, revision_of } from "./actions.js";
 import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
 import { SleeplessClock } from "./clock.js";
-import { by_id, set_attribute, set_text } from "./dom.js";
+import { by_id, make, set_attribute, set_text } from "./dom.js";
 import { EventLink } from "./event_link.js";
 import { KeptValues } from "./freshness.js";
 import { LinkState } from "./link_state.js";
@@ -228,7 +228,7 @@ async function load_later() {
     later_asked = true;
     try {
         const [{ SetupScreen }, { StoredScreens }, doctor_screen] = await Promise.all([
-            import("./setup_screen.js"), import("./stored_screens.js"), import("./doctor_screen.js"),
+            import("./setup_screen.js"), import("./stored_screens.js"), import("./doctor_screen.js"), later_style(),
         ]);
         setup = new SetupScreen(judge_again);
         doctor = doctor_screen;
@@ -238,6 +238,21 @@ async function load_later() {
     } catch {
         later_asked = false; // the next tick tries again
     }
+}
+
+/** @returns {Promise<Event>} once it holds */
+function later_style() {
+    return new Promise((done, failed) => {
+        const link = make("link");
+        link.rel = "stylesheet";
+        link.href = "/page/later.css";
+        link.onload = done;
+        link.onerror = (event) => {
+            link.remove();
+            failed(event);
+        };
+        document.head.append(link);
+    });
 }
 
 /** @param {string} screen */
