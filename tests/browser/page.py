@@ -8,7 +8,6 @@ import time
 from selenium.webdriver.common.keys import Keys
 
 from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, sentence, wait_until, with_page
-from page_beam import STRUCK_STRENGTH, WATCH_AUDIO, at_far_end, signal_mark, steered_away, strength_shown, tone_hz
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -259,59 +258,6 @@ def clipped(page):
         return ((hides(style.overflowX) || button) && one.scrollWidth > one.clientWidth + 1) ||
                ((hides(style.overflowY) || button) && one.scrollHeight > one.clientHeight + 1);
     }).map((one) => `${one.id || one.className || one.localName}: ${one.innerText}`)""")
-
-
-@sentence("SetUpShowsTheStrengthOfTheBeamAndHowItFalls")
-def strength(b):
-    address = at_far_end(b)
-    with opened(address) as page:
-        go(page, "setup")
-        page.wait("the strength of a beam that is aligned", lambda: (strength_shown(page) or 0) > 80)
-        page.wait_for_text("#setup_beam .signal .mark", "strong enough")
-        page.wait_for_text("#setup_devices li[data-name=laser]", "answers")
-        page.wait_for_text("#setup_checks li[data-name=strength]", "● holds")
-        left = steered_away(b)
-        page.wait(f"{left:.1f} % are left", lambda: abs((strength_shown(page) or 100) - left) < 0.2)
-        expect(signal_mark(page) == "warn", page.text("#setup_beam"))
-        page.wait_for_text("#setup_beam .signal .mark", "too weak: at least 20 %")
-        bar = page.ask("Number(document.querySelector('#setup_beam .meter').getAttribute('aria-valuenow'))")
-        expect(abs(bar - left) < 1, f"the bar stands at {bar}")
-        # The first touch may only wake the page.
-        page.wait("the check does not hold", lambda: "does not hold" in page.text("#setup_checks li[data-name=strength]")
-                  or page.click("#setup_checks .again"))
-        b.sim("sensor laser off")
-        page.wait("a strength that is stale", lambda: signal_mark(page) == "stale")
-        expect(page.ask(STRUCK_STRENGTH) == "line-through" and strength_shown(page) is not None, page.text("#setup_beam"))
-
-
-@sentence("ToneFollowsTheStrengthOnlyAfterATouchAndEndsWithTheScreen")
-def tone(b):
-    address = at_far_end(b)
-    with opened(address) as page:
-        page.driver.execute_script(WATCH_AUDIO)
-        go(page, "setup")
-        page.wait("the strength of a beam that is aligned", lambda: (strength_shown(page) or 0) > 80)
-        expect(page.ask("window.heard.length") == 0 and tone_hz(page) is None, "a tone before any touch")
-        page.wait("a touch starts the tone", lambda: page.ask("window.heard.length > 0") or page.click("#setup_beam .tone"))
-        strong_hz = page.wait("it sounds", lambda: tone_hz(page))
-        steered_away(b)
-        page.wait("it falls with the strength", lambda: (tone_hz(page) or strong_hz) < strong_hz / 4)
-        b.sim("sensor laser off")
-        page.wait("it is silent without a fresh strength", lambda: tone_hz(page) is None)
-        expect(signal_mark(page) in ("stale", "lost"), page.text("#setup_beam"))
-        b.sim("sensor laser on")
-        page.wait("it is back with the strength", lambda: tone_hz(page), 60)
-        b.processes["axiscald"].send_signal(signal.SIGSTOP)
-        try:
-            page.wait("it is silent without contact", lambda: tone_hz(page) is None)
-        finally:
-            b.processes["axiscald"].send_signal(signal.SIGCONT)
-        page.wait("it is back with the contact", lambda: tone_hz(page))
-        go(page, "now")
-        page.wait("it has ended with the screen", lambda: page.ask("window.heard.at(-1).state") == "closed")
-        go(page, "setup")
-        page.wait("a strength", lambda: strength_shown(page))
-        expect(page.ask("window.heard.length") == 1 and tone_hz(page) is None, "the tone came back without a touch")
 
 
 @sentence("OpenRunIsARowOfHistoryAndHasNoVerdict")

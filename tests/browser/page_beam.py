@@ -2,7 +2,7 @@
 
 from page_bench import with_page
 
-from alignment import FAR_MM, contrast, jog, with_contrast  # noqa: E402  page_bench has set the path to it
+from alignment import FAR_MM, contrast, jog, view as aligned, with_contrast  # noqa: E402, F401  page_bench has set the path to it
 
 AWAY_MRAD = 6.0
 SIGNAL = "document.querySelector('#setup_beam .signal')"

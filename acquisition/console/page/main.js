@@ -230,7 +230,7 @@ async function load_later() {
         const [{ SetupScreen }, { StoredScreens }, doctor_screen] = await Promise.all([
             import("./setup_screen.js"), import("./stored_screens.js"), import("./doctor_screen.js"), later_style(),
         ]);
-        setup = new SetupScreen(judge_again);
+        setup = new SetupScreen(judge_again, send);
         doctor = doctor_screen;
         paint_settings();
         stored = new StoredScreens((path, options) => fetch(path, options), go_to);
@@ -323,7 +323,7 @@ function paint(at) {
     paint_head(status);
     const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
     if (shown.screen === "doctor") return guard.is_pressed() ? undefined : doctor?.paint_tasks(by_id("doctor_tasks"), tasks, status.notes, words);
-    if (shown.screen === "setup") return setup?.paint(status, kept, heard, { judged: shown.judged, at, pressed: guard.is_pressed() }, words);
+    if (shown.screen === "setup") return setup?.paint(status, kept, heard, { judged: shown.judged, at, pressed: guard.is_pressed(), refusal: refusal_of(shown.session) }, words);
     stored?.hear(shown.screen, status, view.contact);
     const name = shown.screen;
     if (shows_stored()) return guard.is_pressed() ? undefined : stored?.paint(name, words);

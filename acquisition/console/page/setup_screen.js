@@ -1,5 +1,6 @@
 // The screen Set-up: devices, the beam with its tone, and what arming would meet now.
 
+import { AlignmentView } from "./alignment_view.js";
 import { by_id, keep_children, make, set_attribute, set_text } from "./dom.js";
 import { shapes } from "./freshness.js";
 import { beam_shown, checks_shown, devices_shown, strength_channel, tone_word } from "./setup_text.js";
@@ -9,8 +10,8 @@ import { Tone } from "./tone.js";
 /** @typedef {import("./setup_text.js").Row} Row */
 
 export class SetupScreen {
-    /** @param {() => void} judge_again  somebody wants the checks judged now */
-    constructor(judge_again) {
+    /** @param {() => void} judge_again  somebody wants the checks judged now @param {import("./alignment_view.js").Send} send  an order */
+    constructor(judge_again, send) {
         this.tone = new Tone(() => new AudioContext());
         this.told = false; // the laser tells a strength
         this.may_judge = false;
@@ -24,6 +25,9 @@ export class SetupScreen {
         this.button = button_with("tone", () => this.toggle(), [make("span", "name"), make("span", "why")]);
         by_id("setup_beam").append(this.reading, this.signal, this.button);
         this.devices = list_in(by_id("setup_devices"));
+        const alignment = make("div", "alignment");
+        by_id("setup_checks").append(alignment);
+        this.alignment = new AlignmentView(alignment, send, (path, options) => fetch(path, options));
         this.checks = list_in(by_id("setup_checks"));
         this.note = make("p", "note");
         this.checks.title.after(this.note);
@@ -50,7 +54,8 @@ export class SetupScreen {
 
     /**
      * @param {any} status @param {import("./freshness.js").KeptValues} kept @param {import("./freshness.js").Heard} heard
-     * @param {{judged: import("./setup_text.js").Judged | null, at: number, pressed: boolean}} now  pressed: nothing may move
+     * @param {{judged: import("./setup_text.js").Judged | null, at: number, pressed: boolean, refusal: string}} now  pressed: nothing may move;
+     *   refusal: why this browser may not order
      * @param {Catalogue} words
      */
     paint(status, kept, heard, now, words) {
@@ -58,6 +63,7 @@ export class SetupScreen {
         if (!this.told && this.tone.is_on()) this.leave();
         this.paint_beam(beam_shown(status, kept, heard, words), words);
         if (now.pressed) return;
+        this.alignment.paint({ contact: heard.contact, refusal: now.refusal, run_open: status.run_open, at: now.at }, words);
         this.devices.paint(words.text("devices"), devices_shown(status, heard, words), words.text("no_devices"));
         const checks = checks_shown(now.judged, status.run_open, { contact: heard.contact, at: now.at }, words);
         this.checks.paint(words.text("checks"), checks.rows, "");

@@ -1,0 +1,74 @@
+// In Set-up: the alignment of the beam, and the orders to begin it, to keep it and to drop it.
+
+import { alignment_lines, alignment_off } from "./alignment_text.js";
+import { keep_children, make, set_attribute, set_text } from "./dom.js";
+
+/** @typedef {import("./catalogue.js").Catalogue} Catalogue */
+/** @typedef {import("./alignment_text.js").Alignment} Alignment */
+/** @typedef {(path: string, body: object) => Promise<import("./orders.js").Answer>} Send */
+
+const path = "/v1/alignment";
+const ask_running_ms = 250;
+const ask_idle_ms = 2000;
+const actions = Object.freeze(["begin", "keep", "drop"]);
+
+export class AlignmentView {
+    /** @param {HTMLElement} place @param {Send} send @param {typeof fetch} fetcher */
+    constructor(place, send, fetcher) {
+        this.send = send;
+        this.fetcher = fetcher;
+        /** @type {Alignment | null} */
+        this.view = null;
+        this.asked_at = -Infinity;
+        this.answer = "";
+        this.may = "";
+        this.title = make("h2");
+        this.lines = make("div", "lines");
+        this.said = make("p", "note");
+        this.said.setAttribute("role", "status");
+        this.buttons = actions.map((action) => this.button_for(action));
+        place.append(this.title, this.lines, make("div", "actions", this.buttons), this.said);
+    }
+
+    button_for(action) {
+        const button = make("button");
+        button.type = "button";
+        button.dataset.align = action;
+        button.addEventListener("click", () => button.getAttribute("aria-disabled") === null && this.give(action));
+        return button;
+    }
+
+    async give(action) {
+        const { done, sentence, body } = await this.send(path, { action });
+        if (done) this.view = body;
+        this.answer = done ? "" : sentence;
+    }
+
+    /** Asked while somebody looks. @param {number} at */
+    async ask(at) {
+        if (at - this.asked_at < (this.view?.running ? ask_running_ms : ask_idle_ms)) return;
+        this.asked_at = at;
+        try {
+            const response = await this.fetcher(path, { cache: "no-store" });
+            if (response.ok) this.view = await response.json();
+        } catch {
+            // The strip tells of a link that is lost.
+        }
+    }
+
+    /** @param {{contact: boolean, refusal: string, run_open: boolean, at: number}} now @param {Catalogue} words */
+    paint(now, words) {
+        if (now.contact) this.ask(now.at);
+        const off = alignment_off(now, words);
+        set_text(this.title, words.text("alignment"));
+        const lines = alignment_lines(this.view, words);
+        keep_children(this.lines, lines.length, () => make("div")).forEach((line, nth) => set_text(line, lines[nth]));
+        const running = this.view?.running === true;
+        this.buttons.forEach((button, nth) => {
+            const on = off === "" && (actions[nth] === "begin") !== running;
+            set_attribute(button, "aria-disabled", on ? null : "true");
+            set_text(button, words.text(`align_${actions[nth]}`));
+        });
+        set_text(this.said, off || this.answer);
+    }
+}
