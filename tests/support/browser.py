@@ -24,7 +24,7 @@ GONE_MEANWHILE = (ElementNotInteractableException, NoSuchElementException, Stale
 class Browser:
     """One browser with a profile of its own. Ends with close(), also when its test fails."""
 
-    def __init__(self, size=(1280, 800), languages="en", dark=False):
+    def __init__(self, size=(1280, 800), languages="en", dark=False, trusts_everybody=False):
         self.folder = tempfile.mkdtemp(prefix="axiscal-browser-")
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium")
@@ -35,6 +35,7 @@ class Browser:
             options.add_argument(word)
         if dark:
             options.add_argument("--force-dark-mode")
+        options.accept_insecure_certs = trusts_everybody  # of TLS
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         service = Service(shutil.which("chromedriver"), log_path=f"{self.folder}/driver.log",
                           env={**os.environ, "HOME": self.folder, "XDG_CONFIG_HOME": self.folder, "XDG_CACHE_HOME": self.folder})
