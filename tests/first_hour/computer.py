@@ -94,6 +94,13 @@ class Computer:
             raise Ended(f"{user}@hall-3: {command}: exit {done.returncode}, not {code}\n{done.stdout}{done.stderr}")
         return done.stdout
 
+    def go_down(self, word):
+        """reboot or poweroff, until it is off. The connection may end before systemctl's answer has come: ssh says 255 then."""
+        done = self.ssh("root", f"systemctl {word}")
+        if done.returncode not in (0, 255):
+            raise Ended(f"systemctl {word}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+        self.wait_for_end()
+
     def log_out(self, user):
         self.ssh(user, "true", more=("-O", "exit"))
 

@@ -256,8 +256,7 @@ def restart(hall):
     """Nothing proves across two boots that the laser kept its zero (docs/reliability.md): the points stay, no certificate is made."""
     hall.begin_next_run(hold_after=15)
     run_id = hall.run()["id"]
-    hall.pc.run("systemctl reboot")
-    hall.pc.wait_for_end()
+    hall.pc.go_down("reboot")
     hall.pc.start()
     wait_until("the service is there again by itself", lambda: hall.pc.ssh("technician", "axiscal status").returncode == 0, PATIENCE_S)
     notes = wait_until("the run is closed", lambda: [note for note in hall.status()["notes"] if "closed as incomplete" in note], PATIENCE_S)
@@ -291,8 +290,7 @@ def update(hall):
 @long_check("CncSpeaksModbusTcpOnceItsCableWasChanged")
 def tcp(hall):
     """The evening: PC and machine are switched off. In the morning the CNC has a network card."""
-    hall.pc.run("systemctl poweroff")
-    hall.pc.wait_for_end()
+    hall.pc.go_down("poweroff")
     hall.end("axiscal-simulate")
     hall.trigger("sequence-block", "tcp")
     port = hall.station["trigger"]["port"]
