@@ -30,7 +30,7 @@ def send_sheet(page, text):
         if field.get_attribute("value") != text:
             field.clear()
             field.send_keys(text)
-        elif page.ask("!document.querySelector('#run_sheet [type=submit]').disabled"):
+        elif page.ask("document.querySelector('#run_sheet [type=submit]')?.disabled === false"):
             page.element("#run_sheet [type=submit]").click()
         return False
 
