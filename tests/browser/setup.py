@@ -72,7 +72,7 @@ def alignment_kept(b):
         page.wait("it is begun", lambda: aligned(b)["running"] or page.element("[data-align=begin]").click())
         page.wait_for_text("#setup_checks .lines", "Drive away from the laser")
         jog(b, FAR_MM)
-        page.wait_for_text("#setup_checks .lines", f"Highest at {FAR_MM:.1f} mm")
+        page.wait_for_text("#setup_checks .lines", f"Highest at {FAR_MM:.0f}.")
         page.wait("it is kept", lambda: not aligned(b)["running"] or page.element("[data-align=keep]").click())
         page.wait_for_text("#setup_checks .lines", "kept ")
         expect(abs(aligned(b)["record"]["far"]["distance_mm"] - FAR_MM) < 1, f"{aligned(b)}")

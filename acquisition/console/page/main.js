@@ -235,6 +235,7 @@ async function load_later() {
         paint_settings();
         stored = new StoredScreens((path, options) => fetch(path, options), go_to);
         stored.enter(shown.screen, "now");
+        paint(now());
     } catch {
         later_asked = false; // the next tick tries again
     }
