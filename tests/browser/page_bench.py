@@ -10,7 +10,7 @@ sys.path[:0] = [str(TESTS / "simulation"), str(TESTS / "support")]
 import bench  # noqa: E402
 from bench import SOURCE, expect, sentence, wait_until  # noqa: E402, F401
 from browser import Browser  # noqa: E402
-from page_hands import arm, code_of, go, is_on, is_shown, pair  # noqa: E402, F401
+from page_hands import arm, code_of, go, is_on, is_shown, open_sheet, pair  # noqa: E402, F401
 
 ABORT_S = 0.8  # for so long abort is held
 

@@ -54,3 +54,15 @@ function off_for_all(now) {
 export function revision_of(point, reason, by) {
     return { target: point.target, direction: point.direction, cycle: point.approach, reason, ...(by === "" ? {} : { by }) };
 }
+
+/** A field that nobody filled in is left out: the station file's own statement holds. */
+export function without_empty(values) {
+    return Object.fromEntries(Object.entries(values).filter(([, value]) => value !== ""));
+}
+
+/** What arming sends: what is stated of the machine stands apart (docs/api.md). @param {Record<string, any>} values  of the sheet */
+export function arming_of(values) {
+    const { state, control_compensation, ...others } = values;
+    const statements = without_empty({ state, control_compensation });
+    return { ...without_empty(others), ...(Object.keys(statements).length === 0 ? {} : { statements }) };
+}

@@ -2,7 +2,7 @@
 // modules beside this one.
 
 import { AcceptedPoints, still_picked } from "./accepted_points.js";
-import { buttons_of, revision_of } from "./actions.js";
+import { arming_of, buttons_of, revision_of, without_empty } from "./actions.js";
 import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
 import { SleeplessClock } from "./clock.js";
 import { by_id, make, set_attribute, set_text } from "./dom.js";
@@ -147,12 +147,22 @@ function give(order) {
     if (order === "arm") {
         const datum = { name: "datum_mm", label: words.text("datum"), kind: /** @type {const} */ ("number") };
         const pass = { name: "pass", label: words.text("pass"), kind: /** @type {const} */ ("text"), value: "whole" };
-        return sheet.open(words.text(order), [datum, pass, by], (values) => send("/v1/run", without_empty(values)), words);
+        return sheet.open(words.text(order), [datum, pass, by, ...stated_of_machine()], (values) => send("/v1/run", arming_of(values)), words);
     }
     if (picked === null) return;
     /** @param {Record<string, string | number>} typed */
     const revise = ({ reason: why, by: who }) => send(`/v1/run/${order}`, revision_of(picked, String(why), String(who)));
     sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, [reason, by], revise, words);
+}
+
+/** What the certificate says of the machine, where the station file does not say it. @returns {import("./order_sheet.js").Field[]} */
+function stated_of_machine() {
+    /** @type {[string, string][]} */
+    const states = [["", words.text("as_in_file")], ["as found", words.text("state_as_found")], ["as left", words.text("state_as_left")], ["raw", words.text("state_raw")]];
+    return [
+        { name: "state", label: words.text("state_asked"), kind: /** @type {const} */ ("choice"), choices: states },
+        { name: "control_compensation", label: words.text("compensation_asked"), kind: /** @type {const} */ ("text") },
+    ];
 }
 
 /** The code is shown at the station; what it answers to a wrong one stands on the sheet. */
@@ -170,11 +180,6 @@ function pair() {
 async function unpair() {
     const answer = await delete_order("/v1/session", (input, options) => fetch(input, options));
     if (answer.done) await ask_rights();
-}
-
-/** A field that nobody filled in is left out: the station file's own statement holds. */
-function without_empty(values) {
-    return Object.fromEntries(Object.entries(values).filter(([, value]) => value !== ""));
 }
 
 /** A sheet may have been opened while there was contact. */

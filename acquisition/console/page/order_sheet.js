@@ -5,7 +5,7 @@ import { refusal_lines } from "./orders.js";
 import { number_text, typed_number } from "./number_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
-/** @typedef {{name: string, label: string, kind: "text" | "number" | "code", value?: string}} Field */
+/** @typedef {{name: string, label: string, kind: "text" | "number" | "code" | "choice", value?: string, choices?: [string, string][]}} Field  choices: value, text */
 
 export class OrderSheet {
     /** @param {HTMLElement} place */
@@ -73,8 +73,19 @@ function button_of(type, text) {
     return button;
 }
 
+/** @param {Field} field */
+function choice_of(field) {
+    const input = make("select", "", (field.choices ?? []).map(([value, text]) => {
+        const option = make("option", "", [text]);
+        option.value = value;
+        return option;
+    }));
+    return { name: field.name, label: make("label", "", [field.label, input]), input, read: () => input.value };
+}
+
 /** What is no number is sent as it was typed: the station refuses it in its own words. @param {Field} field */
 function input_of(field, words) {
+    if (field.kind === "choice") return choice_of(field);
     const input = make("input");
     input.type = "text";
     input.autocomplete = "off";
