@@ -67,6 +67,7 @@ export class PlotView {
      */
     paint(accepted, status, picked, words) {
         const { width, height } = this;
+        if (!this.svg.hasAttribute("aria-label")) set_attribute(this.svg, "aria-label", words.text("points_accepted")); // before it has a size, too
         if (width < 120 || height < 60) return;
         const { deviation, coordinate } = axis_units(status.axis);
         const next = status.run_open && status.run?.next && status.run.id === accepted.run ? status.run.next.target : null;
