@@ -6,49 +6,20 @@ pairing.py BIN_FOLDER SOURCE_FOLDER   writes only into a scratch folder of its o
 import http.client
 import json
 import os
-import re
 import stat
-import subprocess
 import sys
-import time
 import unittest
 
-from axiscal_cli import BIN, Scratch, example_text, run
-from daemons import free_port
+from one_daemon import OneDaemon
 
 
-class Pairing(Scratch):
+class Pairing(OneDaemon):
     def setUp(self):
         super().setUp()
-        self.socket, self.port = os.path.join(self.folder, "d.sock"), free_port()
-        self.state = os.path.join(self.folder, "state")
         self.own = f"http://localhost:{self.port}"
-        self.daemon = None
-        self.addCleanup(self.end)
 
     def begin(self, port=None):
-        text = example_text().replace('# state_directory = "/var/lib/axiscal"', f'state_directory = "{self.state}"')
-        console = f'[console]\nsocket = "{self.socket}"\ngroup = ""\nport = {self.port if port is None else port}\n'
-        text = re.sub(r"^port = 1502$", f"port = {free_port()}", text.replace("[console]\n", console), flags=re.M)
-        with open(os.path.join(self.folder, "log"), "a", encoding="utf-8") as log:
-            self.daemon = subprocess.Popen([os.path.join(BIN, "axiscald"), "--config", self.file("station.toml", text)],
-                                           stderr=log, stdout=log)
-        while run("status", "--socket", self.socket).returncode != 0:  # ctest's limit ends it
-            self.assertIsNone(self.daemon.poll(), f"axiscald ended: {self.log()}")
-            time.sleep(0.02)
-
-    def end(self):
-        if self.daemon and self.daemon.poll() is None:
-            self.daemon.terminate()
-            self.assertEqual(self.daemon.wait(20), 0)
-
-    def log(self):
-        with open(os.path.join(self.folder, "log"), encoding="utf-8") as log:
-            return log.read()
-
-    def until_logged(self, words):
-        while words not in self.log():  # the log has a thread of its own; ctest's limit ends it
-            time.sleep(0.02)
+        self.begin_with(self.station_file(port))
 
     def pair(self, *words):
         return self.expect(0, "pair", *words, "--socket", self.socket)

@@ -14,8 +14,8 @@ import sys
 import time
 import unittest
 
-from axiscal_cli import BIN, Scratch, example_text, run
-from daemons import free_port
+from axiscal_cli import BIN, run
+from one_daemon import OneDaemon
 
 HANDSHAKE_BEGINS = b"\x16\x03\x01"
 
@@ -24,14 +24,11 @@ def openssl(*words):
     subprocess.run(["openssl", *words], check=True, capture_output=True, timeout=60)
 
 
-class Tls(Scratch):
+class Tls(OneDaemon):
     def setUp(self):
         super().setUp()
-        self.socket, self.port = os.path.join(self.folder, "d.sock"), free_port()
         self.certificate, self.key = os.path.join(self.folder, "fullchain.pem"), os.path.join(self.folder, "key.pem")
         self.make(self.certificate, self.key)
-        self.daemon = None
-        self.addCleanup(self.end)
 
     @staticmethod
     def make(certificate, key, *more):
@@ -40,31 +37,10 @@ class Tls(Scratch):
         os.chmod(key, 0o600)
 
     def station(self, tls=True):
-        text = example_text().replace('# state_directory = "/var/lib/axiscal"', f'state_directory = "{self.folder}/state"')
-        console = f'[console]\nsocket = "{self.socket}"\ngroup = ""\nport = {self.port}\n'
-        if tls:
-            console += f'certificate = "{self.certificate}"\nkey = "{self.key}"\n'
-        return self.file("station.toml", re.sub(r"^port = 1502$", f"port = {free_port()}", text.replace("[console]\n", console), flags=re.M))
+        return self.station_file(more=f'certificate = "{self.certificate}"\nkey = "{self.key}"\n' if tls else "")
 
     def begin(self, tls=True):
-        with open(os.path.join(self.folder, "log"), "a", encoding="utf-8") as log:
-            self.daemon = subprocess.Popen([os.path.join(BIN, "axiscald"), "--config", self.station(tls)], stderr=log, stdout=log)
-        while run("status", "--socket", self.socket).returncode != 0:  # ctest's limit ends it
-            self.assertIsNone(self.daemon.poll(), f"axiscald ended: {self.log()}")
-            time.sleep(0.02)
-
-    def end(self):
-        if self.daemon and self.daemon.poll() is None:
-            self.daemon.terminate()
-            self.assertEqual(self.daemon.wait(20), 0)
-
-    def log(self):
-        with open(os.path.join(self.folder, "log"), encoding="utf-8") as log:
-            return log.read()
-
-    def until_logged(self, words):
-        while words not in self.log():  # the log has a thread of its own; ctest's limit ends it
-            time.sleep(0.02)
+        self.begin_with(self.station(tls))
 
     def curl(self, *words, scheme="https", path="/v1/status"):
         return subprocess.run(["curl", "--silent", "--show-error", "--max-time", "30", "--cacert", self.certificate, *words,
