@@ -15,13 +15,22 @@ wanted=(/usr/share/doc/axiscal/copyright /usr/share/doc/axiscal-publish/copyrigh
     /usr/lib/axiscal/axiscald-tls.so /usr/share/axiscal/station.example.toml /usr/lib/sysusers.d/axiscal.conf /usr/lib/tmpfiles.d/axiscal.conf)
 for program in axiscald axiscal axiscal-notify axiscal-publish axiscal-report; do wanted+=("/usr/bin/$program"); done
 for profile in "$source"/config/profiles/*.toml; do wanted+=("/usr/share/axiscal/profiles/${profile##*/}"); done
-while read -r file; do wanted+=("/usr/share/axiscal/page/${file#"$source"/acquisition/console/page/}")
+pages=()
+while read -r file; do pages+=("${file#"$source"/acquisition/console/page/}")
 done < <(find "$source/acquisition/console/page" -type f ! -name package.json)
+for name in "${pages[@]}"; do wanted+=("/usr/share/axiscal/page/$name" "/usr/share/axiscal/page/$name.gz"); done
 while read -r file; do wanted+=("/usr/share/axiscal/conformance/${file#"$source"/tests/reference/conformance/}")
 done < <(find "$source/tests/reference/conformance" -name '*.json' -o -name '*.py')
 while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md' -o -name '*.schema.json')
 for file in "${wanted[@]}"; do
     [ -s "$root$file" ] || fail "not installed: $file"
+done
+# Packed or not, a browser gets what was written; the packed form bears no time and no name (RFC 1952, 2.3).
+for name in "${pages[@]}"; do
+    page=$root/usr/share/axiscal/page/$name
+    cmp "$source/acquisition/console/page/$name" "$page" || fail "the page has another $name"
+    gzip -dc "$page.gz" | cmp - "$page" || fail "$name.gz is packed of something else"
+    [ "$(od -An -tx1 -N8 "$page.gz")" = " 1f 8b 08 00 00 00 00 00" ] || fail "$name.gz has a head that differs from day to day"
 done
 # These stand where this system's systemd and udev look for them.
 for name in axiscald.service axiscal-notify.service axiscal-notify.path axiscal-publish.service 70-axiscal.rules; do
