@@ -18,7 +18,8 @@ inline constexpr std::string_view page_policy =
 /// Whether GET of it is answered by answer_page(): "/", and what stands below "/page/".
 bool is_page_path(std::string_view path);
 
-/// 200 with the file, 304 where the client has it, 404 with the reason.
+/// 200 with the file, 304 where the client has it, 404 with the reason. Packed by gzip where the
+/// client takes that and the file was packed; each form has a tag of its own.
 /// @param path  of the request, without query
 HttpResponse answer_page(const HttpRequest& request, const PageFiles& page, std::string_view path);
 

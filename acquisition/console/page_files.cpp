@@ -1,5 +1,7 @@
 #include "acquisition/console/page_files.hpp"
 
+#include <boost/crc.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -8,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -54,12 +55,58 @@ std::string etag_of(std::string_view bytes) {
     return text.data();
 }
 
-Result<std::string> bytes_of_page_file(const page_fs::path& path) {
+/// No more than it had when it was counted.
+Result<std::string> bytes_of_page_file(const page_fs::path& path, std::size_t size) {
     std::ifstream in{path, std::ios::binary};
-    std::string bytes{std::istreambuf_iterator<char>{in}, {}};
+    std::string bytes(size, '\0');
+    in.read(bytes.data(), static_cast<std::streamsize>(size));
     if (!in.is_open() || in.bad())
         return fail(Fault::io, "cannot read " + path.string(), {errno, std::generic_category()});
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
     return bytes;
+}
+
+/// Of four bytes, the lowest first.
+std::uint32_t number_in(std::string_view bytes) {
+    std::uint32_t number = 0;
+    for (std::size_t nth = 4; nth > 0; --nth)
+        number = number << 8U | static_cast<unsigned char>(bytes[nth - 1]);
+    return number;
+}
+
+/// The trailer of what gzip packs bears checksum and number of the bytes that went in (RFC 1952,
+/// 2.3.1). That tells a form that was left behind, and is no proof against anybody.
+bool is_packed_of(std::string_view packed, std::string_view bytes) {
+    constexpr std::string_view head{"\x1f\x8b\x08\x00", 4}; // deflate, nothing optional behind
+    constexpr std::size_t least = 18;                       // head and trailer
+    if (packed.size() < least || !packed.starts_with(head)) return false;
+    boost::crc_32_type checksum;
+    checksum.process_bytes(bytes.data(), bytes.size());
+    const std::string_view trailer = packed.substr(packed.size() - 8);
+    return number_in(trailer) == checksum.checksum() &&
+           number_in(trailer.substr(4)) == bytes.size();
+}
+
+/// Empty where there is none that is smaller. The page is whole without it: nothing fails here.
+std::string packed_form_of(page_fs::path path, std::string_view bytes) {
+    path += ".gz";
+    std::error_code gone;
+    if (!page_fs::is_regular_file(page_fs::symlink_status(path, gone))) return {};
+    const auto size = page_fs::file_size(path, gone);
+    if (gone || size >= bytes.size()) return {};
+    Result<std::string> packed = bytes_of_page_file(path, static_cast<std::size_t>(size));
+    if (!packed || !is_packed_of(*packed, bytes)) return {};
+    return *std::move(packed);
+}
+
+PageFile page_file_of(const page_fs::path& path, std::string bytes) {
+    PageFile file;
+    file.type = page_type_of(path.filename().string());
+    file.etag = etag_of(bytes);
+    file.packed = packed_form_of(path, bytes);
+    file.packed_etag = etag_of(file.packed);
+    file.bytes = std::move(bytes);
+    return file;
 }
 
 std::string asked_as(const page_fs::path& path, const page_fs::path& folder) {
@@ -94,14 +141,13 @@ Result<PageFiles> PageFiles::read(const std::string& folder) {
         if (entry.depth() >= deepest || !is_page_name(name)) entry.disable_recursion_pending();
         if (!is_page_entry(*entry)) continue;
         std::error_code unknown;
-        bytes += static_cast<std::size_t>(entry->file_size(unknown));
+        const auto size = static_cast<std::size_t>(entry->file_size(unknown));
+        bytes += size;
         if (unknown || bytes > most_bytes || page.files_.size() >= most_files)
             return too_much_page(folder);
-        AXISCAL_TRY(std::string text, bytes_of_page_file(entry->path()));
-        const std::string_view type = page_type_of(name);
-        std::string etag = etag_of(text);
+        AXISCAL_TRY(std::string text, bytes_of_page_file(entry->path(), size));
         page.files_.emplace(asked_as(entry->path(), folder),
-                            PageFile{std::string{type}, std::move(etag), std::move(text)});
+                            page_file_of(entry->path(), std::move(text)));
     }
     if (error) return fail(Fault::io, "cannot read the folder " + folder, error);
     if (!page.find("/")) return fail(Fault::not_found, folder + " holds no index.html");

@@ -13,19 +13,23 @@
 namespace axiscal {
 
 struct PageFile {
-    std::string type;  ///< of the content: "text/css; charset=utf-8"
-    std::string etag;  ///< with its quotes; another one where the bytes differ
-    std::string bytes; ///< as on the disk
+    std::string type;        ///< of the content: "text/css; charset=utf-8"
+    std::string etag;        ///< with its quotes; another one where the bytes differ
+    std::string bytes;       ///< as on the disk
+    std::string packed_etag; ///< of `packed`, never that of the file itself
+    std::string packed;      ///< the same by gzip (RFC 1952), smaller; empty: there is none
 };
 
 class PageFiles {
 public:
-    static constexpr std::size_t most_bytes = std::size_t{1} << 20; ///< all files together
+    static constexpr std::size_t most_bytes = std::size_t{1} << 20; ///< all files, not packed
     static constexpr std::size_t most_files = 200;
 
     PageFiles() = default; ///< none: the page is not installed
     /// Files of `folder` and one folder below, with small letters, digits, '_', '-' and '.' in
     /// their names and an ending that a page has. Links, hidden files and all else are passed over.
+    /// NAME.gz beside NAME is its packed form where it was packed from these very bytes; else it is
+    /// passed over, too: somebody changed NAME since.
     /// @errors Fault::not_found without `index.html`; Fault::io for what cannot be read;
     /// Fault::bad_configuration for more than the limits above.
     static Result<PageFiles> read(const std::string& folder);

@@ -1,5 +1,6 @@
 // Heads of HTTP requests as anybody may send them: read by Beast, judged, answered.
 
+#include "acquisition/console/accepted_encoding.hpp"
 #include "acquisition/console/access.hpp"
 #include "acquisition/console/event_stream.hpp"
 #include "acquisition/console/http_answer.hpp"
@@ -13,6 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 using namespace axiscal;
 namespace http = boost::beast::http;
@@ -20,6 +23,25 @@ namespace http = boost::beast::http;
 namespace {
 
 const std::string token(64, 't');
+
+/// Whether it stands in a text, whatever its case.
+bool has_word(std::string_view text, std::string_view word) {
+    for (; text.size() >= word.size(); text.remove_prefix(1))
+        if (boost::beast::iequals(text.substr(0, word.size()), word)) return true;
+    return false;
+}
+
+/// Packed gets who named it, and never who refuses it, wherever that stands.
+void judge_encodings(const HttpRequest& request) {
+    const auto [first, last] = request.equal_range(http::field::accept_encoding);
+    for (auto line = first; line != last; ++line) {
+        const std::string accepts{line->value()};
+        fuzz::require(!takes_gzip(accepts) || has_word(accepts, "gzip") || has_word(accepts, "*"),
+                      "packed is sent to who named it");
+        for (const std::string& refused : {accepts + ", gzip;q=0", "gzip;q=0, " + accepts})
+            fuzz::require(!takes_gzip(refused), "a refusal stays one");
+    }
+}
 
 /// What was sent is shown in the answer: text that everybody's JSON reader takes.
 void judge_answer(const HttpResponse& response) {
@@ -124,6 +146,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!token_in_cookies(head.cookies).empty()) head.page = "tablet 2"; // as if it were paired
         judge_verdict(request, head, rules);
     }
+    judge_encodings(request);
     judge_events(request);
     judge_runs(request);
     const auto points = stream_points_of({request.target().data(), request.target().size()});
