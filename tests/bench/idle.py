@@ -3,8 +3,8 @@
 
 idle.py PROGRAM-FOLDER
 
-The daemon as its unit starts it (a notify socket, a watchdog of 10 s), everything open: Modbus TCP, the console's socket and port, the
-state directory with 1000 closed runs. Its three instruments (laser, weather, thermistors on Modbus RTU) are those of the station file of
+The daemon as its unit starts it (a notify socket, a watchdog of 10 s), everything open: Modbus TCP, the console's socket and port with the page
+in both of its forms, as installed, the state directory with 1000 closed runs. Its three instruments (laser, weather, thermistors on Modbus RTU) are those of the station file of
 tests/simulation; none of them is plugged in. "ready" is from before the program is started until its READY=1, the fastest of some
 rounds, every other one of which is the acceptor's; "at rest" is once nothing has woken for a moment: the runs were looked through and
 the readings of nobody have grown old. All of it is pinned to one processor. Wake-ups are voluntary context switches of all threads.
