@@ -19,6 +19,9 @@ pages=()
 while read -r file; do pages+=("${file#"$source"/acquisition/console/page/}")
 done < <(find "$source/acquisition/console/page" -type f ! -name package.json)
 for name in "${pages[@]}"; do wanted+=("/usr/share/axiscal/page/$name" "/usr/share/axiscal/page/$name.gz"); done
+for name in uplot.js uplot.css uplot.license.txt; do
+    wanted+=("/usr/share/axiscal/page/libraries/$name" "/usr/share/axiscal/page/libraries/$name.gz")
+done
 while read -r file; do wanted+=("/usr/share/axiscal/conformance/${file#"$source"/tests/reference/conformance/}")
 done < <(find "$source/tests/reference/conformance" -name '*.json' -o -name '*.py')
 while read -r page; do wanted+=("/usr/share/doc/axiscal/${page#"$source"/docs/}"); done < <(find "$source/docs" -name '*.md' -o -name '*.schema.json')
