@@ -2,12 +2,12 @@
 
 import shutil
 
-from page_bench import SOURCE, Browser, bench, expect, sentence, with_page
+from page_bench import PAGE, Browser, bench, expect, sentence, with_page
 
 LANGUAGES = ["en", "de", "ru", "zh-Hans"]
 # Some of what acquisition/console/page/begin.js asks for, and how a browser that lacks it comes about.
 TAKEN_AWAY = {"ResizeObserver": "delete window.ResizeObserver", "fetch": "delete window.fetch", "AbortController": "delete window.AbortController",
-              "Object.hasOwn": "delete Object.hasOwn", "Array.prototype.at": "delete Array.prototype.at"}
+              "Path2D": "delete window.Path2D", "Object.hasOwn": "delete Object.hasOwn", "Array.prototype.at": "delete Array.prototype.at"}
 
 
 def seen(page, selector):
@@ -50,7 +50,7 @@ def grammar(b):
     """As an old browser meets it: the scripts come, and it cannot read one of them."""
     address = with_page(b)
     folder = b.folder / "page"
-    shutil.copytree(SOURCE / "acquisition/console/page", folder)
+    shutil.copytree(PAGE, folder)
     with open(folder / "freshness.js", "a", encoding="utf-8") as module:
         module.write("\n1 of tomorrow;\n")
     b.environment["AXISCAL_PAGE_PATH"] = str(folder)

@@ -7,7 +7,8 @@ import time
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, open_sheet, opened, pair_with, sentence, wait_until, with_page
+from page_bench import (ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, open_sheet, opened, pair_with, points_drawn, sentence,
+                        state_machine, wait_until, with_page)
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -30,8 +31,7 @@ def first_screen(b):
         expect(all(name.startswith(address) for name, _ in loaded), f"{loaded}")
         size = sum(size for _, size in loaded)
         expect(20_000 < size < FIRST_SCREEN_BYTES, f"{size} bytes for the first screen: {loaded}")
-        shown = page.ask("[...document.querySelectorAll('#now_plot .positive, #now_plot .negative')].length")
-        expect(shown == 3, f"{shown} points in the plot")
+        page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
 
 
 @sentence("SilentStationIsStruckThroughAndComesBackQuietly")
@@ -126,8 +126,7 @@ def stated(b):
         page.element("#run_sheet input").send_keys(str(b.plan["datum_mm"]))
         page.click("#run_sheet [type=submit]")
         page.wait_for_text("#run_sheet .answer", "The state of the machine is not stated")
-        page.driver.execute_script("document.querySelector('#run_sheet select').value = 'as left'")
-        page.driver.find_elements("css selector", "#run_sheet input")[-1].send_keys("none")
+        state_machine(page, "as left", "none")
         page.click("#run_sheet [type=submit]")
         page.wait_for_text("#run_so_far", "certificate", 120)
         said = page.complaints()
@@ -268,15 +267,14 @@ def two_pages(b):
         b.sim("go")
         for page in (one, other):
             page.wait_for_text("#now_so_far", "20 of 20", 90)
-        points = "document.querySelectorAll('#now_plot .positive, #now_plot .negative').length"
         for page in (one, other):
-            page.wait("every point is shown", lambda page=page: page.ask(points) == 20)
+            page.wait("every point is drawn", lambda page=page: points_drawn(page, "now") == 20)
 
 
 def clipped(page):
     """Texts that are cut off: of elements that hide what does not fit and can not be scrolled."""
     return page.ask("""[...document.querySelectorAll('body *')].filter((one) => {
-        if (one.clientWidth === 0 || one.closest('[hidden], svg, .unseen, .cell .label') || one.innerText === undefined) return false;
+        if (one.clientWidth === 0 || one.closest('[hidden], .drawing, .unseen, .cell .label') || one.innerText === undefined) return false;
         const style = getComputedStyle(one);
         const hides = (way) => way === 'hidden' || way === 'clip';
         const button = one.localName === 'button';

@@ -1,6 +1,7 @@
 """A bench whose station shows its page, and what the tests of the page share."""
 
 import contextlib
+import os
 import sys
 from pathlib import Path
 
@@ -10,8 +11,9 @@ sys.path[:0] = [str(TESTS / "simulation"), str(TESTS / "support")]
 import bench  # noqa: E402
 from bench import SOURCE, expect, sentence, wait_until  # noqa: E402, F401
 from browser import Browser  # noqa: E402
-from page_hands import arm, code_of, go, is_on, is_shown, open_sheet, pair  # noqa: E402, F401
+from page_hands import arm, code_of, go, is_on, is_shown, open_sheet, pair, points_drawn, state_machine  # noqa: E402, F401
 
+PAGE = Path(os.environ["AXISCAL_PATH"]).resolve().parent / "share/axiscal/page"  # where the programs of the build find it
 ABORT_S = 0.8  # for so long abort is held
 
 

@@ -1,9 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AcceptedPoints, still_picked } from "../../acquisition/console/page/accepted_points.js";
-import { plot_of } from "../../acquisition/console/page/plot_geometry.js";
 import { table_of } from "../../acquisition/console/page/point_table.js";
-import { point_of, side_of, target_of, words_of } from "./page_under_test.mjs";
+import { plot_of, point_of, side_of, target_of, words_of } from "./page_under_test.mjs";
 
 const view = Object.freeze({ width: 800, height: 400, factor: 1, next: 5 });
 const event_of = (from, points, changed = {}) => ({ run: "a", from, count: from + points.length, points, ...changed });

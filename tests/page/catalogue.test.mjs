@@ -30,7 +30,7 @@ test("no text of a module stands outside the catalogue: no markup is built from 
 
 test("no module asks another host", () => {
     for (const [name, source] of Object.entries(sources()))
-        for (const [address] of source.matchAll(/https?:\/\/[^"\s]+/g)) assert.equal(address, "http://www.w3.org/2000/svg", name);
+        assert.doesNotMatch(source, /https?:\/\//, name);
 });
 
 test("the pseudo language is longer by two fifths and keeps the fields", () => {

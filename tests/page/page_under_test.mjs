@@ -3,6 +3,7 @@ import { readFileSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { Catalogue } from "../../acquisition/console/page/catalogue.js";
+import { data_of, least_range, margins, marks_of, place_range, places_of } from "../../acquisition/console/page/plot_geometry.js";
 
 export const folder = join(dirname(fileURLToPath(import.meta.url)), "../../acquisition/console/page");
 
@@ -84,4 +85,16 @@ export function so_far_of(changed = {}) {
         limits: [{ parameter: "A", limit_um: 12, value_um: 14.2, standing: "outside", sentence: "A 14.2 of 12.0 um so far" }],
         ...changed,
     };
+}
+
+/** Where marks stand on scales that are as even as uPlot's, which rounds the ends of the upright one outwards. */
+export function plot_of(drawn, { width, height, factor, next }) {
+    const frame = { left: margins.left, right: width - margins.right, top: margins.top, bottom: height - margins.bottom };
+    const places = places_of(drawn, next);
+    const data = data_of(drawn, places, factor);
+    const [low, high] = least_range(...[Math.min, Math.max].map((find, nth) => find(...data[nth + 1].map((one) => one ?? 0))));
+    const [from, to] = place_range(places, frame.right - frame.left);
+    const x_of = (place) => frame.left + ((place - from) / (to - from)) * (frame.right - frame.left);
+    const y_of = (value) => frame.bottom - ((value - low) / (high - low)) * (frame.bottom - frame.top);
+    return { ...marks_of(drawn, places, next, { x_of, y_of, width: frame.right - frame.left, factor }), ...frame, low, high, data };
 }

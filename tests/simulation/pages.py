@@ -28,7 +28,6 @@ ODD_IDS = ["x", "-", "ffffffffffffffffffff-1-1", "1-2-" + "9" * 4000, "18c2f0a5b
 
 
 def with_page(b):
-    b.environment["AXISCAL_PAGE_PATH"] = str(SOURCE / "acquisition/console/page")
     b.station["console"]["port"] = bench.free_port()
     return b.station["console"]["port"]
 

@@ -53,7 +53,22 @@ def code_of(shown):
     return shown.split("Code:")[1].split("counts")[0].strip()
 
 
-def arm(page, datum_mm):
+def state_machine(page, state, control_compensation):
+    """On the sheet that arms, which asks where the station file does not say it."""
+    page.driver.execute_script("document.querySelector('#run_sheet select').value = arguments[0]", state)
+    page.driver.find_elements("css selector", "#run_sheet input")[-1].send_keys(control_compensation)
+
+
+def arm(page, datum_mm, *machine):
+    """machine: (state, control compensation), where the station file does not say it."""
     page.wait("a run may be armed", lambda: is_on(page, "arm"))
     open_sheet(page, "arm")
+    if machine:
+        state_machine(page, *machine)
     send_sheet(page, str(datum_mm))
+
+
+def points_drawn(page, screen):
+    """How many points the page has put on the canvas of a screen's plot; None while it has drawn none of it."""
+    return page.ask(f"""((drawing) => drawing?.dataset.positive === undefined ? null
+        : Number(drawing.dataset.positive) + Number(drawing.dataset.negative))(document.querySelector('#{screen}_plot .drawing'))""")

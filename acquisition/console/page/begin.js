@@ -3,8 +3,8 @@
 (function () {
     "use strict";
 
-    var needed = ["fetch", "Promise", "AbortController", "ReadableStream", "TextDecoder", "ResizeObserver", "PointerEvent",
-        "Intl.DateTimeFormat", "Object.hasOwn", "Object.fromEntries", "Array.prototype.at", "String.prototype.replaceAll",
+    var needed = ["fetch", "Promise", "AbortController", "ReadableStream", "TextDecoder", "ResizeObserver", "MutationObserver", "PointerEvent",
+        "Path2D", "Intl.DateTimeFormat", "Object.hasOwn", "Object.fromEntries", "Array.prototype.at", "String.prototype.replaceAll",
         "Element.prototype.replaceChildren"];
 
     /** @param {string} path  "Object.hasOwn" */
@@ -39,15 +39,22 @@
         show("begin_old");
     }
 
+    /** One behind the other, as they are asked for. A library that is not there stops nothing. @param {string} source @param {string} type */
+    function load(source, type) {
+        var script = document.createElement("script");
+        script.type = type;
+        script.async = false;
+        script.src = source;
+        document.body.appendChild(script);
+    }
+
     /** A newer grammar shows only when the modules are read. */
     function start() {
         window.addEventListener("error", function (event) {
             if (event.error instanceof SyntaxError && !place("begin").hidden) tell_too_old([String(event.error)]);
         });
-        var script = document.createElement("script");
-        script.type = "module";
-        script.src = "/page/main.js";
-        document.body.appendChild(script);
+        load("/page/libraries/uplot.js", "text/javascript");
+        load("/page/main.js", "module");
     }
 
     var lacks = missing();

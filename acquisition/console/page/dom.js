@@ -31,14 +31,6 @@ export function make(name, class_name = "", inside = []) {
     return element;
 }
 
-/** @param {string} name @param {Record<string, string | number>} attributes @param {string} [text] */
-export function make_svg(name, attributes, text) {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
-    if (text !== undefined) element.textContent = text;
-    return element;
-}
-
 /** As many children as wanted; those that stay are kept. @param {Element} parent @param {number} count @param {() => Element} make_one */
 export function keep_children(parent, count, make_one) {
     while (parent.childElementCount > count) parent.lastElementChild?.remove();

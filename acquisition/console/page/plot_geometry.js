@@ -1,4 +1,5 @@
-// Where things of the plot stand. Nothing is computed of points and means but their place on the screen. No DOM.
+// What is told uPlot of a plot, and where marks stand once it has made the scales. Nothing is computed of points and means but
+// their place on the screen. No DOM.
 
 import { band_values, bands_of } from "./plot_bands.js";
 
@@ -6,33 +7,34 @@ import { band_values, bands_of } from "./plot_bands.js";
 /** @typedef {import("./accepted_points.js").Judged} Judged */
 /** @typedef {import("./accepted_points.js").TargetSoFar} TargetSoFar */
 
+/** Around the frame, in pixels: names on the left and below. */
+export const margins = Object.freeze({ left: 64, right: 12, top: 12, bottom: 32 });
 const least_span = 2; // µm or seconds of arc: noise of one reading must not fill the plot
-const margins = Object.freeze({ left: 64, right: 12, top: 12, bottom: 32 });
 const end_room = 28; // beside the outermost targets: a ring around a point
+const least_step = 24; // pixels between two lines of the grid: their names stand apart
 
-/** @param {number} span @param {number} most  steps at most @returns {number} 1, 2 or 5 times a power of ten */
-export function nice_step(span, most) {
-    const rough = span / most;
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = [1, 2, 5, 10].find((nice) => nice * power >= rough * (1 - 1e-9)) ?? 10;
-    return step * power;
+/** Steps of the grid: 1, 2 or 5 times a power of ten, so that names have few digits. */
+export const steps = Object.freeze([-3, -2, -1, 0, 1, 2, 3, 4, 5, 6].flatMap((power) => [1, 2, 5].map((nice) => Number(`${nice}e${power}`))));
+
+/** @param {number} height  of the frame @returns {number} pixels between two lines of the grid at least */
+export function step_room(height) {
+    return Math.max(least_step, height / (height < 156 ? 4 : 6));
+}
+
+/** @param {number} step  of the grid @returns {number} */
+export function decimals_of(step) {
+    return Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
 }
 
 /**
- * @param {number[]} values
- * @param {number} most  steps at most
- * @returns {{low: number, high: number, step: number}} whole steps around all values and 0
+ * @param {number | null} low @param {number | null} high  null: there is nothing yet
+ * @returns {[number, number]} with 0 in it
  */
-export function value_range(values, most) {
-    let low = Math.min(0, ...values);
-    let high = Math.max(0, ...values);
-    const lacking = least_span - (high - low);
-    if (lacking > 0) {
-        low -= lacking / 2;
-        high += lacking / 2;
-    }
-    const step = nice_step(high - low, most);
-    return { low: Math.floor(low / step) * step, high: Math.ceil(high / step) * step, step };
+export function least_range(low, high) {
+    const lowest = Math.min(0, low ?? 0);
+    const highest = Math.max(0, high ?? 0);
+    const lacking = Math.max(0, least_span - (highest - lowest));
+    return [lowest - lacking / 2, highest + lacking / 2];
 }
 
 /**
@@ -40,7 +42,7 @@ export function value_range(values, most) {
  * @param {Drawn} drawn @param {number | null} next
  * @returns {{order: {target: number, place: number}[], by_place: boolean}} from left to right
  */
-function places_of({ judged, nominals }, next) {
+export function places_of({ judged, nominals }, next) {
     const last = Math.max(-1, next ?? -1, ...judged.map(({ point }) => point.target));
     const by_place = nominals !== null && nominals.length > last && nominals.length > 0;
     const places = by_place ? nominals : Array.from({ length: Math.max(2, last + 1) }, (_, target) => target);
@@ -48,16 +50,19 @@ function places_of({ judged, nominals }, next) {
     return { order, by_place };
 }
 
-/** @param {ReturnType<typeof places_of>} places @param {number} width  within the frame @returns {(target: number) => number} */
-function scale_of({ order, by_place }, width) {
+/** @typedef {ReturnType<typeof places_of>} Places */
+
+/**
+ * What the axis of places reaches over: the outermost targets have room beside them.
+ * @param {Places} places @param {number} width  of the frame @returns {[number, number]}
+ */
+export function place_range({ order, by_place }, width) {
     const low = order[0].place;
-    const span = order[order.length - 1].place - low;
-    const pad = by_place ? Math.min(end_room, width / 4) : width / (2 * order.length);
-    const x_by_target = new Map(order.map(({ target, place }) => {
-        const part = span === 0 ? 0.5 : (place - low) / span;
-        return [target, margins.left + pad + (width - 2 * pad) * part];
-    }));
-    return (target) => x_by_target.get(target) ?? margins.left;
+    const high = order[order.length - 1].place;
+    if (low === high) return [low - 1, high + 1];
+    const room = by_place ? Math.min(end_room, width / 4) : width / (2 * order.length);
+    const beyond = ((high - low) * room) / (width - 2 * room);
+    return [low - beyond, high + beyond];
 }
 
 /**
@@ -68,24 +73,39 @@ function scale_of({ order, by_place }, width) {
  */
 
 /**
- * @param {Drawn} drawn
- * @param {{width: number, height: number, factor: number, next: number | null}} view
- *        `factor` from µm to the unit shown; `next`: the target that is next, from 0
+ * What uPlot makes its scales of: places, and of each the lowest and the highest value that has to have room.
+ * @param {Drawn} drawn @param {Places} places @param {number} factor  from µm to the unit shown
+ * @returns {(number | null)[][]}
  */
-export function plot_of(drawn, view) {
-    const { judged, targets } = drawn;
-    const values = [...judged.map(({ point }) => point.deviation_um), ...band_values(targets.values())].map((um) => um * view.factor);
-    const range = value_range(values, view.height < 200 ? 4 : 6);
-    const inner_width = view.width - margins.left - margins.right;
-    const inner_height = view.height - margins.top - margins.bottom;
-    const places = places_of(drawn, view.next);
-    const x_of = scale_of(places, inner_width);
-    const y_of = (value) => margins.top + (inner_height * (range.high - value)) / (range.high - range.low);
-    const beside = Math.min(10, (inner_width / places.order.length) * 0.2); // the two directions stand side by side
-    const x_of_side = (target, direction) => x_of(target) + (direction === "positive" ? -beside : beside);
+export function data_of({ judged, targets }, { order }, factor) {
+    /** @type {Map<number, number[]>} */
+    const values = new Map(order.map(({ target }) => [target, []]));
+    for (const { point } of judged) values.get(point.target)?.push(point.deviation_um);
+    for (const row of targets.values()) values.get(row.target)?.push(...band_values([row]));
+    const each = (find) => order.map(({ target }) => {
+        const all = values.get(target) ?? [];
+        return all.length === 0 ? null : find(...all) * factor;
+    });
+    return [order.map(({ place }) => place), each(Math.min), each(Math.max)];
+}
+
+/**
+ * @typedef {object} Scales  as uPlot has made them
+ * @property {(place: number) => number} x_of  in pixels
+ * @property {(value: number) => number} y_of  in pixels, of a value in the unit shown
+ * @property {number} width  of the frame
+ * @property {number} factor  from µm to the unit shown
+ */
+
+/** @param {Drawn} drawn @param {Places} places @param {number | null} next  the target that is next, from 0 @param {Scales} scales */
+export function marks_of({ judged, targets }, { order, by_place }, next, { x_of, y_of, width, factor }) {
+    const x_by_target = new Map(order.map(({ target, place }) => [target, x_of(place)]));
+    const x_of_target = (target) => x_by_target.get(target) ?? x_of(order[0].place);
+    const beside = Math.min(10, (width / order.length) * 0.2); // the two directions stand side by side
+    const x_of_side = (target, direction) => x_of_target(target) + (direction === "positive" ? -beside : beside);
     const dots = judged.map(({ point, counts, left_out }, nth) => ({
         x: x_of_side(point.target, point.direction),
-        y: y_of(point.deviation_um * view.factor),
+        y: y_of(point.deviation_um * factor),
         direction: point.direction,
         counts,
         left_out,
@@ -94,24 +114,15 @@ export function plot_of(drawn, view) {
     }));
     return {
         dots,
-        sides: bands_of(places.order, targets, x_of_side, (um) => y_of(um * view.factor)),
-        next_x: view.next === null ? null : x_of(view.next),
+        sides: bands_of(order, targets, x_of_side, (um) => y_of(um * factor)),
+        next_x: next === null ? null : x_of_target(next),
         zero_y: y_of(0),
-        lines: lines_of(range).map((value) => ({ value, y: y_of(value) })),
-        targets: places.order.map(({ target }) => ({ target, x: x_of(target) })),
-        ends: places.by_place ? { first: places.order[0].place, last: places.order[places.order.length - 1].place } : null,
-        decimals: Math.max(0, -Math.floor(Math.log10(range.step) + 1e-9)),
-        left: margins.left,
-        right: view.width - margins.right,
-        top: margins.top,
-        bottom: view.height - margins.bottom,
+        targets: order.map(({ target }) => ({ target, x: x_of_target(target) })),
+        ends: by_place ? { first: order[0].place, last: order[order.length - 1].place } : null,
     };
 }
 
-function lines_of(range) {
-    const count = Math.round((range.high - range.low) / range.step);
-    return Array.from({ length: count + 1 }, (_, nth) => range.low + nth * range.step);
-}
+/** @typedef {ReturnType<typeof marks_of>} Marks */
 
 /**
  * The point that a finger means.

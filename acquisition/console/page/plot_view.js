@@ -1,10 +1,12 @@
-// The plot of accepted points as SVG, and its twin as a table.
+// The plot of accepted points, drawn by uPlot (begin.js loads it), and its twin as a table.
 
-import { keep_children, make, make_svg, set_attribute, set_text } from "./dom.js";
+import { keep_children, make, set_attribute, set_text } from "./dom.js";
 import { number_text, axis_units } from "./number_text.js";
-import { plot_of, point_at } from "./plot_geometry.js";
+import { data_of, decimals_of, least_range, margins, marks_of, place_range, places_of, point_at, step_room, steps } from "./plot_geometry.js";
 import { labels_of } from "./plot_labels.js";
+import { PlotPen, colour_names, mark_names } from "./plot_pen.js";
 import { table_of } from "./point_table.js";
+import { on_colours } from "./settings.js";
 
 /** @typedef {import("./accepted_points.js").Point} Point */
 /** @typedef {import("./accepted_points.js").AcceptedPoints} AcceptedPoints */
@@ -28,36 +30,48 @@ export function short_place(place, words) {
     return text.replace(/0+$/, "").replace(/[.,]$/, "");
 }
 
-/** Approach from below points right and is filled, from above left and hollow: the two differ without colour. */
-function arrow_path(x, y, direction) {
-    const ahead = direction === "positive" ? 7 : -7;
-    return `M${x - ahead} ${y - 7}L${x + ahead} ${y}L${x - ahead} ${y + 7}Z`;
-}
+/**
+ * @typedef {object} Content  what is to be drawn
+ * @property {import("./plot_geometry.js").Drawn} drawn
+ * @property {import("./plot_geometry.js").Places} places
+ * @property {number | null} next
+ * @property {number} factor
+ * @property {number | undefined} picked  step of the point
+ * @property {{deviation: string, place: string}} units
+ * @property {Catalogue} words
+ */
 
-const cross_path = (x, y, reach) =>
-    `M${x - reach} ${y - reach}L${x + reach} ${y + reach}M${x - reach} ${y + reach}L${x + reach} ${y - reach}`;
-
+/** uPlot has scales, grid, values of the axis and the canvas; the marks are ours, drawn when it has drawn. */
 export class PlotView {
     /** @param {HTMLElement} place @param {((point: Point | null) => void) | null} pick */
     constructor(place, pick) {
-        this.place = place;
         this.shown = "";
         /** @type {{x: number, y: number, point: Point}[]} */
         this.dots = [];
-        this.svg = make_svg("svg", { role: "img" });
-        place.append(this.svg);
+        /** How many marks of each kind are on the canvas; empty while nothing is. @type {Record<string, number>} */
+        this.drawn = {};
+        /** @type {Record<string, string>} */
+        this.colours = {};
+        /** @type {any} */
+        this.chart = null;
+        /** @type {Content | null} */
+        this.content = null;
+        this.room = make("div", "drawing");
+        this.room.setAttribute("role", "img");
+        place.append(this.room);
         this.width = 0;
         this.height = 0;
         new ResizeObserver(([{ contentRect }]) => {
             this.width = Math.round(contentRect.width);
             this.height = Math.round(contentRect.height);
-        }).observe(this.svg);
+        }).observe(this.room);
+        on_colours(() => (this.shown = ""));
         if (pick !== null) place.addEventListener("click", (event) => pick(this.under(event)));
     }
 
     /** @param {MouseEvent} event */
     under(event) {
-        const box = this.svg.getBoundingClientRect();
+        const box = this.room.getBoundingClientRect();
         return point_at(this.dots, event.clientX - box.left, event.clientY - box.top);
     }
 
@@ -67,71 +81,119 @@ export class PlotView {
      */
     paint(accepted, status, picked, words) {
         const { width, height } = this;
-        if (!this.svg.hasAttribute("aria-label")) set_attribute(this.svg, "aria-label", words.text("points_accepted")); // before it has a size, too
+        if (this.room.getAttribute("aria-label") === null) set_attribute(this.room, "aria-label", words.text("points_accepted")); // before it has a size, too
         if (width < 120 || height < 60) return;
         const { deviation, coordinate } = axis_units(status.axis);
         const next = status.run_open && status.run?.next && status.run.id === accepted.run ? status.run.next.target : null;
-        const count = accepted.points.length;
         const key = [accepted.version, next, picked?.step, width, height, deviation.unit, words.tag, words.text("no_points")].join("|");
         if (key === this.shown) return;
         this.shown = key;
-        const { nominals, targets } = accepted;
-        const plot = plot_of({ judged: accepted.judged(), nominals, targets }, { width, height, factor: deviation.factor, next });
-        this.dots = plot.dots;
-        set_attribute(this.svg, "viewBox", `0 0 ${width} ${height}`);
-        const latest = plot.dots.at(-1);
-        const said = latest ? point_text(latest.point, status, words) : words.text("no_points");
-        const left_out = plot.dots.filter((dot) => dot.left_out).length;
-        const also = left_out > 0 ? ` ${words.text("excluded", { count: left_out })}.` : "";
-        set_attribute(this.svg, "aria-label", `${words.text("points_accepted")}: ${count}.${also} ${said}`);
+        const drawn = { judged: accepted.judged(), nominals: accepted.nominals, targets: accepted.targets };
         const units = { deviation: words.unit(deviation.unit), place: words.unit(coordinate) };
-        this.svg.replaceChildren(
-            ...this.frame(plot, units.deviation, words),
-            ...this.labels(plot, units, words),
-            ...plot.sides.flatMap(({ direction, bands }) => bands.map((d) => make_svg("path", { class: `band_${direction}`, d }))),
-            ...plot.sides.flatMap(({ direction, means }) => means.map((d) => make_svg("path", { class: `mean_${direction}`, d }))),
-            ...this.dots_of(plot.dots, picked),
-            ...(count === 0 ? [make_svg("text", { x: width / 2, y: height / 2, "text-anchor": "middle" }, words.text("no_points"))] : []),
-        );
+        this.content = { drawn, places: places_of(drawn, next), next, factor: deviation.factor, picked: picked?.step, units, words };
+        set_attribute(this.room, "aria-label", said_of(accepted, drawn.judged, status, words));
+        this.show(this.content);
     }
 
-    frame(plot, unit, words) {
-        const style = { decimal_mark: words.decimal_mark };
-        const every = plot.lines.length * 22 > plot.bottom - plot.top ? 2 : 1;
-        return [
-            ...plot.lines.map(({ y }) => make_svg("line", { class: "grid", x1: plot.left, x2: plot.right, y1: y, y2: y })),
-            ...plot.lines
-                .filter((_, nth) => nth % every === 0)
-                .map(({ value, y }) =>
-                    make_svg("text", { x: plot.left - 6, y: y + 6, "text-anchor": "end" }, number_text(value, plot.decimals, style).trim()),
-                ),
-            make_svg("line", { class: "zero", x1: plot.left, x2: plot.right, y1: plot.zero_y, y2: plot.zero_y }),
-            make_svg("text", { x: 4, y: plot.bottom + 24 }, unit),
-            ...(plot.next_x === null ? [] : [make_svg("line", { class: "next_line", x1: plot.next_x, x2: plot.next_x, y1: plot.top, y2: plot.bottom })]),
-        ];
+    /** @param {Content} content */
+    show({ drawn, places, factor, words }) {
+        const { uPlot } = /** @type {any} */ (globalThis);
+        if (uPlot === undefined) return set_text(this.room, words.text("plot_missing"));
+        const data = data_of(drawn, places, factor);
+        if (this.chart === null) {
+            this.chart = this.begin(uPlot, data);
+            return;
+        }
+        this.chart.batch(() => {
+            this.chart.setSize({ width: this.width, height: this.height }); // also where it is the same: colours are set anew
+            this.chart.setData(data);
+        });
     }
 
-    labels(plot, units, words) {
-        const { ends } = plot;
+    begin(uPlot, data) {
+        const none = { show: false };
+        const extreme = { scale: "y", paths: () => null, points: none };
+        return new uPlot({
+            width: this.width, height: this.height, padding: [margins.top, margins.right, margins.bottom, 0],
+            legend: none,
+            cursor: { show: false, drag: { click: () => {} } }, // its own keeps clicks to itself
+            select: { show: false, left: 0, top: 0, width: 0, height: 0 },
+            scales: {
+                x: { time: false, range: () => place_range(this.now().places, this.width - margins.left - margins.right) },
+                y: { range: (_, low, high) => uPlot.rangeNum(...least_range(low, high), 0.05, true) },
+            },
+            series: [{}, extreme, extreme],
+            axes: [none, this.axis()],
+            hooks: { drawClear: [() => this.forget()], draw: [(chart) => this.draw(chart, uPlot.pxRatio)] },
+        }, data, this.room);
+    }
+
+    axis() {
+        const text_of = (value, step) => number_text(value, decimals_of(step), { decimal_mark: this.now().words.decimal_mark }).trim();
+        return {
+            scale: "y", size: margins.left, gap: 6, font: this.font(), stroke: () => this.colours.ink,
+            grid: { stroke: () => this.colours.line, width: 1 }, ticks: { show: false },
+            incrs: steps,
+            space: (chart, axis, low, high, height) => step_room(height),
+            values: (chart, values, axis, space, step) => values.map((value) => text_of(value, step)),
+        };
+    }
+
+    font() {
+        return `18px ${getComputedStyle(this.room).fontFamily}`;
+    }
+
+    now() {
+        return /** @type {Content} */ (this.content);
+    }
+
+    /** The canvas is empty. A canvas has no colours of its own: they are asked for with each drawing. */
+    forget() {
+        this.dots = [];
+        this.drawn = {};
+        for (const name of mark_names) this.room.removeAttribute(`data-${name}`);
+        const style = getComputedStyle(this.room);
+        this.colours = Object.fromEntries(colour_names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    }
+
+    /** After grid and axis. @param {any} chart @param {number} ratio  pixels of the canvas for one of the page */
+    draw(chart, ratio) {
+        const { drawn, places, next, factor, picked } = this.now();
+        const { left, top, width, height } = Object.fromEntries(Object.entries(chart.bbox).map(([name, value]) => [name, value / ratio]));
+        const frame = { left, right: left + width, top, bottom: top + height };
+        const x_of = (place) => left + chart.valToPos(place, "x");
+        const y_of = (value) => top + chart.valToPos(value, "y");
+        const marks = marks_of(drawn, places, next, { x_of, y_of, width, factor });
+        const pen = new PlotPen(chart.ctx, this.colours, this.font());
+        chart.ctx.save(); // it remembers what it has set
+        chart.ctx.scale(ratio, ratio);
+        this.write(pen, marks, frame);
+        pen.draw_all(marks, picked, frame);
+        chart.ctx.restore();
+        this.dots = marks.dots;
+        this.drawn = pen.drawn;
+        for (const name of mark_names) this.room.setAttribute(`data-${name}`, String(pen.drawn[name]));
+    }
+
+    /** @param {PlotPen} pen @param {import("./plot_geometry.js").Marks} marks */
+    write(pen, { targets, ends }, frame) {
+        const { units, words, drawn } = this.now();
+        const foot = frame.bottom + 24;
+        pen.write(units.deviation, 4, foot, "start");
         const places = ends && { first: short_place(ends.first, words), last: `${short_place(ends.last, words)} ${units.place}` };
-        const room = { left: 12 + 12 * units.deviation.length, right: plot.right + 12 };
-        return labels_of(plot.targets, places, room).map(({ text, x, anchor }) =>
-            make_svg("text", { x, y: plot.bottom + 24, "text-anchor": anchor }, text),
-        );
+        const room = { left: 12 + 12 * units.deviation.length, right: frame.right + 12 };
+        for (const { text, x, anchor } of labels_of(targets, places, room)) pen.write(text, x, foot, anchor);
+        if (drawn.judged.length === 0) pen.write(words.text("no_points"), this.width / 2, this.height / 2, "middle");
     }
+}
 
-    /** Taken again: a cross in its place. Left out: its arrow stays, and is crossed out above all others. */
-    dots_of(dots, picked) {
-        const cross = ({ x, y }, name, reach) => make_svg("path", { class: name, d: cross_path(x, y, reach) });
-        const arrow = ({ x, y, direction }) => make_svg("path", { class: direction, d: arrow_path(x, y, direction) });
-        const ring = ({ x, y }, name, r) => make_svg("circle", { class: name, cx: x, cy: y, r });
-        return [
-            ...dots.map((dot) => (dot.counts || dot.left_out ? arrow(dot) : cross(dot, "replaced", 6))),
-            ...dots.filter((dot) => dot.left_out).map((dot) => cross(dot, "left_out", 10)),
-            ...dots.filter((dot) => dot.latest).map((dot) => ring(dot, "latest", 13)),
-            ...dots.filter((dot) => dot.point.step === picked?.step).map((dot) => ring(dot, "picked_ring", 18)),
-        ];
-    }
+/** What a screen reader says of the plot; the table has the rest. @param {AcceptedPoints} accepted @param {any} status @param {Catalogue} words */
+function said_of(accepted, judged, status, words) {
+    const latest = accepted.points.at(-1);
+    const said = latest ? point_text(latest, status, words) : words.text("no_points");
+    const left_out = judged.filter((one) => one.left_out).length;
+    const also = left_out > 0 ? ` ${words.text("excluded", { count: left_out })}.` : "";
+    return `${words.text("points_accepted")}: ${accepted.points.length}.${also} ${said}`;
 }
 
 export class TableView {

@@ -25,3 +25,9 @@ export function use_theme(theme) {
     if (theme === "auto" || !themes.includes(theme)) delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = theme;
 }
+
+/** @param {() => void} changed  called when other colours hold: chosen here, or the computer's own */
+export function on_colours(changed) {
+    new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ["data-theme"] });
+    for (const query of ["(prefers-color-scheme: dark)", "(forced-colors: active)"]) matchMedia(query).addEventListener("change", changed);
+}

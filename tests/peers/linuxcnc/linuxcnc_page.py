@@ -11,13 +11,12 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
 from browser import Browser
 from linuxcnc_bench import FIVE_TARGETS, free_port, run_in_bench, until
 from linuxcnc_figures import judge_E, judge_points
-from page_hands import arm, code_of, pair
+from page_hands import arm, code_of, pair, points_drawn
 
 def calibrate(bench):
     port = free_port()
     bench.changes.update(FIVE_TARGETS)
     bench.changes['group = ""\nport = 0\n'] = f'group = ""\nport = {port}\n'
-    bench.environment["AXISCAL_PAGE_PATH"] = str(bench.source / "acquisition/console/page")
     daemon, cnc, program = bench.make_ready()
     until(bench.may_arm, "every pre-flight check to hold", [daemon, cnc])
     plan = json.loads(bench.axiscal("program", "--json", "--config", bench.scratch / "station.toml", "--out", bench.scratch / "again"))
@@ -28,8 +27,7 @@ def calibrate(bench):
         arm(page, plan["programs"][0]["datum_mm"])
         page.wait_for_text("#run_so_far", "10 of 10", 240)
         page.wait_for_text("#run_so_far", "certificate", 60)
-        drawn = page.ask("document.querySelectorAll('#run_plot .positive, #run_plot .negative').length")
-        assert drawn == 10, f"{drawn} points are drawn"
+        page.wait("ten points are drawn", lambda: points_drawn(page, "run") == 10)
         assert not page.complaints(), "the console of the browser is not silent"
     folder = bench.reach_the_end(cnc)
     assert "armed by page panel" in "\n".join(bench.status()["notes"]), bench.status()["notes"]
