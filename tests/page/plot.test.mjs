@@ -11,7 +11,7 @@ const view = Object.freeze({ width: 800, height: 400, factor: 1, next: 5 });
 /** @param points  all of them count */
 function drawn_of(points, changed = {}) {
     const judged = points.map((point) => ({ point, counts: true, left_out: false }));
-    return { judged, nominals: null, targets: new Map(), ...changed };
+    return { judged, nominals: null, targets: new Map(), limits: null, ...changed };
 }
 
 const targets_of = (...rows) => new Map(rows.map((row) => [row.target, row]));
@@ -42,6 +42,13 @@ test("every point lies within the frame, the two directions beside each other", 
     for (const dot of plot.dots) assert.ok(dot.x > plot.left && dot.x < plot.right && dot.y >= plot.top && dot.y <= plot.bottom);
     assert.ok(plot.dots[0].x < plot.dots[1].x);
     assert.ok(plot.next_x > plot.dots.at(-1).x);
+});
+
+test("the lines of a limit have room, the upper one first", () => {
+    const limits = { parameter: "A", limit_um: 20, low_um: -8, high_um: 12 };
+    const { limit_ys: [upper, lower], zero_y, top, bottom } = plot_of(drawn_of([point_of(0)], { limits }), { ...view, next: null });
+    assert.ok(top <= upper && upper < zero_y && zero_y < lower && lower <= bottom);
+    assert.ok(Math.abs((zero_y - upper) / (lower - zero_y) - 12 / 8) < 1e-9);
 });
 
 test("a plot without points has a frame and no dot", () => {

@@ -40,7 +40,7 @@ async function painted({ colours = light, accepted = run_with_points(), status =
 drawn_by_uplot("each mark is on the canvas once, and is counted", async () => {
     const { view, canvas } = await painted();
     assert.deepEqual(view.drawn, {
-        zero: 1, next_line: 1, band_positive: 1, band_negative: 0, mean_positive: 1, mean_negative: 1, positive: 3, negative: 1,
+        zero: 1, limit: 0, next_line: 1, band_positive: 1, band_negative: 0, mean_positive: 1, mean_negative: 1, positive: 3, negative: 1,
         replaced: 1, left_out: 1, latest: 1, picked_ring: 0,
     });
     const fills = canvas().done.filter(({ what, colour, alpha }) => what === "fill" && colour === light.positive && alpha === 1);
@@ -66,6 +66,18 @@ drawn_by_uplot("the grid has few lines with 0 among them, in the mark and the mi
     assert.ok(values.some((text) => text.startsWith("\u2212")), String(values));
     const { texts: fine } = await painted({ accepted: new AcceptedPoints(), words: words_of("de") });
     assert.ok(fine().includes("\u22121,0") && fine().includes("noch keine Punkte"), String(fine()));
+});
+
+drawn_by_uplot("the limit of A is two lines with its text, of the run that is drawn alone", async () => {
+    const limits = [{ parameter: "A", limit_um: 12.5, value_um: 8 }];
+    const accepted = new AcceptedPoints();
+    const targets = [target_of(0, side_of(0, 0.5), side_of(-1, 0.5)), target_of(1, side_of(4, 1), side_of(2, 0.5))];
+    accepted.take({ run: run_of().id, count: 1, from: 0, target_nominals_mm: [0, 100], points: [point_of(0)], targets });
+    const { view, texts } = await painted({ accepted, status: status_of({ run: run_of({ so_far: { limits } }) }), words: words_of("de") });
+    assert.equal(view.drawn.limit, 2);
+    assert.ok(texts().includes("A ≤ 12,5 µm"), String(texts()));
+    const { view: other } = await painted({ accepted, status: status_of({ run: run_of({ id: "another", so_far: { limits } }) }) });
+    assert.equal(other.drawn.limit, 0);
 });
 
 drawn_by_uplot("a rotary axis has its own unit", async () => {

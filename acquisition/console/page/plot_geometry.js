@@ -70,6 +70,7 @@ export function place_range({ order, by_place }, width) {
  * @property {Judged[]} judged
  * @property {readonly number[] | null} nominals  places of the plan's targets
  * @property {ReadonlyMap<number, TargetSoFar>} targets
+ * @property {import("./plot_limits.js").LimitLines | null} limits
  */
 
 /**
@@ -77,11 +78,12 @@ export function place_range({ order, by_place }, width) {
  * @param {Drawn} drawn @param {Places} places @param {number} factor  from µm to the unit shown
  * @returns {(number | null)[][]}
  */
-export function data_of({ judged, targets }, { order }, factor) {
+export function data_of({ judged, targets, limits }, { order }, factor) {
     /** @type {Map<number, number[]>} */
     const values = new Map(order.map(({ target }) => [target, []]));
     for (const { point } of judged) values.get(point.target)?.push(point.deviation_um);
     for (const row of targets.values()) values.get(row.target)?.push(...band_values([row]));
+    if (limits !== null) values.get(order[0].target)?.push(limits.low_um, limits.high_um);
     const each = (find) => order.map(({ target }) => {
         const all = values.get(target) ?? [];
         return all.length === 0 ? null : find(...all) * factor;
@@ -98,7 +100,7 @@ export function data_of({ judged, targets }, { order }, factor) {
  */
 
 /** @param {Drawn} drawn @param {Places} places @param {number | null} next  the target that is next, from 0 @param {Scales} scales */
-export function marks_of({ judged, targets }, { order, by_place }, next, { x_of, y_of, width, factor }) {
+export function marks_of({ judged, targets, limits }, { order, by_place }, next, { x_of, y_of, width, factor }) {
     const x_by_target = new Map(order.map(({ target, place }) => [target, x_of(place)]));
     const x_of_target = (target) => x_by_target.get(target) ?? x_of(order[0].place);
     const beside = Math.min(10, (width / order.length) * 0.2); // the two directions stand side by side
@@ -117,6 +119,7 @@ export function marks_of({ judged, targets }, { order, by_place }, next, { x_of,
         sides: bands_of(order, targets, x_of_side, (um) => y_of(um * factor)),
         next_x: next === null ? null : x_of_target(next),
         zero_y: y_of(0),
+        limit_ys: limits === null ? [] : [limits.high_um, limits.low_um].map((um) => y_of(um * factor)),
         targets: order.map(({ target }) => ({ target, x: x_of_target(target) })),
         ends: by_place ? { first: order[0].place, last: order[order.length - 1].place } : null,
     };

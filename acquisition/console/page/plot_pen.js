@@ -7,6 +7,7 @@
 /** From the lowest to the uppermost. @type {Readonly<Record<string, Style>>} */
 const styles = Object.freeze({
     zero: { stroke: "ink", width: 2 },
+    limit: { stroke: "ink", width: 2.5, dash: [14, 5, 3, 5] },
     next_line: { stroke: "dim", width: 2, dash: [4, 6] },
     band_positive: { fill: "positive", alpha: 0.14, stroke: "positive", width: 1 }, // clear enough to show each other
     band_negative: { fill: "negative", alpha: 0.14, stroke: "negative", width: 1, dash: [8, 5] },
@@ -79,8 +80,9 @@ export class PlotPen {
      * @param {Marks} marks @param {number | undefined} picked  step of the point
      * @param {{left: number, right: number, top: number, bottom: number}} frame
      */
-    draw_all({ dots, sides, next_x, zero_y }, picked, frame) {
+    draw_all({ dots, sides, next_x, zero_y, limit_ys }, picked, frame) {
         this.draw("zero", `M${frame.left} ${zero_y}L${frame.right} ${zero_y}`);
+        for (const y of limit_ys) this.draw("limit", `M${frame.left} ${y}L${frame.right} ${y}`);
         if (next_x !== null) this.draw("next_line", `M${next_x} ${frame.top}L${next_x} ${frame.bottom}`);
         for (const { direction, bands } of sides) for (const path of bands) this.draw(`band_${direction}`, path);
         for (const { direction, means } of sides) for (const path of means) this.draw(`mean_${direction}`, path);

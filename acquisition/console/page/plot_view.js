@@ -4,6 +4,7 @@ import { keep_children, make, set_attribute, set_text } from "./dom.js";
 import { number_text, axis_units } from "./number_text.js";
 import { data_of, decimals_of, least_range, margins, marks_of, place_range, places_of, point_at, step_room, steps } from "./plot_geometry.js";
 import { labels_of } from "./plot_labels.js";
+import { limit_lines } from "./plot_limits.js";
 import { PlotPen, colour_names, mark_names } from "./plot_pen.js";
 import { table_of } from "./point_table.js";
 import { on_colours } from "./settings.js";
@@ -85,10 +86,11 @@ export class PlotView {
         if (width < 120 || height < 60) return;
         const { deviation, coordinate } = axis_units(status.axis);
         const next = status.run_open && status.run?.next && status.run.id === accepted.run ? status.run.next.target : null;
-        const key = [accepted.version, next, picked?.step, width, height, deviation.unit, words.tag, words.text("no_points")].join("|");
+        const limits = limit_lines(accepted.targets.values(), limits_of(status, accepted));
+        const key = [accepted.version, next, picked?.step, JSON.stringify(limits), width, height, deviation.unit, words.tag, words.text("no_points")].join("|");
         if (key === this.shown) return;
         this.shown = key;
-        const drawn = { judged: accepted.judged(), nominals: accepted.nominals, targets: accepted.targets };
+        const drawn = { judged: accepted.judged(), nominals: accepted.nominals, targets: accepted.targets, limits };
         const units = { deviation: words.unit(deviation.unit), place: words.unit(coordinate) };
         this.content = { drawn, places: places_of(drawn, next), next, factor: deviation.factor, picked: picked?.step, units, words };
         set_attribute(this.room, "aria-label", said_of(accepted, drawn.judged, status, words));
@@ -176,15 +178,31 @@ export class PlotView {
     }
 
     /** @param {PlotPen} pen @param {import("./plot_geometry.js").Marks} marks */
-    write(pen, { targets, ends }, frame) {
+    write(pen, { targets, ends, limit_ys }, frame) {
         const { units, words, drawn } = this.now();
         const foot = frame.bottom + 24;
         pen.write(units.deviation, 4, foot, "start");
         const places = ends && { first: short_place(ends.first, words), last: `${short_place(ends.last, words)} ${units.place}` };
         const room = { left: 12 + 12 * units.deviation.length, right: frame.right + 12 };
         for (const { text, x, anchor } of labels_of(targets, places, room)) pen.write(text, x, foot, anchor);
+        if (drawn.limits !== null) pen.write(limit_text(drawn.limits, this.now()), frame.left + 6, limit_foot(limit_ys[0], frame), "start");
         if (drawn.judged.length === 0) pen.write(words.text("no_points"), this.width / 2, this.height / 2, "middle");
     }
+}
+
+/** Of the run whose points are drawn. @param {any} status @param {AcceptedPoints} accepted @returns {import("./plot_limits.js").Limit[]} */
+function limits_of(status, accepted) {
+    return (status.run?.id === accepted.run && status.run?.so_far?.limits) || [];
+}
+
+/** "A ≤ 12.0 µm" @param {import("./plot_limits.js").LimitLines} limits @param {Content} content */
+function limit_text({ parameter, limit_um }, { factor, units, words }) {
+    return `${parameter} ≤ ${number_text(limit_um * factor, 1, { decimal_mark: words.decimal_mark }).trim()} ${units.deviation}`;
+}
+
+/** Foot of the text: above the line, below it where there is no room. @param {number} y @param {{top: number}} frame */
+function limit_foot(y, { top }) {
+    return y - top >= 26 ? y - 6 : y + 20;
 }
 
 /** What a screen reader says of the plot; the table has the rest. @param {AcceptedPoints} accepted @param {any} status @param {Catalogue} words */

@@ -66,9 +66,15 @@ function side_of({ mean_um, s_um }, points) {
     return { points, mean_um, low_um: known ? mean_um - 2 * s_um : null, high_um: known ? mean_um + 2 * s_um : null };
 }
 
+/** What was agreed on, with the figure that is held against it. @returns {import("./plot_limits.js").Limit[]} */
+function limits_of(document, factor) {
+    const scaled = (value) => (is_number(value) ? value * factor : null);
+    return list_or_none(document.verdicts).map(({ parameter, limit, value }) => ({ parameter, limit_um: scaled(limit), value_um: scaled(value) }));
+}
+
 /**
  * @param {any} document  a certificate, or null
- * @returns {{event: PointsEvent, axis: {kind: string}, means: MeanRow[]} | null} null: this kind of test has no readings at targets
+ * @returns {{event: PointsEvent, axis: {kind: string}, means: MeanRow[], limits: import("./plot_limits.js").Limit[]} | null} null: this kind of test has no readings at targets
  */
 export function points_of_certificate(document) {
     if (!Array.isArray(document?.run?.deviations?.forward)) return null;
@@ -84,5 +90,5 @@ export function points_of_certificate(document) {
         target, nominal_mm: place, positive: side_of(positive, counted(target, "positive")), negative: side_of(negative, counted(target, "negative")),
     }));
     const event = { run: document.run.id, count: points.length, from: 0, points, target_nominals_mm: places, targets };
-    return { event, axis: { kind: document.unit === "deg" ? "rotary" : "linear" }, means };
+    return { event, axis: { kind: document.unit === "deg" ? "rotary" : "linear" }, means, limits: limits_of(document, factor) };
 }

@@ -16,6 +16,7 @@ export class ResultView {
     constructor(places) {
         this.places = places;
         this.readings = new AcceptedPoints();
+        /** @type {any} as far as plot and table ask for one */
         this.status = { axis: { kind: "linear" }, run: null, run_open: false };
         /** @type {import("./result_points.js").MeanRow[]} */
         this.means = [];
@@ -52,7 +53,8 @@ export class ResultView {
         this.places.table.hidden = true;
         this.picked = null;
         this.means = found?.means ?? [];
-        this.status = { axis: found?.axis ?? { kind: "linear" }, run: null, run_open: false };
+        const run = found && { id: found.event.run, so_far: { limits: found.limits } };
+        this.status = { axis: found?.axis ?? { kind: "linear" }, run, run_open: false };
         this.readings.take(found?.event ?? { run: null, count: 0, from: 0, points: [] });
         this.has_plot = found !== null;
     }

@@ -18,7 +18,7 @@ export function so_far_lines(run, open, unit, words) {
     return texts.filter((text) => text !== "").map((text) => ({ text, basis: so_far.basis }));
 }
 
-/** In words: a limit holds for a width, such as A, and not for a deviation, so that no line in the plot could be it. */
+/** All of them in words: most hold for a width that no plot shows (plot_limits.js has the others). */
 function limits_text(so_far) {
     return so_far.limits.map(({ sentence }) => sentence).join(" · ");
 }
