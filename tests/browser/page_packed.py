@@ -4,16 +4,15 @@ import contextlib
 import gzip
 import http.client
 
-from page_bench import SOURCE, bench, expect, in_mid_run, opened, sentence
+from page_bench import PAGE, bench, expect, in_mid_run, opened, sentence
 
-PAGE = SOURCE / "acquisition/console/page"
 SIZES = """performance.getEntriesByType('resource').concat(performance.getEntriesByType('navigation'))
            .filter((one) => !one.name.includes('/v1/')).map((one) => [one.name, one.encodedBodySize, one.decodedBodySize])"""
 
 
 def shipped():
-    """Path that is asked for: the file in the sources."""
-    files = [path for path in PAGE.rglob("*") if path.is_file() and path.name != "package.json"]
+    """Path that is asked for: the file as it ships."""
+    files = [path for path in PAGE.rglob("*") if path.is_file() and path.suffix != ".gz"]
     return {"/" if path.name == "index.html" else f"/page/{path.relative_to(PAGE)}": path for path in files}
 
 

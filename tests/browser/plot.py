@@ -42,16 +42,16 @@ def colours(b):
     address = in_mid_run(b)
     with opened(address) as page:
         page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
-        grounds = set()
+        colours_seen = set()
         for computer, chosen in [("light", None), ("dark", None), ("dark", "light"), ("dark", "grey"), ("light", "dark")]:
             page.tell("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": computer}])
             page.driver.execute_script("const {dataset} = document.documentElement;"
                                        "if (arguments[0]) dataset.theme = arguments[0]; else delete dataset.theme;", chosen)
             what = f"computer {computer}, chosen {chosen}"
             page.wait(f"the plot has the colours: {what}", lambda: all(seen(page, "now")[name]["count"] > ARROW for name in NAMES))
-            grounds.add(page.ask("getComputedStyle(document.documentElement).getPropertyValue('--positive')"))
+            colours_seen.add(page.ask("getComputedStyle(document.documentElement).getPropertyValue('--positive')"))
             expect(points_drawn(page, "now") == 3, f"{what}: {points_drawn(page, 'now')} points")
-        expect(len(grounds) == 3, f"these are no three sets of colours: {grounds}")
+        expect(len(colours_seen) == 3, f"these are no three sets of colours: {colours_seen}")
 
 
 @sentence("FingerOnAPointOfThePlotPicksIt")

@@ -51,13 +51,13 @@ test("of a point that was taken again the last one counts, and the first is stil
     const accepted = taken(event_of(0, [point_of(0), point_of(1), point_of(110, { target: 0 })]));
     assert.deepEqual(accepted.judged().map(({ counts }) => counts), [false, true, true]);
     const { nominals, targets } = accepted;
-    assert.equal(plot_of({ judged: accepted.judged(), nominals, targets }, view).dots.length, 3);
+    assert.equal(plot_of({ judged: accepted.judged(), nominals, targets, limits: null }, view).dots.length, 3);
 });
 
 test("a point that is left out does not count, is still drawn, and can be picked", () => {
     const accepted = taken(event_of(0, [told(0), told(1, { excluded: true })], { target_nominals_mm: [0, 100.5] }));
     const { nominals, targets } = accepted;
-    const { dots } = plot_of({ judged: accepted.judged(), nominals, targets }, view);
+    const { dots } = plot_of({ judged: accepted.judged(), nominals, targets, limits: null }, view);
     assert.deepEqual(dots.map(({ counts, left_out }) => [counts, left_out]), [[true, false], [false, true]]);
     assert.equal(still_picked(accepted.points[1], accepted), accepted.points[1]);
 });

@@ -69,13 +69,13 @@ drawn_by_uplot("the grid has few lines with 0 among them, in the mark and the mi
 });
 
 drawn_by_uplot("the limit of A is two lines with its text, of the run that is drawn alone", async () => {
-    const limits = [{ parameter: "A", limit_um: 12.5, value_um: 8 }];
+    const limits = [{ parameter: "A", limit_um: 12.25, value_um: 8 }];
     const accepted = new AcceptedPoints();
     const targets = [target_of(0, side_of(0, 0.5), side_of(-1, 0.5)), target_of(1, side_of(4, 1), side_of(2, 0.5))];
     accepted.take({ run: run_of().id, count: 1, from: 0, target_nominals_mm: [0, 100], points: [point_of(0)], targets });
     const { view, texts } = await painted({ accepted, status: status_of({ run: run_of({ so_far: { limits } }) }), words: words_of("de") });
     assert.equal(view.drawn.limit, 2);
-    assert.ok(texts().includes("A ≤ 12,5 µm"), String(texts()));
+    assert.ok(texts().includes("A ≤ 12,25 µm"), String(texts()));
     const { view: other } = await painted({ accepted, status: status_of({ run: run_of({ id: "another", so_far: { limits } }) }) });
     assert.equal(other.drawn.limit, 0);
 });

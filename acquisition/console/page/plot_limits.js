@@ -7,7 +7,7 @@ import { is_number } from "./freshness.js";
 /** @typedef {{parameter: string, limit_um: number | null, value_um: number | null}} Limit */
 /** @typedef {{parameter: string, limit_um: number, low_um: number, high_um: number}} LimitLines */
 
-/** What of a side each figure is as wide as (ISO 230-2: A is of mean ± 2 s, E of the means). */
+/** Of one side, what each figure is the width of (ISO 230-2: A of mean ± 2 s, E of the means). */
 const widths = Object.freeze({ A: (side) => [side.low_um, side.high_um], E: (side) => [side.mean_um] });
 const widest = 4; // times the figure: beyond that the marks would lie flat between the lines
 const rounding_um = 0.06; // a figure comes rounded

@@ -1,4 +1,4 @@
-// The plot of accepted points, drawn by uPlot (begin.js loads it), and its twin as a table.
+// The plot of accepted points, drawn by uPlot (begin.js loads it), and the same points as a table.
 
 import { keep_children, make, set_attribute, set_text } from "./dom.js";
 import { number_text, axis_units } from "./number_text.js";
@@ -169,7 +169,7 @@ export class PlotView {
         const pen = new PlotPen(chart.ctx, this.colours, this.font());
         chart.ctx.save(); // it remembers what it has set
         chart.ctx.scale(ratio, ratio);
-        this.write(pen, marks, frame);
+        this.write(pen, marks, frame, chart);
         pen.draw_all(marks, picked, frame);
         chart.ctx.restore();
         this.dots = marks.dots;
@@ -178,15 +178,15 @@ export class PlotView {
     }
 
     /** @param {PlotPen} pen @param {import("./plot_geometry.js").Marks} marks */
-    write(pen, { targets, ends, limit_ys }, frame) {
+    write(pen, { targets, ends, limit_ys }, frame, { width, height }) {
         const { units, words, drawn } = this.now();
         const foot = frame.bottom + 24;
         pen.write(units.deviation, 4, foot, "start");
         const places = ends && { first: short_place(ends.first, words), last: `${short_place(ends.last, words)} ${units.place}` };
-        const room = { left: 12 + 12 * units.deviation.length, right: frame.right + 12 };
+        const room = { left: 24 + 12 * units.deviation.length, right: frame.right + 12 };
         for (const { text, x, anchor } of labels_of(targets, places, room)) pen.write(text, x, foot, anchor);
         if (drawn.limits !== null) pen.write(limit_text(drawn.limits, this.now()), frame.left + 6, limit_foot(limit_ys[0], frame), "start");
-        if (drawn.judged.length === 0) pen.write(words.text("no_points"), this.width / 2, this.height / 2, "middle");
+        if (drawn.judged.length === 0) pen.write(words.text("no_points"), width / 2, height / 2, "middle");
     }
 }
 
@@ -195,9 +195,9 @@ function limits_of(status, accepted) {
     return (status.run?.id === accepted.run && status.run?.so_far?.limits) || [];
 }
 
-/** "A ≤ 12.0 µm" @param {import("./plot_limits.js").LimitLines} limits @param {Content} content */
+/** "A ≤ 12.25 µm" @param {import("./plot_limits.js").LimitLines} limits @param {Content} content */
 function limit_text({ parameter, limit_um }, { factor, units, words }) {
-    return `${parameter} ≤ ${number_text(limit_um * factor, 1, { decimal_mark: words.decimal_mark }).trim()} ${units.deviation}`;
+    return `${parameter} ≤ ${number_text(limit_um * factor, 2, { decimal_mark: words.decimal_mark }).trim()} ${units.deviation}`;
 }
 
 /** Foot of the text: above the line, below it where there is no room. @param {number} y @param {{top: number}} frame */

@@ -16,6 +16,7 @@ function factor_of(document) {
     return across ? 1 : 1000;
 }
 
+const scaled = (value, factor) => (is_number(value) ? value * factor : null);
 const list_or_none = (value) => (Array.isArray(value) ? value : []);
 
 /** @param {any} run  of the certificate @returns {number[]} */
@@ -56,8 +57,8 @@ function points_set_aside(document, places, factor) {
 
 /** @returns {MeanOfSide} */
 function mean_of(row, key, factor) {
-    const scaled = (value) => (is_number(value) ? value * factor : null);
-    return { mean_um: scaled(row[`mean_${key}`] ?? row[`mean_${key}_um`]), s_um: scaled(row[`s_${key}`] ?? row[`s_${key}_um`]) };
+    const value_of = (name) => scaled(row[`${name}_${key}`] ?? row[`${name}_${key}_um`], factor);
+    return { mean_um: value_of("mean"), s_um: value_of("s") };
 }
 
 /** @param {MeanOfSide} mean @param {number} points @returns {Side} */
@@ -67,9 +68,8 @@ function side_of({ mean_um, s_um }, points) {
 }
 
 /** What was agreed on, with the figure that is held against it. @returns {import("./plot_limits.js").Limit[]} */
-function limits_of(document, factor) {
-    const scaled = (value) => (is_number(value) ? value * factor : null);
-    return list_or_none(document.verdicts).map(({ parameter, limit, value }) => ({ parameter, limit_um: scaled(limit), value_um: scaled(value) }));
+function limits_agreed(document, factor) {
+    return list_or_none(document.verdicts).map(({ parameter, limit, value }) => ({ parameter, limit_um: scaled(limit, factor), value_um: scaled(value, factor) }));
 }
 
 /**
@@ -90,5 +90,5 @@ export function points_of_certificate(document) {
         target, nominal_mm: place, positive: side_of(positive, counted(target, "positive")), negative: side_of(negative, counted(target, "negative")),
     }));
     const event = { run: document.run.id, count: points.length, from: 0, points, target_nominals_mm: places, targets };
-    return { event, axis: { kind: document.unit === "deg" ? "rotary" : "linear" }, means, limits: limits_of(document, factor) };
+    return { event, axis: { kind: document.unit === "deg" ? "rotary" : "linear" }, means, limits: limits_agreed(document, factor) };
 }
