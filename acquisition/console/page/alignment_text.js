@@ -2,7 +2,7 @@
 
 import { is_number } from "./freshness.js";
 import { no_number, number_text } from "./number_text.js";
-import { date_text } from "./result_text.js";
+import { date_text } from "./time_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 /** @typedef {{distance_mm: number, error_um: number, bound_um: number | null}} Cosine */

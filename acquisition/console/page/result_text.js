@@ -4,6 +4,7 @@
 import { is_number } from "./freshness.js";
 import { no_number, number_text } from "./number_text.js";
 import { paper_path } from "./stored_runs.js";
+import { date_text } from "./time_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 /** @typedef {import("./stored_runs.js").StoredRun} StoredRun */
@@ -67,13 +68,6 @@ function limit_line(figure, unit, words) {
     const limit = is_number(figure.limit) ? words.text("limit_words", { limit: number_of(figure.limit * factor, words) }) : words.text("limit_unknown");
     const reason = figure.reason === "" ? "" : `: ${figure.reason}`;
     return { ...said, text: `${figure_text(figure, unit, words)}${without_U}, ${limit}: ${said.word}${reason}` };
-}
-
-/** By the reader's own clock. @param {string} utc @param {Catalogue} words */
-export function date_text(utc, words) {
-    const at = new Date(utc);
-    if (utc === "" || Number.isNaN(at.getTime())) return utc;
-    return new Intl.DateTimeFormat(words.date_tag, { year: "numeric", month: "2-digit", day: "2-digit", hour: "2-digit", minute: "2-digit" }).format(at);
 }
 
 const joined = (parts) => parts.filter((part) => part !== "").join(" · ");

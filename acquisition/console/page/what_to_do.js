@@ -1,5 +1,7 @@
 // The station's list of what to do (docs/to-do.md), as it sends it. This page judges nothing of it. No DOM.
 
+import { since_text } from "./time_text.js";
+
 /**
  * @typedef {object} Task
  * @property {string} id  stays the same as long as the trouble lasts
@@ -41,13 +43,4 @@ export function task_lines(task, words) {
     if (task.command !== "" && !task.next.includes(task.command)) lines.push([task.command, "command"]);
     if (task.undo !== "") lines.push([words.text("undo", { command: task.undo }), "command"]);
     return lines;
-}
-
-/** The reader's own clock; with the day where that is not today's. @param {string} utc @param {Catalogue} words */
-function since_text(utc, words) {
-    const at = new Date(utc);
-    if (Number.isNaN(at.getTime())) return utc;
-    /** @type {Intl.DateTimeFormatOptions} */
-    const day = at.toDateString() === new Date().toDateString() ? {} : { year: "numeric", month: "2-digit", day: "2-digit" };
-    return new Intl.DateTimeFormat(words.date_tag, { ...day, hour: "2-digit", minute: "2-digit", second: "2-digit" }).format(at);
 }
