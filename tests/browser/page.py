@@ -7,8 +7,8 @@ import time
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import (ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, open_sheet, opened, pair_with, points_drawn, sentence,
-                        state_machine, wait_until, with_page)
+from page_bench import (ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, points_drawn, sentence, wait_until,
+                        with_page)
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -109,30 +109,8 @@ def whole(b):
         expect(b.run()["state"] == "complete" and b.certificate()["completeness"]["status"] == "complete", f"{b.run()}")
         notes = "\n".join(b.status()["notes"])
         expect("armed by page tablet 2" in notes, f"who ordered is named: {notes}")
-
-
-@sentence("MachineIsStatedOnTheSheetWhereTheStationFileSaysNothing")
-def stated(b):
-    for key in ("state", "control_compensation"):
-        b.station["certificate"].pop(key)
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
-    with opened(address) as page:
-        pair_with(b, page, "tablet")
-        page.wait("a run may be armed", lambda: is_on(page, "arm"))
-        open_sheet(page, "arm")
-        page.element("#run_sheet input").send_keys(str(b.plan["datum_mm"]))
-        page.click("#run_sheet [type=submit]")
-        page.wait_for_text("#run_sheet .answer", "The state of the machine is not stated")
-        state_machine(page, "as left", "none")
-        page.click("#run_sheet [type=submit]")
-        page.wait_for_text("#run_so_far", "certificate", 120)
-        said = page.complaints()
-        expect(len(said) == 1 and "status of 409" in said[0], f"the browser tells of an order that was refused: {said}")
-    shown = b.certificate()["run"]["statements"]
-    expect((shown["state"], shown["control_compensation"]) == ("as left", "none"), f"{shown}")
+        log = next(log for log in b.logs if log.name.startswith("axiscald")).read_text(errors="replace")
+        expect("page tablet 2: POST /v1/run, answered by 201" in log, f"the order stands in the log with its name: {log}")
 
 
 @sentence("AbortIsHeldAndAShortTouchDoesNothing")

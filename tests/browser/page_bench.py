@@ -19,7 +19,6 @@ ABORT_S = 0.8  # for so long abort is held
 
 def with_page(b):
     """Before b.start(): the page as it ships, with its packed files, at a port of its own. Gives back its address."""
-    b.environment["AXISCAL_PAGE_PATH"] = ""  # beside the programs, as an installed station finds it
     b.station["console"]["port"] = bench.free_port()
     return f"http://127.0.0.1:{b.station['console']['port']}/"
 

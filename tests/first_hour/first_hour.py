@@ -335,12 +335,17 @@ def suspend(hall):
 def brought_here(hall, port):
     """The port of the PC's own 127.0.0.1 on this computer, as docs/api.md has it: ssh -L."""
     wire = f"{port}:127.0.0.1:{port}"
-    hall.pc.ssh("technician", "true")  # the connection that carries it
-    for word in ("forward", "cancel"):
+
+    def told(word):
         done = hall.pc.ssh("technician", "true", more=("-O", word, "-L", wire))
-        expect(done.returncode == 0, f"ssh -L {wire}: {done.stderr}")
-        if word == "forward":
-            yield f"http://127.0.0.1:{port}/"
+        expect(done.returncode == 0, f"ssh -O {word} -L {wire}: {done.stderr}")
+
+    hall.pc.ssh("technician", "true")  # the connection that carries it
+    told("forward")
+    try:
+        yield f"http://127.0.0.1:{port}/"
+    finally:
+        told("cancel")
 
 
 def browser_behind_the_others():
@@ -375,7 +380,7 @@ def by_the_page(hall):
         page.open(address)
         page.wait("the page shows the station", lambda: page.text("#now_reading"), PATIENCE_S)
         page_hands.pair(page, page_hands.code_of(hall.axiscal("pair", "tablet")))
-        page_hands.arm(page, hall.plan["datum_mm"], "as found", "none")
+        page_hands.arm(page, hall.plan["datum_mm"], "as found", "none", seed=hall.plan["seed"])
         page.wait_for_text("#run_so_far", "certificate", PATIENCE_S)
         run_id = hall.run()["id"]
         page_hands.go(page, "result")

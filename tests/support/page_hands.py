@@ -55,16 +55,18 @@ def code_of(shown):
 
 def state_machine(page, state, control_compensation):
     """On the sheet that arms, which asks where the station file does not say it."""
-    page.driver.execute_script("document.querySelector('#run_sheet select').value = arguments[0]", state)
-    page.driver.find_elements("css selector", "#run_sheet input")[-1].send_keys(control_compensation)
+    page.driver.execute_script("document.querySelector('#run_sheet [name=state]').value = arguments[0]", state)
+    page.element("#run_sheet [name=control_compensation]").send_keys(control_compensation)
 
 
-def arm(page, datum_mm, *machine):
-    """machine: (state, control compensation), where the station file does not say it."""
+def arm(page, datum_mm, *machine, seed=None):
+    """machine: (state, control compensation), and the seed of the part program, where the station file does not say it."""
     page.wait("a run may be armed", lambda: is_on(page, "arm"))
     open_sheet(page, "arm")
     if machine:
         state_machine(page, *machine)
+    if seed is not None:
+        page.element("#run_sheet [name=seed]").send_keys(str(seed))
     send_sheet(page, str(datum_mm))
 
 

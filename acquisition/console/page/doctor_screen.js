@@ -10,16 +10,16 @@ import { task_head, task_lines } from "./what_to_do.js";
 
 let tasks_shown = "";
 
-/** What to do, and below it what people were told, the latest first. @param {HTMLElement} place @param {Task[]} tasks @param {string[]} notes @param {Catalogue} words */
-export function paint_tasks(place, tasks, notes, words) {
-    const key = JSON.stringify([words.text("what_to_do"), words.tag, tasks, notes]);
+/** What to do, and below it what people were told, the latest first. @param {HTMLElement} place @param {Task[]} tasks @param {string[]} notes @param {boolean} contact  without it nobody knows @param {Catalogue} words */
+export function paint_tasks(place, tasks, notes, contact, words) {
+    const key = JSON.stringify([contact, words.text("what_to_do"), words.tag, tasks, notes]);
     if (key === tasks_shown) return;
     tasks_shown = key;
     const rows = tasks.map((task) => task_row(task, words));
     const told = notes.map((note) => make("li", "", [note])).reverse();
     place.replaceChildren(
         make("h2", "", [words.text("what_to_do")]),
-        make("ul", "to_do", rows.length === 0 ? [make("li", "", [`● ${words.text("all_well")}`])] : rows),
+        make("ul", "to_do", rows.length === 0 ? [make("li", "", [contact ? `● ${words.text("all_well")}` : `– ${words.text("off_no_contact")}`])] : rows),
         ...(told.length === 0 ? [] : [make("h2", "", [words.text("told")]), make("ul", "told", told)]),
     );
 }

@@ -2,7 +2,7 @@
 // modules beside this one.
 
 import { AcceptedPoints, still_picked } from "./accepted_points.js";
-import { arming_of, buttons_of, revision_of, without_empty } from "./actions.js";
+import { arming_of, buttons_of, override_fields, revision_of, without_empty } from "./actions.js";
 import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
 import { SleeplessClock } from "./clock.js";
 import { by_id, make, set_attribute, set_text } from "./dom.js";
@@ -89,7 +89,10 @@ async function ask_rights() {
 function take_points(event) {
     const run = accepted.run;
     if (!accepted.take(event)) return false;
-    if (accepted.run !== run) forget_picked(); // the same place of another run is another point
+    if (accepted.run !== run) {
+        forget_picked(); // the same place of another run is another point
+        shown.message = "";
+    }
     const picked = still_picked(shown.picked, accepted);
     if (shown.picked !== null && picked === null) forget_picked();
     shown.picked = picked;
@@ -132,7 +135,7 @@ function judge_again() {
 
 // --- orders ------------------------------------------------------------------------------------
 
-const sheet = new OrderSheet(by_id("run_sheet"));
+const sheet = new OrderSheet(by_id("run_sheet"), (text) => (shown.message = text));
 const bar = new OrderBar(by_id("run_orders"), give);
 
 /** @param {import("./order_bar.js").Asked} order */
@@ -146,13 +149,21 @@ function give(order) {
     if (order === "trigger") return void send_at_once("/v1/run/trigger", null, order);
     if (order === "arm") {
         const datum = { name: "datum_mm", label: words.text("datum"), kind: /** @type {const} */ ("number") };
-        const pass = { name: "pass", label: words.text("pass"), kind: /** @type {const} */ ("text"), value: "whole" };
-        return sheet.open(words.text(order), [datum, pass, by, ...stated_of_machine()], (values) => send("/v1/run", arming_of(values)), words);
+        const seed = { name: "seed", label: words.text("seed"), kind: /** @type {const} */ ("number"), decimals: 0 };
+        const fields = [datum, kind_of_test(), seed, by, ...stated_of_machine()];
+        return sheet.open(words.text(order), fields, (values) => send("/v1/run", arming_of(values)), words, (answer) => override_fields(answer, words));
     }
     if (picked === null) return;
     /** @param {Record<string, string | number>} typed */
     const revise = ({ reason: why, by: who }) => send(`/v1/run/${order}`, revision_of(picked, String(why), String(who)));
     sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, [reason, by], revise, words);
+}
+
+/** @returns {import("./order_sheet.js").Field} */
+function kind_of_test() {
+    /** @type {[string, string][]} */
+    const choices = ["whole", "stretch", "circular", "straightness", "squareness"].map((pass) => [pass, words.text(`pass_${pass}`)]);
+    return { name: "pass", label: words.text("pass"), kind: "choice", choices };
 }
 
 /** What the certificate says of the machine, where the station file does not say it. @returns {import("./order_sheet.js").Field[]} */
@@ -195,7 +206,7 @@ async function send(path, body) {
 
 async function send_at_once(path, body, order) {
     shown.message = words.text("order_waits");
-    shown.message = answer_text(await send(path, body), words.text(order), words);
+    shown.message = answer_text(await send(path, body), words.text(order === "abort" ? "abort_order" : order), words);
 }
 
 // --- screens -----------------------------------------------------------------------------------
@@ -264,7 +275,10 @@ function later_style() {
 /** @param {string} screen */
 function go_to(screen) {
     const before = shown.screen;
-    if (before !== screen) judge_again();
+    if (before !== screen) {
+        judge_again();
+        shown.message = ""; // it was about what somebody did there
+    }
     if (before === "setup" && screen !== "setup") setup?.leave();
     shown.screen = screen;
     for (const name of screens) by_id(`screen_${name}`).hidden = name !== screen;
@@ -328,7 +342,7 @@ function paint(at) {
     if (status === null) return;
     paint_head(status);
     const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
-    if (shown.screen === "doctor") return guard.is_pressed() ? undefined : doctor?.paint_tasks(by_id("doctor_tasks"), tasks, status.notes, words);
+    if (shown.screen === "doctor") return guard.is_pressed() ? undefined : doctor?.paint_tasks(by_id("doctor_tasks"), tasks, status.notes, view.contact, words);
     if (shown.screen === "setup") return setup?.paint(status, kept, heard, { judged: shown.judged, at, pressed: guard.is_pressed(), refusal: refusal_of(shown.session) }, words);
     stored?.hear(shown.screen, status, view.contact);
     const name = shown.screen;
@@ -422,6 +436,7 @@ document.addEventListener("keydown", (event) => {
     if (after_g && Object.hasOwn(keys, event.key)) go_to(keys[event.key]);
     after_g = event.key === "g";
 });
+by_id("strip").addEventListener("click", () => go_to("doctor")); // where all of it stands, as the button of that name has it
 for (const button of document.querySelectorAll("nav button"))
     button.addEventListener("click", () => go_to(button.getAttribute("data-screen") ?? "now"));
 document.addEventListener("visibilitychange", () => {

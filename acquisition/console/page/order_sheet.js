@@ -5,12 +5,14 @@ import { refusal_lines } from "./orders.js";
 import { number_text, typed_number } from "./number_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
-/** @typedef {{name: string, label: string, kind: "text" | "number" | "code" | "choice", value?: string, choices?: [string, string][]}} Field  choices: value, text */
+/** @typedef {{name: string, label: string, kind: "text" | "number" | "code" | "choice", value?: string, decimals?: number, choices?: [string, string][]}} Field
+ *   decimals: of a number that is shown as it was understood; choices: value, text */
 
 export class OrderSheet {
-    /** @param {HTMLElement} place */
-    constructor(place) {
+    /** @param {HTMLElement} place @param {(text: string) => void} late  told what the station answered to a sheet that was closed meanwhile */
+    constructor(place, late) {
         this.place = place;
+        this.late = late;
         this.opener = null;
     }
 
@@ -23,8 +25,9 @@ export class OrderSheet {
      * @param {Field[]} fields
      * @param {(values: Record<string, string | number>) => Promise<import("./orders.js").Answer>} send
      * @param {Catalogue} words
+     * @param {(answer: import("./orders.js").Answer) => Field[]} further  fields that a refusal asks for; those that stand there stay
      */
-    open(title, fields, send, words) {
+    open(title, fields, send, words, further = () => []) {
         this.opener = document.activeElement;
         const inputs = fields.map((field) => input_of(field, words));
         const answer = make("p", "answer");
@@ -41,8 +44,16 @@ export class OrderSheet {
             set_text(answer, words.text("order_waits"));
             const got = await send(Object.fromEntries(inputs.map(({ name, read }) => [name, read()])));
             send_button.disabled = false;
+            if (!form.isConnected) return this.late(answer_text(got, title, words));
+            if (got.done) return this.close();
             set_text(answer, answer_text(got, title, words));
-            if (got.done) this.close();
+            answer.scrollIntoView({ block: "nearest" });
+            for (const field of further(got)) {
+                if (inputs.some(({ name }) => name === field.name)) continue;
+                const input = input_of(field, words);
+                inputs.push(input);
+                send_button.before(input.label);
+            }
         });
         close_button.addEventListener("click", () => this.close());
         form.addEventListener("keydown", (event) => {
@@ -50,11 +61,19 @@ export class OrderSheet {
         });
         this.place.replaceChildren(make("h2", "", [title]), form);
         this.place.hidden = false;
+        this.cover(true);
         (inputs[0]?.input ?? send_button).focus();
+    }
+
+    /** What lies below the sheet is out of reach of keys, too. @param {boolean} covered */
+    cover(covered) {
+        for (const one of this.place.parentElement?.querySelectorAll(":scope > :not(h1)") ?? [])
+            if (one instanceof HTMLElement && one !== this.place) one.inert = covered;
     }
 
     close() {
         this.place.hidden = true;
+        this.cover(false);
         this.place.replaceChildren();
         if (this.opener instanceof HTMLElement) this.opener.focus();
     }
@@ -80,6 +99,7 @@ function choice_of(field) {
         option.value = value;
         return option;
     }));
+    input.name = field.name;
     return { name: field.name, label: make("label", "", [field.label, input]), input, read: () => input.value };
 }
 
@@ -88,6 +108,7 @@ function input_of(field, words) {
     if (field.kind === "choice") return choice_of(field);
     const input = make("input");
     input.type = "text";
+    input.name = field.name;
     input.autocomplete = "off";
     input.value = field.value ?? "";
     const label = make("label", "", [field.label, input]);
@@ -102,7 +123,7 @@ function input_of(field, words) {
     input.addEventListener("input", () => {
         const value = typed_number(input.value);
         const style = { decimal_mark: words.decimal_mark };
-        set_text(understood, value === null ? "" : words.text("understood", { value: number_text(value, 4, style).trim() }));
+        set_text(understood, value === null ? "" : words.text("understood", { value: number_text(value, field.decimals ?? 4, style).trim() }));
     });
     return { name: field.name, label, input, read: () => typed_number(input.value) ?? input.value.trim() };
 }

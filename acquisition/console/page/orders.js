@@ -46,12 +46,12 @@ export function lacks_rights(answer) {
     return answer.status === 401 || answer.status === 403;
 }
 
-/**
- * Every unsatisfied check of an arming that was refused, and the sentence.
- * @param {Answer} answer
- * @returns {string[]}
- */
+/** Unsatisfied checks of an arming that was refused. @param {Answer} answer @returns {{name: string, verdict: string}[]} */
+export function failed_checks(answer) {
+    return (answer.body?.checks ?? []).filter(({ passed, override }) => !passed && override === "");
+}
+
+/** The sentence, and every unsatisfied check. @param {Answer} answer @returns {string[]} */
 export function refusal_lines(answer) {
-    const checks = (answer.body?.checks ?? []).filter(({ passed, override }) => !passed && override === "");
-    return [answer.sentence, ...checks.map(({ name, verdict }) => `${name}: ${verdict}`)];
+    return [answer.sentence, ...failed_checks(answer).map(({ name, verdict }) => `${name}: ${verdict}`)];
 }
