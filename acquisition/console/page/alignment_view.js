@@ -10,6 +10,7 @@ import { keep_children, make, set_attribute, set_text } from "./dom.js";
 const path = "/v1/alignment";
 const ask_running_ms = 250;
 const ask_idle_ms = 2000;
+const stale_ms = 2000; // what moves is struck through then, as each reading is
 const actions = Object.freeze(["begin", "keep", "drop"]);
 
 export class AlignmentView {
@@ -20,14 +21,16 @@ export class AlignmentView {
         /** @type {Alignment | null} */
         this.view = null;
         this.asked_at = -Infinity;
+        this.asking = false;
+        this.heard_at = -Infinity;
         this.answer = "";
-        this.may = "";
+        this.unknown = ""; // what is said where no answer came
         this.title = make("h2");
         this.lines = make("div", "lines");
         this.said = make("p", "note");
         this.said.setAttribute("role", "status");
         this.buttons = actions.map((action) => this.button_for(action));
-        place.append(this.title, this.lines, make("div", "actions", this.buttons), this.said);
+        place.append(this.title, make("div", "actions", this.buttons), this.lines, this.said); // lines come and go: the buttons stay in place
     }
 
     button_for(action) {
@@ -41,18 +44,24 @@ export class AlignmentView {
     async give(action) {
         const { done, sentence, body } = await this.send(path, { action });
         if (done) this.view = body;
-        this.answer = done ? "" : sentence;
+        this.answer = done ? "" : sentence || this.unknown;
     }
 
     /** Asked while somebody looks. @param {number} at */
     async ask(at) {
-        if (at - this.asked_at < (this.view?.running ? ask_running_ms : ask_idle_ms)) return;
+        if (this.asking || at - this.asked_at < (this.view?.running ? ask_running_ms : ask_idle_ms)) return;
         this.asked_at = at;
+        this.asking = true;
         try {
             const response = await this.fetcher(path, { cache: "no-store" });
-            if (response.ok) this.view = await response.json();
+            if (response.ok) {
+                this.view = await response.json();
+                this.heard_at = at;
+            }
         } catch {
             // The strip tells of a link that is lost.
+        } finally {
+            this.asking = false;
         }
     }
 
@@ -61,9 +70,11 @@ export class AlignmentView {
         if (now.contact) this.ask(now.at);
         const off = alignment_off(now, words);
         set_text(this.title, words.text("alignment"));
+        this.unknown = words.text("order_unknown");
         const lines = alignment_lines(this.view, words);
         keep_children(this.lines, lines.length, () => make("div")).forEach((line, nth) => set_text(line, lines[nth]));
         const running = this.view?.running === true;
+        set_attribute(this.lines, "data-mark", running && now.at - this.heard_at > stale_ms ? "stale" : null);
         this.buttons.forEach((button, nth) => {
             const on = off === "" && (actions[nth] === "begin") !== running;
             set_attribute(button, "aria-disabled", on ? null : "true");

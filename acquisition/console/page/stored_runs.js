@@ -61,10 +61,11 @@ export class RunList {
 
     /** From the newest on. @param {string} text */
     async search(text) {
-        this.text = text.trim();
-        this.rows = [];
+        const wanted = text.trim();
+        if (wanted !== this.text) this.rows = []; // asked anew, they stay until the answer has come
+        this.text = wanted;
         this.next = "";
-        await this.fill();
+        await this.fill([]);
     }
 
     /** Nobody asked for more than the first rows: to ask anew moves nothing away. */
@@ -74,22 +75,24 @@ export class RunList {
 
     /** What follows the last row. */
     async more() {
-        if (this.next !== "" && this.state !== "asking") await this.fill();
+        if (this.next !== "" && this.state !== "asking") await this.fill(this.rows);
     }
 
-    async fill() {
+    /** @param {StoredRun[]} before  rows that stay before what comes */
+    async fill(before) {
         const number = ++this.search_number;
-        const wanted = this.rows.length + rows_wanted;
+        let rows = before;
+        const wanted = rows.length + rows_wanted;
         this.change("asking", "");
         for (let question = 0; question < most_questions; ++question) {
-            const path = list_path({ text: this.text, before: this.next, limit: wanted - this.rows.length });
+            const path = list_path({ text: this.text, before: this.next, limit: wanted - rows.length });
             const { body, sentence } = await asked(path, this.fetcher);
             if (number !== this.search_number) return;
             if (body === null) return this.change("failed", sentence);
-            this.rows = this.rows.concat(body.runs);
+            this.rows = rows = rows.concat(body.runs);
             this.next = body.next;
             this.passed_over = body.passed_over;
-            if (this.next === "" || this.rows.length >= wanted) break;
+            if (this.next === "" || rows.length >= wanted) break;
             this.change("asking", "");
         }
         this.change("done", "");

@@ -82,11 +82,11 @@ export function paint_so_far(parent, run, extra) {
     const line = (text, name, title = "") => ({ text, name, title });
     const lines = [
         ...extra.map((text) => line(text, "fault")),
-        line(run.title, "title"),
         line(run.state, "state"),
         ...run.lines.map((text) => line(text, "line")),
         line(run.sentence, run.fault ? "fault" : "remark"),
         ...run.so_far.map(({ text, basis }) => line(text, "remark", basis)),
+        line(run.title, "title"),
     ].filter(({ text }) => text !== "");
     keep_children(parent, lines.length, () => make("div")).forEach((element, nth) => {
         const { text, name, title } = lines[nth];
