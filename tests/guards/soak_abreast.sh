@@ -67,6 +67,15 @@ grep -q "ERROR: AXISCAL_SEED=$(tail -n 1 "$root/other_seeds") build/check/bin/ru
 printf '#!/bin/sh\necho "[  PASSED  ] 0 tests."\n' >"$root/build/check/bin/run_tests"
 soak 30 triggers && fail "a filter that finds no test passes"
 
+mkdir -p "$root/tests/bench"
+printf 'import os\nprint("page: its heap |", os.environ["AXISCAL_BENCH_PAGE_SECONDS"])\n' >"$root/tests/bench/page.py"
+soak 7 page || fail "a page within its goals ends badly"
+grep -q '^page: its heap | 7$' "$root/said" || fail "rows of the page are not shown, or of another time"
+[ "$(tail -n 1 "$root/said")" = "1 targets searched for 7 s each, 0 inputs tried, the page shown, 0 broken" ] || fail "last line of the page"
+printf 'print("page: its heap | 600 KiB  MISSED")\nraise SystemExit(1)\n' >"$root/tests/bench/page.py"
+soak 7 page && fail "a page that grows ends well"
+[ "$(tail -n 1 "$root/said")" = "1 targets searched for 7 s each, 0 inputs tried, the page shown, 1 broken: page" ] || fail "last line of a page that grows"
+
 rm -r "$root"/tests/fuzz/corpus/third
 soak 1 && fail "a target that is not named is not tried"
 grep -q '^6 targets searched .* seeds of setups and .* seeds of triggers and .* seeds of truth and .* seeds of weeks, 1 broken: triggers$' "$root/said" || fail "not all targets"

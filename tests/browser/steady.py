@@ -1,0 +1,67 @@
+"""A page that stands for long holds no more than in the beginning: what it holds is counted, and no clock judges it."""
+
+from page_bench import Browser, bench, expect, in_mid_run, points_drawn, sentence
+
+SECOND_FRAMES = 20  # as many as the station sends at most
+FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
+HEAP_KIB = 512
+
+# Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
+MANIFOLD = r"""
+window.times = 1;
+window.heard = 0;
+const asked_itself = window.fetch;
+window.fetch = async (...asked) => {
+    const answer = await asked_itself(...asked);
+    if (asked[0] !== '/v1/events' || !answer.ok) return answer;
+    const decoder = new TextDecoder(), encoder = new TextEncoder();
+    let rest = '';
+    const manifold = new TransformStream({transform(bytes, onward) {
+        const events = (rest + decoder.decode(bytes, {stream: true})).split('\n\n');
+        rest = events.pop();
+        for (const event of events) {
+            const times = /^event: status$/m.test(event) ? window.times : 1;
+            for (let nth = 0; nth < times; nth += 1) onward.enqueue(encoder.encode(event + '\n\n'));
+            window.heard += times;
+        }
+    }});
+    return new Response(answer.body.pipeThrough(manifold), answer);
+};
+"""
+
+
+def held(page):
+    """Once what nobody holds is collected."""
+    page.tell("HeapProfiler.collectGarbage")
+    return {**page.tell("Memory.getDOMCounters"), "heap_kib": page.tell("Runtime.getHeapUsage")["usedSize"] / 1024}
+
+
+def hear(page, frames):
+    page.ask("void (window.times = 100)")
+    page.ask("void (window.heard = 0)")
+    page.wait(f"{frames} frames are heard", lambda: page.ask("window.heard") >= frames, 120)
+    page.ask("void (window.times = 1)")
+    page.wait("the page is at rest", lambda: points_drawn(page, "now") == 3)
+
+
+@sentence("SixThousandFramesLeaveNothingBehind")
+def frames(b):
+    address = in_mid_run(b)
+    with Browser() as page:
+        page.tell("Page.addScriptToEvaluateOnNewDocument", source=MANIFOLD)
+        page.open(address)
+        page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
+        hear(page, FRAMES // 10)  # what is made once is made
+        before = held(page)
+        hear(page, FRAMES)
+        after = held(page)
+        print(f"before {FRAMES} frames {before}, after them {after}")
+        for kind in ("documents", "nodes", "jsEventListeners"):
+            expect(after[kind] <= before[kind], f"{kind}: {before[kind]} before, {after[kind]} after {FRAMES} frames")
+        expect(after["heap_kib"] - before["heap_kib"] <= HEAP_KIB, f"heap: {before['heap_kib']:.0f} KiB before, {after['heap_kib']:.0f} after")
+        expect("mm" in page.text("#now_reading .big"), page.text("#now_reading"))
+        expect(not page.complaints(), "the console of the browser is not silent")
+
+
+if __name__ == "__main__":
+    bench.main()
