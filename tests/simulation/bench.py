@@ -159,7 +159,7 @@ class Bench:
     def __init__(self):
         self.folder = Path(tempfile.mkdtemp(prefix="axiscal-"))
         self.processes = {}
-        self.environment = {}  # of the daemon, and of what it starts
+        self.environment = {"AXISCAL_PAGE_PATH": ""}  # of the daemon, and of what it starts: the page beside them, whatever the shell has
         self.daemon_stderr = subprocess.STDOUT  # its log; or a descriptor of the test's own
         self.logs = []
         self.share = self.folder / "share"

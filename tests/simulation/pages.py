@@ -24,6 +24,7 @@ PAGES = 20
 PLACES = 32  # of GET /v1/events
 SEATS = 64  # of the TCP door, beside them
 LASER_RATE_HZ = 1000.0
+SILENT = 2 / 20  # of a window: so long the laser may be silent in it (twice the mean spacing of capture.minimum_samples)
 ODD_IDS = ["x", "-", "ffffffffffffffffffff-1-1", "1-2-" + "9" * 4000, "18c2f0a5b1d3e000-2-17"]  # none of them was ever given
 
 
@@ -92,14 +93,16 @@ class Pages(threading.Thread):
 
 def captures_of(file):
     """What of each point does not go by chance: its place in the plan, and the length of its window (ns). Each window is whole: as many
-    samples as the laser makes, one behind the other by the laser's own numbers."""
+    samples as the laser makes, one behind the other by the laser's own numbers. The simulated laser shares this computer, and what it sends
+    late is missing at an end of the window: by no more than the station allows."""
     with contextlib.closing(sqlite3.connect(f"file:{file}?mode=ro", uri=True)) as base:
         rows = base.execute("SELECT step, planned_step, target_index, direction, approach, window_end_ns - window_begin_ns, n, samples "
                             "FROM point ORDER BY step").fetchall()
     for step, *_, length_ns, n, samples in rows:
         numbers = [number for _, _, number in unpacked(samples)]
         expect(len(numbers) == n and numbers == list(range(numbers[0], numbers[0] + n)), f"step {step}: samples {numbers}")
-        expect(abs(n - length_ns * 1e-9 * LASER_RATE_HZ) <= 2, f"step {step}: {n} samples in {length_ns} ns")
+        due = length_ns * 1e-9 * LASER_RATE_HZ
+        expect(abs(n - due) <= 2 + SILENT * due, f"step {step}: {n} samples in {length_ns} ns")
     return [row[:6] for row in rows]
 
 

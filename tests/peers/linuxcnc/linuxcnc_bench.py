@@ -56,7 +56,7 @@ class Bench:
         self.programs = {"axiscald": build / "bin/axiscald",
                          "axiscal": build / "bin/axiscal",
                          "simulate": build / "bin/axiscal-simulate"}
-        self.environment = {**os.environ, "TMPDIR": str(self.scratch),
+        self.environment = {**os.environ, "TMPDIR": str(self.scratch), "AXISCAL_PAGE_PATH": "",
                             "AXISCAL_SOCKET": str(self.scratch / "axiscald.sock"),
                             "AXISCAL_PROFILE_PATH": str(source / "config/profiles")}
         self.running = []
