@@ -5,6 +5,7 @@ from page_bench import Browser, bench, expect, in_mid_run, points_drawn, sentenc
 SECOND_FRAMES = 20  # as many as the station sends at most
 FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
 HEAP_KIB = 512
+COUNTED = ("documents", "nodes", "jsEventListeners")
 
 # Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
 MANIFOLD = r"""
@@ -51,13 +52,15 @@ def frames(b):
         page.tell("Page.addScriptToEvaluateOnNewDocument", source=MANIFOLD)
         page.open(address)
         page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
+        # The screens behind the first one come after half a minute, all of them in one step.
+        page.wait("every screen is made", lambda: page.ask("document.querySelector('#doctor_settings').childElementCount > 0"), 120)
         hear(page, FRAMES // 10)  # what is made once is made
         before = held(page)
         hear(page, FRAMES)
+        # A warning may stand there for a moment on a busy computer: it goes, what is left behind stays.
+        page.wait(f"no more than {before}", lambda: all(held(page)[kind] <= before[kind] for kind in COUNTED), 60)
         after = held(page)
         print(f"before {FRAMES} frames {before}, after them {after}")
-        for kind in ("documents", "nodes", "jsEventListeners"):
-            expect(after[kind] <= before[kind], f"{kind}: {before[kind]} before, {after[kind]} after {FRAMES} frames")
         expect(after["heap_kib"] - before["heap_kib"] <= HEAP_KIB, f"heap: {before['heap_kib']:.0f} KiB before, {after['heap_kib']:.0f} after")
         expect("mm" in page.text("#now_reading .big"), page.text("#now_reading"))
         expect(not page.complaints(), "the console of the browser is not silent")
