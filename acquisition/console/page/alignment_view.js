@@ -10,6 +10,7 @@ import { keep_children, make, set_attribute, set_text } from "./dom.js";
 const path = "/v1/alignment";
 const ask_running_ms = 250;
 const ask_idle_ms = 2000;
+const patience_ms = 4000; // a connection that is dead must not hold up the next question
 const stale_ms = 2000; // what moves is struck through then, as each reading is
 const actions = Object.freeze(["begin", "keep", "drop"]);
 
@@ -52,8 +53,10 @@ export class AlignmentView {
         if (this.asking || at - this.asked_at < (this.view?.running ? ask_running_ms : ask_idle_ms)) return;
         this.asked_at = at;
         this.asking = true;
+        const question = new AbortController();
+        const patience = setTimeout(() => question.abort(), patience_ms);
         try {
-            const response = await this.fetcher(path, { cache: "no-store" });
+            const response = await this.fetcher(path, { cache: "no-store", signal: question.signal });
             if (response.ok) {
                 this.view = await response.json();
                 this.heard_at = at;
@@ -61,6 +64,7 @@ export class AlignmentView {
         } catch {
             // The strip tells of a link that is lost.
         } finally {
+            clearTimeout(patience);
             this.asking = false;
         }
     }
