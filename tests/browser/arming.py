@@ -1,6 +1,6 @@
 """The sheet that arms, where the station asks for more than it was told: nothing goes by the page that goes by no command."""
 
-from page_bench import bench, expect, is_on, open_sheet, opened, pair_with, sentence, state_machine, with_page
+from page_bench import before_arming, bench, expect, is_on, open_sheet, opened, pair_with, sentence, state_machine, with_page
 
 
 def open_arming(b, page, name):
@@ -20,10 +20,7 @@ def refusals_were(page, count):
 def stated(b):
     for key in ("state", "control_compensation"):
         b.station["certificate"].pop(key)
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_page(b))
     with opened(address) as page:
         open_arming(b, page, "tablet")
         page.click("#run_sheet [type=submit]")
@@ -40,10 +37,7 @@ def stated(b):
 def overridden(b):
     b.station["preflight"]["soak_window"] = "10 min"
     b.station["instrument"][1]["due_on"] = "2020-01-01"
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_page(b))
     with opened(address) as page:
         open_arming(b, page, "tablet")
         fields = len(page.driver.find_elements("css selector", "#run_sheet input"))
@@ -67,10 +61,7 @@ def overridden(b):
 @sentence("SeedOfThePartProgramIsAskedForWhereTheStationFileNamesNone")
 def seed(b):
     b.station["cycle"].pop("seed", None)
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_page(b))
     with opened(address) as page:
         open_arming(b, page, "tablet")
         page.element("#run_sheet [name=seed]").send_keys(str(b.plan["seed"]))

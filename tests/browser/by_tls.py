@@ -2,7 +2,7 @@
 
 import subprocess
 
-from page_bench import arm, bench, expect, opened, pair_with, sentence, with_page
+from page_bench import arm, before_arming, bench, expect, opened, pair_with, sentence, with_page
 
 
 def with_certificate(b):
@@ -17,10 +17,7 @@ def with_certificate(b):
 
 @sentence("ByTlsABrowserIsPairedAndItsRunComesToTheCertificate")
 def paired_by_tls(b):
-    address = with_certificate(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_certificate(b))
     with opened(address, trusts_everybody=True) as page:
         pair_with(b, page, "tablet")
         [cookie] = page.driver.get_cookies()

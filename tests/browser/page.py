@@ -7,8 +7,8 @@ import time
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import (ABORT_S, arm, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, points_drawn, sentence, wait_until,
-                        with_page)
+from page_bench import (ABORT_S, arm, before_arming, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, points_drawn, sentence,
+                        wait_until, with_page)
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -97,10 +97,7 @@ def lost_beam(b):
 
 @sentence("WholeCalibrationIsDoneByThePageAlone")
 def whole(b):
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_page(b))
     with opened(address) as page:
         pair_with(b, page, "tablet 2")
         arm(page, b.plan["datum_mm"])
@@ -172,10 +169,7 @@ def sleep(page, seconds):
 
 @sentence("KeyboardAloneArmsPicksAPointAndAborts")
 def keyboard(b):
-    address = with_page(b)
-    b.start()
-    b.write_program()
-    b.go_to_datum()
+    address = before_arming(b, with_page(b))
     b.sim("hold 3")
     with opened(address) as page:
         pair_with(b, page, "keyboard")

@@ -31,6 +31,14 @@ def in_mid_run(b, points=3):
     return address
 
 
+def before_arming(b, address):
+    """The station runs, the CNC has its program and waits at the datum."""
+    b.start()
+    b.write_program()
+    b.go_to_datum()
+    return address
+
+
 @contextlib.contextmanager
 def opened(address, **words):
     """A browser with the page, once it shows a reading. At the end its console must have been silent."""
