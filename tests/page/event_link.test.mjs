@@ -81,3 +81,47 @@ test("a connection on which nothing comes is ended", () => {
     events.watch();
     assert.equal(events.abort.signal.aborted, true);
 });
+
+/** A station whose connections stand until the page ends them. */
+function held_open() {
+    const asked = [];
+    const link = new LinkState(0);
+    const fetcher = (path, { signal }) => {
+        asked.push(signal);
+        return new Promise((_, reject) => signal.addEventListener("abort", () => reject(signal.reason)));
+    };
+    return { asked, events: new EventLink({ link, now: () => 0, take: () => true, fetcher, later: (call) => void call() }) };
+}
+
+const soon = () => new Promise((resolve) => setImmediate(resolve));
+
+test("a page that nobody looks at holds no connection, and asks anew when it is looked at", async () => {
+    const { asked, events } = held_open();
+    events.run();
+    events.rest();
+    await soon();
+    assert.deepEqual(asked.map(({ aborted }) => aborted), [true]);
+    events.resume();
+    await soon();
+    assert.deepEqual(asked.map(({ aborted }) => aborted), [true, false]);
+});
+
+test("a page that was never looked at does not ask", async () => {
+    const { asked, events } = held_open();
+    events.rest();
+    events.run();
+    await soon();
+    assert.equal(asked.length, 0);
+    events.resume();
+    await soon();
+    assert.equal(asked.length, 1);
+});
+
+test("a page that is looked at again before its connection has ended asks anew", async () => {
+    const { asked, events } = held_open();
+    events.run();
+    events.rest();
+    events.resume();
+    await soon();
+    assert.deepEqual(asked.map(({ aborted }) => aborted), [true, false]);
+});

@@ -50,3 +50,30 @@ test("the station's refusal is told until it speaks", () => {
     link.heard(4001);
     assert.equal(link.view(4001).refusal, "");
 });
+
+test("a page that rested by itself comes back quietly, and shows nothing old as new", () => {
+    const link = new LinkState(0);
+    link.heard(1000);
+    link.rest(2000);
+    link.resume(600000);
+    assert.equal(link.view(600000).contact, false);
+    assert.equal(link.view(603000).strip, "none");
+    assert.equal(link.view(603001).strip, "lost"); // the station is not there any more
+});
+
+test("after a rest that the station outlived there is no word of a break", () => {
+    const link = new LinkState(0);
+    link.heard(1000);
+    link.rest(2000);
+    link.resume(600000);
+    link.heard(600050);
+    assert.deepEqual([link.view(600050).contact, link.view(600050).strip], [true, "none"]);
+});
+
+test("a link that was lost before the page rested is lost when it is back", () => {
+    const link = new LinkState(0);
+    link.heard(1000);
+    link.rest(9000);
+    link.resume(600000);
+    assert.equal(link.view(600000).strip, "lost");
+});

@@ -103,6 +103,15 @@ test("what the run needs comes first; what never gave a number takes no room", (
     assert.deepEqual(cells.map(({ label, text, unit }) => [label, text.trim(), unit]), [["air pressure", "1013.3", "hPa"], ["hall", "21.13", "°C"]]);
 });
 
+test("what nobody computes with, and is lost, keeps its place and stands there as dashes", () => {
+    const hall = { channel: "temperature", name: "hall", unit: "degC", used: false, role: "" };
+    const kept = kept_of(status_of({ channels: [channel_of({ ...hall, value: 21.126 })] }));
+    const lost = status_of({ channels: [channel_of({ ...hall, value: null, quality: "absent" })] });
+    keep(lost, kept);
+    const cells = cells_shown(lost, kept, hears, words);
+    assert.deepEqual(cells.map(({ label, text, mark, word }) => [label, text, mark, word]), [["hall", no_number, "lost", words.text("quality_absent")]]);
+});
+
 test("the next target has its place, its side and its approach, all counted from one", () => {
     assert.deepEqual(next_shown(status_of(), words), {
         target: "P7", place: "301.412 mm", side: "from below", direction: "positive", approach: "approach 3",

@@ -35,7 +35,7 @@ function task_row(task, words) {
 
 /**
  * @param {HTMLElement} place
- * @param {{language: string, theme: string, version: string, session: import("./pairing.js").Session}} chosen
+ * @param {{language: string, theme: string, version: string, session: import("./pairing.js").Session, rights_said: string}} chosen
  * @param {{choose: (name: "language" | "theme", value: string) => void, pair: () => void, unpair: () => void}} does
  * @param {Catalogue} words
  */
@@ -50,7 +50,7 @@ export function make_settings(place, chosen, does, words) {
         return made;
     };
     place.replaceChildren(
-        ...rights_of(chosen.session, does, words),
+        ...rights_of(chosen, does, words),
         make("p", "", [words.text("language")]),
         ...[...languages, pseudo_language].map((one) => button("language", one, names[one], one === "zh" ? "zh-Hans" : languages.includes(one) ? one : "")),
         make("p", "", [words.text("theme")]),
@@ -59,12 +59,14 @@ export function make_settings(place, chosen, does, words) {
     );
 }
 
-/** Who may order, and the one thing to do about it. @param {import("./pairing.js").Session} session */
-function rights_of(session, does, words) {
+/** Who may order, the one thing to do about it, and why that failed. @param {{session: import("./pairing.js").Session, rights_said: string}} chosen */
+function rights_of({ session, rights_said }, does, words) {
     const paired = session.paired && session.name !== "";
     const made = make("button", "", [words.text(paired ? "unpair" : "pair")]);
     made.type = "button";
     made.addEventListener("click", paired ? does.unpair : does.pair);
     const told = paired ? words.text("paired_as", { name: session.name }) : session.how;
-    return [make("p", "", [words.text("rights")]), make("p", "rights", [told]), made];
+    const said = make("p", "answer", [rights_said]);
+    said.setAttribute("role", "alert");
+    return [make("p", "", [words.text("rights")]), make("p", "rights", [told]), made, said];
 }

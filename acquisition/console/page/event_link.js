@@ -29,14 +29,37 @@ export class EventLink {
         this.heard_here = false;
         /** @type {AbortController | null} */
         this.abort = null;
+        this.resting = false;
         this.hurry = () => {};
     }
 
     async run() {
         for (;;) {
+            if (this.resting) await this.woken();
             await this.listen();
-            await this.pause(this.link.next_pause());
+            if (!this.resting) await this.pause(this.link.next_pause());
         }
+    }
+
+    /** Nobody looks: the connection is left to others. A browser has six for one address, the station 32 for all. */
+    rest() {
+        if (this.resting) return;
+        this.resting = true;
+        this.link.rest(this.now());
+        this.abort?.abort();
+    }
+
+    /** Somebody looks again: what was missed comes at once. */
+    resume() {
+        if (this.resting) this.link.resume(this.now());
+        this.resting = false;
+        this.hurry();
+    }
+
+    woken() {
+        return new Promise((resolve) => {
+            this.hurry = () => resolve(undefined);
+        });
     }
 
     /** Ends a connection on which nothing comes. Called with each tick. */

@@ -71,6 +71,8 @@ export class KeptValues {
     constructor() {
         /** @type {Map<string, number>} */
         this.values = new Map();
+        /** @type {Set<string>} what ever gave a number: where it is lost, its place stays */
+        this.gave = new Set();
     }
 
     /**
@@ -80,6 +82,7 @@ export class KeptValues {
      * @returns {number | null} what may be shown
      */
     take(key, value, mark) {
+        if (is_number(value)) this.gave.add(key);
         if (mark === "lost" || mark === "none") this.values.delete(key);
         else if (is_number(value)) this.values.set(key, value);
         else if (mark === "good" || mark === "moving") this.values.delete(key);
@@ -89,5 +92,6 @@ export class KeptValues {
     /** Another station, daemon or run: nothing of the old one may stand there. */
     clear() {
         this.values.clear();
+        this.gave.clear();
     }
 }

@@ -19,6 +19,8 @@ export class LinkState {
         this.heard_at = null;
         /** @type {number | null} */
         this.back_at = null;
+        this.rested_in_contact = false;
+        this.quiet_from = now;
         this.pause_ms = first_pause_ms;
         this.refusal = "";
     }
@@ -29,6 +31,18 @@ export class LinkState {
         this.heard_at = now;
         this.pause_ms = first_pause_ms;
         this.refusal = "";
+    }
+
+    /** The page ends the connection itself, because nobody looks. @param {number} now */
+    rest(now) {
+        this.rested_in_contact = this.has_contact(now);
+    }
+
+    /** Somebody looks again: the silence since rest() was no break. @param {number} now */
+    resume(now) {
+        if (this.rested_in_contact) this.quiet_from = now;
+        this.rested_in_contact = false;
+        this.pause_ms = first_pause_ms;
     }
 
     /** The station answered, and gives no events: its sentence says why. @param {string} sentence */
@@ -50,16 +64,15 @@ export class LinkState {
 
     /** @param {number} now @returns {boolean} a strip about a break stands there */
     is_strip_up(now) {
-        return now - (this.heard_at ?? this.began_at) > strip_after_ms;
+        return now - Math.max(this.heard_at ?? this.began_at, this.quiet_from) > strip_after_ms;
     }
 
-    /** @param {number} now @returns {{contact: boolean, strip: Strip, silent_ms: number, refusal: string}} */
+    /** @param {number} now @returns {{contact: boolean, strip: Strip, refusal: string}} */
     view(now) {
-        const silent_ms = now - (this.heard_at ?? this.began_at);
         const up = this.is_strip_up(now);
         const back = this.back_at !== null && now - this.back_at < strip_stays_ms;
         /** @type {Strip} */
         const strip = up ? (this.heard_at === null ? "starting" : "lost") : back ? "back" : "none";
-        return { contact: this.has_contact(now), strip, silent_ms, refusal: this.refusal };
+        return { contact: this.has_contact(now), strip, refusal: this.refusal };
     }
 }

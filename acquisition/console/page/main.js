@@ -54,6 +54,7 @@ const shown = {
     session: not_asked(),
     contact: false,
     message: "",
+    rights_said: "", // what the station answered to an end of the pairing that failed
     version: "",
 };
 
@@ -189,8 +190,10 @@ function pair() {
 }
 
 async function unpair() {
-    const answer = await delete_order("/v1/session", (input, options) => fetch(input, options));
+    const answer = link.has_contact(now()) ? await delete_order("/v1/session", (input, options) => fetch(input, options)) : no_contact();
+    shown.rights_said = answer.done ? "" : answer_text(answer, words.text("unpair"), words);
     if (answer.done) await ask_rights();
+    else paint_settings();
 }
 
 /** A sheet may have been opened while there was contact. */
@@ -278,6 +281,7 @@ function go_to(screen) {
     if (before !== screen) {
         judge_again();
         shown.message = ""; // it was about what somebody did there
+        shown.rights_said = "";
     }
     if (before === "setup" && screen !== "setup") setup?.leave();
     shown.screen = screen;
@@ -290,8 +294,8 @@ function go_to(screen) {
 }
 
 function paint_settings() {
-    const { session, version } = shown;
-    doctor?.make_settings(by_id("doctor_settings"), { language, theme, version, session }, { choose, pair, unpair }, words);
+    const { session, version, rights_said } = shown;
+    doctor?.make_settings(by_id("doctor_settings"), { language, theme, version, session, rights_said }, { choose, pair, unpair }, words);
 }
 
 /** One strip: the link, else the worst of what to do. Notes are for the list alone. */
@@ -442,10 +446,11 @@ for (const button of document.querySelectorAll("nav button"))
 document.addEventListener("visibilitychange", () => {
     if (document.hidden) {
         setup?.leave(); // no tone of a page that nobody sees
+        events.rest();
         return wake.hide();
     }
+    events.resume();
     tick(); // ages first: what stood there when it was hidden is old
-    events.hurry();
 });
 
 use_theme(theme);
@@ -454,4 +459,5 @@ by_id("begin").hidden = true;
 by_id("page").hidden = false;
 go_to("now");
 setInterval(tick, tick_ms);
+if (document.hidden) events.rest();
 events.run();

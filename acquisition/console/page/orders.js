@@ -1,5 +1,8 @@
 // Orders to the station. What it says is shown as it says it. No DOM.
 
+/** The station answers within a second, or its disk is in trouble; a connection that is dead is not waited for without limit. */
+export const patience_ms = 30000;
+
 /**
  * @typedef {object} Answer
  * @property {boolean} done
@@ -15,30 +18,29 @@
  * @returns {Promise<Answer>}
  */
 export async function send_order(path, body, fetcher) {
-    return answered(() => fetcher(path, {
-        method: "POST",
-        credentials: "same-origin",
-        cache: "no-store",
-        headers: { "Content-Type": "application/json" },
-        body: body === null ? "" : JSON.stringify(body),
-    }));
+    const headers = { "Content-Type": "application/json" };
+    return answered(path, { method: "POST", headers, body: body === null ? "" : JSON.stringify(body) }, fetcher);
 }
 
-/** @param {() => Promise<Response>} send @returns {Promise<Answer>} */
-async function answered(send) {
+/** @param {string} path @param {RequestInit} order @param {typeof fetch} fetcher @returns {Promise<Answer>} */
+async function answered(path, order, fetcher) {
+    const limit = new AbortController();
+    const patience = setTimeout(() => limit.abort(), patience_ms);
     try {
-        const response = await send();
+        const response = await fetcher(path, { credentials: "same-origin", cache: "no-store", ...order, signal: limit.signal });
         const answer = await response.json();
         const sentence = response.ok ? "" : (answer.error?.sentence ?? "");
         return { done: response.ok, status: response.status, sentence, body: answer };
     } catch {
         return { done: false, status: 0, sentence: "", body: null };
+    } finally {
+        clearTimeout(patience);
     }
 }
 
 /** Ends what this browser holds at the station. @param {string} path @param {typeof fetch} fetcher @returns {Promise<Answer>} */
 export async function delete_order(path, fetcher) {
-    return answered(() => fetcher(path, { method: "DELETE", credentials: "same-origin", cache: "no-store" }));
+    return answered(path, { method: "DELETE" }, fetcher);
 }
 
 /** @param {Answer} answer @returns {boolean} this browser may look only; the sentence says how it may order */

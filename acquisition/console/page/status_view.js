@@ -110,11 +110,11 @@ export function reading_shown(status, kept, heard, words) {
     return { main: axis.position, beside: [axis.deviation, axis.spread] };
 }
 
-/** What the run is computed with, then what else gives a value. @returns {Shown[]} */
+/** What the run is computed with, then what else gives a value, or gave one and is lost. @returns {Shown[]} */
 export function cells_shown(status, kept, heard, words) {
     const rest = status.channels.filter((one) => one.role !== "axis" && one.role !== "ballbar");
     const needed = rest.filter((one) => one.used);
-    const others = rest.filter((one) => !one.used && kept.values.has(key_of(one)));
+    const others = rest.filter((one) => !one.used && kept.gave.has(key_of(one)));
     return [...needed, ...others].map((one) => channel_shown(one, kept, heard, words));
 }
 
