@@ -100,3 +100,12 @@ test("missing rights are told from other refusals", async () => {
     assert.equal(lacks_rights(answer), true);
     assert.equal(answer.sentence, "Over TCP everybody only reads.");
 });
+
+test("an order on a dead connection ends with the word that nobody knows whether it was carried out", async (t) => {
+    const timer = globalThis.setTimeout;
+    t.after(() => (globalThis.setTimeout = timer));
+    globalThis.setTimeout = (call) => timer(call, 0);
+    const silent = (_, { signal }) => new Promise((_, reject) => signal.addEventListener("abort", () => reject(signal.reason)));
+    const answer = await send_order("/v1/run/abort", null, silent);
+    assert.deepEqual([answer.done, answer.status], [false, 0]);
+});

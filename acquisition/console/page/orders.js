@@ -1,7 +1,6 @@
 // Orders to the station. What it says is shown as it says it. No DOM.
 
-/** The station answers within a second, or its disk is in trouble; a connection that is dead is not waited for without limit. */
-export const patience_ms = 30000;
+const patience_ms = 30000; // far longer than the station needs; a connection that is dead gives no answer at all
 
 /**
  * @typedef {object} Answer
