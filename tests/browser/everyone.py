@@ -11,11 +11,12 @@ import axe
 
 AXE = axe.require(os.environ["AXISCAL_AXE_FOLDER"])  # before a bench is made
 
-from page_bench import bench, expect, in_mid_run, opened, sentence, with_page  # noqa: E402
+from page_bench import bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
 from page_hands import go, open_sheet  # noqa: E402
 
 SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
 SIZES = [(390, 844), (1280, 800)]
+PANEL = (800, 480)
 COLOURS = ["light", "dark", "grey"]
 # Every rule that is not deprecated, also those that axe has switched off until it is asked for them.
 JUDGE = """axe.run(document, {
@@ -38,9 +39,9 @@ def in_colours(page, colours):
                                colours == "grey")
 
 
-def look(page, what, found):
+def look(page, what, found, sizes):
     """Adds to `found` what axe finds in each size and colour."""
-    for size in SIZES:
+    for size in sizes:
         page.resize(size)
         for colours in COLOURS:
             in_colours(page, colours)
@@ -49,11 +50,11 @@ def look(page, what, found):
             found += [f"{what}, {size[0]}x{size[1]}, {colours}: {one}" for one in judged(page)["findings"]]
 
 
-def look_at_screens(page, what):
+def look_at_screens(page, what, sizes=SIZES):
     found = []
     for screen in SCREENS:
         go(page, screen)
-        look(page, f"{what}, {screen}", found)
+        look(page, f"{what}, {screen}", found, sizes)
     expect(not found, "\n".join(found))
 
 
@@ -67,10 +68,60 @@ def mid_run(b):
         go(page, "run")
         page.click("#run_plot .table_button")
         page.wait("the table", lambda: page.ask("document.querySelectorAll('#run_table tbody tr').length === 3"))
-        look(page, "table of the run", found)
+        look(page, "table of the run", found, SIZES)
         page.click("#run_table > button")
         open_sheet(page, "arm")
-        look(page, "sheet", found)
+        look(page, "sheet", found, SIZES)
+        expect(not found, "\n".join(found))
+
+
+def pick_first_point(page):
+    page.click("#run_plot .table_button")
+    page.wait("a point is picked", lambda: page.text("#run_picked") or page.element("#run_table td button").click())
+
+
+@sentence("AxeFindsNothingOnASmallPanelInMidRun")
+def small_panel(b):
+    address = in_mid_run(b)
+    with opened(address) as page:
+        page.evaluate(AXE + "; 0")
+        page.resize(PANEL)
+        pair_with(b, page, "panel")
+        look_at_screens(page, "in mid-run", [PANEL])
+        found = []
+        go(page, "run")
+        pick_first_point(page)
+        page.wait("the point may be taken again", lambda: is_on(page, "retake"))
+        open_sheet(page, "retake")
+        look(page, "sheet of an order", found, [PANEL])
+        expect(not found, "\n".join(found))
+
+
+def choose_theme(page, theme):
+    """By the button on Doctor, as people do."""
+    go(page, "doctor")
+    wanted = f"document.documentElement.dataset.theme === '{theme}'"
+    button = f"[...document.querySelectorAll('#doctor_settings button')].find((one) => one.innerText.toLowerCase().startsWith('{theme}'))"
+    page.wait("its button", lambda: page.ask(button))
+    page.wait(f"the colours are {theme}", lambda: page.ask(wanted) or page.ask(button).click())
+
+
+@sentence("AxeFindsNothingInTheColoursThatAreChosenOnDoctor")
+def chosen_colours(b):
+    b.station["axis"]["air"]["oldest"] = "2 s"
+    address = in_mid_run(b)
+    with opened(address) as page:
+        page.evaluate(AXE + "; 0")
+        b.sim("sensor material off")  # stale
+        b.sim("beam off")  # lost
+        page.wait("what is stale", lambda: page.ask("document.querySelector('#now_cells [data-mark=stale]') !== null"))
+        page.wait("what is lost", lambda: page.ask("document.querySelector('#now_reading').dataset.mark") == "lost")
+        found = []
+        for theme in ("dark", "grey"):
+            choose_theme(page, theme)
+            for screen in SCREENS:
+                go(page, screen)
+                found += [f"{theme}, {screen}: {one}" for one in judged(page)["findings"]]
         expect(not found, "\n".join(found))
 
 

@@ -5,10 +5,7 @@ import re
 import signal
 import time
 
-from selenium.webdriver.common.keys import Keys
-
-from page_bench import (ABORT_S, arm, before_arming, bench, expect, go, in_mid_run, is_on, is_shown, opened, pair_with, points_drawn, sentence,
-                        wait_until, with_page)
+from page_bench import ABORT_S, arm, before_arming, bench, expect, go, in_mid_run, is_on, opened, pair_with, points_drawn, sentence, with_page
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -165,55 +162,6 @@ def sleep(page, seconds):
     time.sleep(seconds)  # the sleep itself
     for pid in pids:
         os.kill(pid, signal.SIGCONT)
-
-
-@sentence("KeyboardAloneArmsPicksAPointAndAborts")
-def keyboard(b):
-    address = before_arming(b, with_page(b))
-    b.sim("hold 3")
-    with opened(address) as page:
-        pair_with(b, page, "keyboard")
-        for screen, letter in {"setup": "u", "result": "s", "doctor": "d", "now": "n", "run": "r"}.items():
-            page.wait(f"{letter} goes to {screen}", lambda: is_shown(page, screen) or page.keys("g", letter))
-        page.wait("a run may be armed", lambda: is_on(page, "arm"))
-        tab_to(page, "one.dataset.order === 'arm'")
-        page.keys(Keys.ENTER)
-        page.wait("the sheet has the focus", lambda: page.ask("document.activeElement.localName === 'input'"))
-        page.keys(str(b.plan["datum_mm"]), Keys.ENTER)
-        page.wait_for_text("#run_so_far", "3 of 20", 60)
-        tab_to(page, "one.className === 'table_button'")
-        page.keys(Keys.ENTER)
-        page.wait("the table", lambda: not page.ask("document.querySelector('#run_table').hidden"))
-        tab_to(page, "one.closest('#run_table td') !== null")
-        page.keys(Keys.ENTER)
-        page.wait("a point is picked", lambda: page.text("#run_picked"))
-        tab_to(page, "one.dataset.order === 'exclude'")
-        page.keys(Keys.ENTER)
-        page.wait("the sheet has the focus", lambda: page.ask("document.activeElement.localName === 'input'"))
-        page.keys("coolant", Keys.ENTER)
-        page.wait_for_text("#run_sheet .answer", "At least two readings of each target and direction must remain")
-        said = page.complaints()
-        expect(len(said) == 1 and "status of 400" in said[0], f"the browser tells of an order that was refused: {said}")
-        page.keys(Keys.ESCAPE)
-        page.wait("the sheet is gone", lambda: page.ask("document.querySelector('#run_sheet').hidden"))
-        tab_to(page, "one.dataset.order === 'retake'")
-        page.keys(Keys.ENTER)
-        page.wait("the sheet has the focus", lambda: page.ask("document.activeElement.localName === 'input'"))
-        page.keys("coolant", Keys.ENTER)
-        page.wait("the point is to be taken again", lambda: b.status()["to_do"] and b.run()["retakes_left"] == 1)
-        page.wait_for_text("#run_so_far", "to take again")
-        tab_to(page, "one.dataset.order === 'abort'")
-        page.hold_key(Keys.SPACE, 3 * ABORT_S)
-        wait_until("the run is closed", lambda: not b.status()["run_open"], 30)
-
-
-def tab_to(page, wanted):
-    """By Tab alone, as often as there are places."""
-    for _ in range(60):
-        if page.ask(f"((one) => {wanted})(document.activeElement)"):
-            return
-        page.keys(Keys.TAB)
-    raise AssertionError(f"Tab never comes to {wanted}")
 
 
 @sentence("RunGoesOnWithThePageOverARestartOfTheStation")

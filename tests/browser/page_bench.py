@@ -11,7 +11,7 @@ sys.path[:0] = [str(TESTS / "simulation"), str(TESTS / "support")]
 import bench  # noqa: E402
 from bench import SOURCE, expect, sentence, wait_until  # noqa: E402, F401
 from browser import Browser  # noqa: E402
-from page_hands import arm, code_of, go, is_on, is_shown, open_sheet, pair, points_drawn, state_machine  # noqa: E402, F401
+from page_hands import MAY_ONLY_LOOK, arm, code_of, go, is_on, is_shown, open_sheet, pair, points_drawn, state_machine  # noqa: E402, F401
 
 PAGE = Path(os.environ["AXISCAL_PATH"]).resolve().parent / "share/axiscal/page"  # where the programs of the build find it
 ABORT_S = 0.8  # for so long abort is held
@@ -40,9 +40,11 @@ def before_arming(b, address):
 
 
 @contextlib.contextmanager
-def opened(address, **words):
-    """A browser with the page, once it shows a reading. At the end its console must have been silent."""
+def opened(address, planted="", **words):
+    """A browser with the page, once it shows a reading; planted: a script that runs before the page's own. At the end its console must have been silent."""
     with Browser(**words) as page:
+        if planted:
+            page.tell("Page.addScriptToEvaluateOnNewDocument", source=planted)
         page.open(address)
         page.wait("the page shows the station", lambda: page.text("#now_reading"))
         yield page

@@ -2,6 +2,7 @@
 each touch is repeated until what it is for has come."""
 
 SHEET_HIDDEN = "document.querySelector('#run_sheet').hidden"
+MAY_ONLY_LOOK = "document.querySelector('[data-order=arm]').title.includes('axiscal pair')"
 
 
 def is_shown(page, screen):
@@ -40,12 +41,11 @@ def send_sheet(page, text):
 def pair(page, code):
     """By the code that the command line shows."""
     go(page, "run")
-    page.wait("this browser may only look",
-              lambda: page.ask("document.querySelector('[data-order=arm]').title.includes('axiscal pair')"))
+    page.wait("this browser may only look", lambda: page.ask(MAY_ONLY_LOOK))
     open_sheet(page, "arm")
     page.wait("the sheet asks for the code", lambda: page.ask("document.querySelector('#run_sheet input')?.inputMode === 'numeric'"))
     send_sheet(page, code)
-    page.wait("its orders are its own", lambda: not page.ask("document.querySelector('[data-order=arm]').title.includes('axiscal pair')"))
+    page.wait("its orders are its own", lambda: not page.ask(MAY_ONLY_LOOK))
 
 
 def code_of(shown):
