@@ -8,7 +8,8 @@ a browser asks for before the first value stands there, with the heads of HTTP, 
 client is the daemon's processor time with ten that read GET /v1/events?stream=200 (at most 20 frames a second each), less that without any,
 a tenth of it; in the same run, one after the other. What twenty such clients do to the CNC is the round trip of a request on its Modbus port: of a few
 thousand the median and the one that 99 of 100 do not exceed, beside the twenty and without them, in turns. The page itself runs in Debian's Chromium: its heap after a collection at the
-beginning and at the end of some minutes, and the processor time of all its processes: AXISCAL_BENCH_PAGE_SECONDS says how many, 28800 for a night.
+beginning and at the end of some minutes, and the processor time of all its processes: AXISCAL_BENCH_PAGE_SECONDS says how many seconds, 28800 for a
+night. Of what lasts longer than ten minutes every ten are told on standard error, so that a night that is cut short has shown something.
 """
 import contextlib
 import os
@@ -28,6 +29,7 @@ from page_bench import Browser, bench, in_mid_run
 
 CLIENTS, WATCH_S = 10, float(os.environ.get("AXISCAL_BENCH_CLIENT_SECONDS", "20"))
 PAGE_S = float(os.environ.get("AXISCAL_BENCH_PAGE_SECONDS", "300"))
+TOLD_S = 600
 PAGES, ROUNDS, REQUESTS, MOST_SLOWER = 20, 5, 1000, 1.25
 READ = struct.pack(">HHHBBHH", 1, 0, 6, 1, 3, 0, 33)  # the whole register map of the sequence-block
 READ_ANSWER = 9 + 66
@@ -130,6 +132,20 @@ new MutationObserver((_, watch) => {
 """
 
 
+def watch(page):
+    """(percent of a core, KiB that the heap grew), of all that time."""
+    first = last = heap_kib(page)
+    shares, rest_s = [], PAGE_S
+    while rest_s > 0:
+        part_s = min(rest_s, TOLD_S)
+        rest_s -= part_s
+        shares.append((part_s, percent_of_a_core(page.processes(), part_s)))
+        last = heap_kib(page)
+        if PAGE_S > TOLD_S:
+            print(f"after {PAGE_S - rest_s:.0f} s: {shares[-1][1]:.1f} % of a core, heap {last:.0f} KiB ({first:.0f} at first)", file=sys.stderr, flush=True)
+    return sum(part_s * share for part_s, share in shares) / PAGE_S, last - first
+
+
 def watch_page(address):
     """(bytes of the first screen, ms until its first value, percent of a core, KiB that the heap grew)."""
     with Browser() as page:
@@ -139,9 +155,7 @@ def watch_page(address):
         loaded = page.ask("performance.getEntriesByType('resource').concat(performance.getEntriesByType('navigation'))"
                           ".filter((one) => !one.name.includes('/v1/')).reduce((sum, one) => sum + one.transferSize, 0)")
         time.sleep(10)  # what is made once is made
-        began = heap_kib(page)
-        percent = percent_of_a_core(page.processes(), PAGE_S)
-        return loaded, first_ms, percent, heap_kib(page) - began
+        return loaded, first_ms, *watch(page)
 
 
 def row(name, this, limit, beside, ratio, goal, met):
