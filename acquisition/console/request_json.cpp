@@ -43,15 +43,30 @@ tl::unexpected<Error> refuse_statement(const std::string& key) {
                   "is not a statement" + (near.empty() ? "." : near) + " There are: " + list + ".");
 }
 
+/// What a person writes and a certificate prints. @errors bad_request naming the field
+Result<std::string> printed_text(const std::string& field, const Json& given) {
+    constexpr std::size_t longest = 1000; // some twelve lines of the certificate
+    const auto* text = given.get_ptr<const std::string*>();
+    if (text == nullptr) return refuse(Fault::bad_request, field, "must be a text");
+    if (text->size() > longest)
+        return refuse(Fault::bad_request, field,
+                      "has " + std::to_string(text->size()) + " bytes, and there is room for " +
+                          std::to_string(longest));
+    return valid_text(*text);
+}
+
+Result<void> read_printed(const std::string& field, const Json& given, std::string& text) {
+    AXISCAL_TRY(text, printed_text(field, given));
+    return {};
+}
+
 Result<void> read_statements(const Json& given, ArmRequest& request) {
     if (!given.is_object())
         return refuse(Fault::bad_request, "statements", "must be an object of texts");
     for (const auto& [key, value] : given.items()) {
         if (std::ranges::find(statement_keys, key) == statement_keys.end())
             return refuse_statement(key);
-        if (!value.is_string())
-            return refuse(Fault::bad_request, "statements." + key, "must be a text");
-        const std::string text = valid_text(value.get<std::string>());
+        AXISCAL_TRY(const std::string text, printed_text("statements." + key, value));
         if (key == "next_due" && !text.empty() && text != "none" && !is_calendar_date(text))
             return refuse(Fault::bad_request, "statements.next_due",
                           "is no date: write year-month-day, for example 2027-11-21, or none");
@@ -67,9 +82,7 @@ Result<void> read_texts(const std::string& key,
                         std::map<std::string, std::string>& texts) {
     if (!given.is_object()) return refuse(Fault::bad_request, key, std::move(wanted));
     for (const auto& [name, text] : given.items()) {
-        if (!text.is_string())
-            return refuse(Fault::bad_request, key + "." + name, "must be a text");
-        texts[name] = valid_text(text.get<std::string>());
+        AXISCAL_CHECK(read_printed(key + "." + name, text, texts[name]));
     }
     return {};
 }
@@ -83,6 +96,21 @@ Result<void> read_orderer(const Json& value, Orderer& by) {
 void read_pass(const std::string& pass, ArmRequest& request) {
     request.pass = valid_text(pass);
     request.kind = kind_named(request.pass).value_or(TestKind::positioning);
+}
+
+/// What a field of an order must be, where it is something else. Empty: there is no such field.
+std::string wanted_of(const std::string& key) {
+    static const std::map<std::string, std::string> wanted{
+        {"datum_mm", "must be a number: where the axis stands"},
+        {"pass", "must be a text"},
+        {"seed", "must be a whole number from 0 on: the part program has it in its first line"},
+        {"datum_by_cnc", "must be true or false"},
+        {"target", "must be a whole number from 0 to 100000"},
+        {"cycle", "must be a whole number from 0 to 100000"},
+        {"direction", "must be positive or negative"},
+    };
+    const auto found = wanted.find(key);
+    return found == wanted.end() ? std::string{} : found->second;
 }
 
 Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
@@ -100,13 +128,14 @@ Result<void> read_arm_field(const std::string& key, const Json& value, ArmReques
     if (key == "options")
         return read_texts(key, value, "must be an object of texts by name", request.options);
     if (key == "by") return read_orderer(value, request.by);
-    const bool known = key == "datum_mm" || key == "pass" || key == "seed" || key == "datum_by_cnc";
+    const std::string wanted = wanted_of(key);
     return refuse(Fault::bad_request, key,
-                  known ? std::string{"has the wrong type"}
-                        : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
-                          "overrides, options, by" +
-                              did_you_mean(key, {"datum_mm", "pass", "seed", "datum_by_cnc",
-                                                 "statements", "overrides", "options", "by"}));
+                  !wanted.empty()
+                      ? wanted
+                      : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
+                        "overrides, options, by" +
+                            did_you_mean(key, {"datum_mm", "pass", "seed", "datum_by_cnc",
+                                               "statements", "overrides", "options", "by"}));
 }
 
 Result<Json> parse_object(const std::string& body) {
@@ -152,14 +181,14 @@ read_revision_field(const std::string& key, const Json& value, RevisionRequest& 
             value == "positive" ? Direction::positive : Direction::negative;
         return {};
     }
-    if (key == "reason" && value.is_string())
-        return request.reason = valid_text(value.get<std::string>()), Result<void>{};
+    if (key == "reason") return read_printed(key, value, request.reason);
     if (key == "by") return read_orderer(value, request.by);
-    const bool known = key == "target" || key == "cycle" || key == "direction" || key == "reason";
+    const std::string wanted = wanted_of(key);
     return refuse(Fault::bad_request, key,
-                  known ? std::string{"has the wrong type or range"}
-                        : "is unknown; known are target, direction, cycle, reason, by" +
-                              did_you_mean(key, {"target", "direction", "cycle", "reason", "by"}));
+                  !wanted.empty()
+                      ? wanted
+                      : "is unknown; known are target, direction, cycle, reason, by" +
+                            did_you_mean(key, {"target", "direction", "cycle", "reason", "by"}));
 }
 
 } // namespace
@@ -186,8 +215,7 @@ Result<AnswerRequest> answer_request_from_json(const std::string& body) {
             return refuse(Fault::bad_request, key,
                           "is unknown; known are finding, text, by" +
                               did_you_mean(key, {"finding", "text", "by"}));
-        if (!value.is_string()) return refuse(Fault::bad_request, key, "must be a text");
-        (key == "text" ? request.text : request.finding) = valid_text(value.get<std::string>());
+        AXISCAL_CHECK(read_printed(key, value, key == "text" ? request.text : request.finding));
     }
     if (request.finding.empty())
         return refuse(Fault::bad_request, "finding",
@@ -215,9 +243,7 @@ Result<AbortRequest> abort_request_from_json(const std::string& body) {
         AXISCAL_TRY(request.by, name_of_orderer(parsed["by"]));
     }
     if (!parsed.contains("reason")) return request;
-    if (!parsed["reason"].is_string())
-        return refuse(Fault::bad_request, "reason", "must be a text");
-    request.reason = valid_text(parsed["reason"].get<std::string>());
+    AXISCAL_CHECK(read_printed("reason", parsed["reason"], request.reason));
     return request;
 }
 

@@ -51,16 +51,17 @@ PreflightRecord check_compensation(const PreflightFacts& facts) {
     constexpr std::array<std::string_view, 3> known{"as found", "raw", "as left"};
     const bool said = std::ranges::find(known, facts.state) != known.end();
     if (!said)
-        return failed(
-            "compensation",
-            "The state of the machine is " +
-                (facts.state.empty() ? std::string{"not stated"} : "\"" + facts.state + "\"") +
-                ". Say \"as found\", \"raw\" or \"as left\": axiscal arm --state-that "
-                "state=\"as found\".");
+        return failed("compensation", "The state of the machine is " +
+                                          (facts.state.empty() ? std::string{"not stated"}
+                                                               : "\"" + facts.state + "\"") +
+                                          ". Say \"as found\", \"raw\" or \"as left\" on the sheet "
+                                          "that arms, or by axiscal arm "
+                                          "--state-that state=\"as found\".");
     if (facts.control_compensation.empty())
         return failed("compensation",
-                      "Which compensation of the control is active is not stated. Say it: axiscal "
-                      "arm --state-that control_compensation=\"none\".");
+                      "Which compensation of the control is active is not stated. Say it on the "
+                      "sheet that arms, or by axiscal arm --state-that "
+                      "control_compensation=\"none\".");
     return passed("compensation", "The machine is measured " + facts.state +
                                       "; compensation: " + facts.control_compensation + ".");
 }

@@ -107,12 +107,24 @@ Fault fault_from_name(std::string_view name) {
     return found == rows.end() ? Fault::internal : found->fault;
 }
 
+namespace {
+
+/// A detail that goes on in the midst of a sentence, which has no colon yet.
+bool goes_on(std::string_view sentence, const Error& error) {
+    const bool small =
+        !error.detail.empty() && error.detail.front() >= 'a' && error.detail.front() <= 'z';
+    return small && error.field.empty() && sentence.find(':') == std::string_view::npos;
+}
+
+} // namespace
+
 std::string describe(const Error& error) {
     // A detail of these two says all: one would be told that all is well, or that some operation
     // failed.
     const bool says_little = error.fault == Fault::none || error.fault == Fault::io;
     std::string text;
     if (!says_little || error.detail.empty()) text = fault_sentence(error.fault);
+    if (!text.empty() && goes_on(text, error)) text.back() = ':';
     const auto add = [&text](const std::string& words) {
         text += (text.empty() ? "" : " ") + words;
     };

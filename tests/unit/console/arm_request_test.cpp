@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 namespace axiscal::arm_request_test {
 namespace {
 
@@ -41,6 +44,61 @@ TEST(ArmRequest, OptionsAreTextsByName) {
     EXPECT_EQ(field_of(R"({"options":"reversed"})"), "options");
     EXPECT_EQ(field_of(R"({"options":{"mirror":1}})"), "options.mirror");
     EXPECT_EQ(field_of(R"({"overrides":{"soak":1}})"), "overrides.soak");
+}
+
+std::string why_not(const std::string& body) {
+    const auto order = arm_request_from_json(body);
+    EXPECT_FALSE(order) << body;
+    return order ? "" : describe(order.error());
+}
+
+TEST(ArmRequest, SaysOfEachFieldWhatItWants) {
+    EXPECT_EQ(why_not(R"({"datum_mm":"abc"})"),
+              "The request is refused. [datum_mm] must be a number: where the axis stands");
+    EXPECT_EQ(why_not(R"({"seed":-1})"), "The request is refused. [seed] must be a whole number "
+                                         "from 0 on: the part program has it in its first line");
+    EXPECT_EQ(why_not(R"({"datum_by_cnc":1})"),
+              "The request is refused. [datum_by_cnc] must be true or false");
+    EXPECT_EQ(why_not(R"({"pass":7})"), "The request is refused. [pass] must be a text");
+}
+
+/// The certificate prints each of them: what nobody reads to its end has no room there.
+TEST(ArmRequest, TextThatIsPrintedHasRoomForAThousandBytes) {
+    for (const auto& [object, name] :
+         {std::pair{"statements", "control_compensation"}, std::pair{"overrides", "soak"},
+          std::pair{"options", "mirror"}}) {
+        const auto body = [&, object = object, name = name](std::size_t bytes) {
+            return std::string{"{\""} + object + "\":{\"" + name + "\":\"" +
+                   std::string(bytes, 'x') + "\"}}";
+        };
+        EXPECT_TRUE(arm_request_from_json(body(1000))) << name;
+        EXPECT_EQ(why_not(body(1001)), std::string{"The request is refused. ["} + object + "." +
+                                           name + "] has 1001 bytes, and there is room for 1000");
+    }
+}
+
+TEST(RevisionRequest, SaysOfEachFieldWhatItWants) {
+    const auto why = [](const std::string& body) {
+        const auto order = revision_request_from_json(body);
+        return order ? "" : describe(order.error());
+    };
+    EXPECT_EQ(why(R"({"target":-1})"),
+              "The request is refused. [target] must be a whole number from 0 to 100000");
+    EXPECT_EQ(why(R"({"direction":"up"})"),
+              "The request is refused. [direction] must be positive or negative");
+    EXPECT_EQ(why(R"({"reason":7})"), "The request is refused. [reason] must be a text");
+    EXPECT_EQ(why(R"({"reason":")" + std::string(1001, 'x') + R"("})"),
+              "The request is refused. [reason] has 1001 bytes, and there is room for 1000");
+}
+
+TEST(Sentence, GoesOnInADetailThatBeginsSmall) {
+    EXPECT_EQ(describe({Fault::refused, "the code is wrong; 4 tries left", {}, {}}),
+              "This is not allowed here: the code is wrong; 4 tries left");
+    EXPECT_EQ(describe({Fault::refused, "Nobody may.", {}, {}}),
+              "This is not allowed here. Nobody may.");
+    EXPECT_EQ(describe({Fault::beam_lost, "at request 3", {}, {}}),
+              "The laser beam was lost: restore the beam, move to the datum and arm again. at "
+              "request 3");
 }
 
 } // namespace
