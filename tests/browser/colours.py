@@ -24,7 +24,7 @@ DRAWN = """((one) => {
     while (ground.parentElement && channels(getComputedStyle(ground).backgroundColor)[3] === 0)
         ground = ground.parentElement;
     const [dark, bright] = [light(style.color), light(getComputedStyle(ground).backgroundColor)].sort((one, other) => one - other);
-    return {text: one.innerText.replace(/\\s+/g, ' ').trim(), border: `${style.borderTopWidth} ${style.borderTopStyle}`,
+    return {text: one.innerText.replace(/\\s+/g, ' ').trim(), border: `${style.borderTopWidth} ${style.borderTopStyle}`, outline: style.outlineStyle, ground: getComputedStyle(ground).backgroundColor,
             line: style.textDecorationLine, weight: Number(style.fontWeight), contrast: (bright + 0.05) / (dark + 0.05)};
 })"""
 
@@ -97,6 +97,17 @@ def buttons(b):
                 expect(fill != ground, f"{name}: nobody sees how far abort is held: {fill} on {ground}")
 
 
+@sentence("ButtonOfTheScreenThatIsShownStandsOutInAnyColours")
+def current(b):
+    address = in_mid_run(b)
+    with opened(address) as page:
+        for name in COLOURS:
+            with in_colours(page, name):
+                here, elsewhere = (drawn(page, f"document.querySelector('nav [data-screen={screen}]')") for screen in ("now", "run"))
+                expect(min(one["contrast"] for one in (here, elsewhere)) >= LEAST_CONTRAST, f"{name}: {here}, {elsewhere}")
+                expect(here["ground"] != elsewhere["ground"], f"{name}: {here}, {elsewhere}")
+
+
 @sentence("StripTellsItsRankByShapeAndWordInAnyColours")
 def strip(b):
     address = in_mid_run(b)
@@ -112,6 +123,8 @@ def strip(b):
                 page.wait_for_text("#strip", "✕ Stop: The laser beam was lost.")
                 told = drawn(page, strip_text)
                 expect(told["weight"] >= 600 and told["contrast"] >= LEAST_CONTRAST, f"{name}: {told}")
+                around = drawn(page, "document.querySelector('#strip')")["outline"]
+                expect(around == ("double" if name.startswith("forced") else "none"), f"{name}: a line around it that is {around}")
 
 
 if __name__ == "__main__":
