@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { buttons_of, revision_of } from "../../acquisition/console/page/actions.js";
-import { lacks_rights, refusal_lines, send_order } from "../../acquisition/console/page/orders.js";
+import { answer_text } from "../../acquisition/console/page/order_sheet.js";
+import { lacks_rights, send_order } from "../../acquisition/console/page/orders.js";
 import { task_head, task_line, task_lines, what_to_do } from "../../acquisition/console/page/what_to_do.js";
 import { point_of, status_of, words_of } from "./page_under_test.mjs";
 
@@ -81,11 +82,11 @@ test("an order for a point names that point whole", () => {
     assert.equal(revision_of(point_of(5), "coolant", "Jo").by, "Jo");
 });
 
-test("a refusal is shown as the station says it, with the checks that do not hold", async () => {
+test("a refusal is shown as the station says it, which names the checks that do not hold", async () => {
     const body = { error: { fault: "refused", sentence: "soak: Wait." }, checks: [{ name: "soak", passed: false, verdict: "Wait.", override: "" }] };
     const answer = await send_order("/v1/run", {}, async () => new Response(JSON.stringify(body), { status: 409 }));
     assert.equal(answer.done, false);
-    assert.deepEqual(refusal_lines(answer), ["soak: Wait.", "soak: Wait."]);
+    assert.equal(answer_text(answer, "arm", words_of("en")), "soak: Wait.");
     assert.equal(lacks_rights(answer), false);
 });
 

@@ -1,12 +1,63 @@
 // The sheet on which an order is written. It asks the station and shows what that says; it judges no field itself.
 
 import { make, set_text } from "./dom.js";
-import { refusal_lines } from "./orders.js";
 import { number_text, typed_number } from "./number_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 /** @typedef {{name: string, label: string, kind: "text" | "number" | "code" | "choice", value?: string, decimals?: number, choices?: [string, string][]}} Field
  *   decimals: of a number that is shown as it was understood; choices: value, text */
+
+/** The fields of an order, its two buttons, and what the station said. */
+class OrderForm {
+    /** @param {string} title @param {Field[]} fields @param {Catalogue} words @param {(answer: import("./orders.js").Answer) => Field[]} further */
+    constructor(title, fields, words, further) {
+        this.title = title;
+        this.words = words;
+        this.further = further;
+        this.inputs = fields.map((field) => input_of(field, words));
+        /** @type {Set<ReturnType<typeof input_of>>} */
+        this.asked_later = new Set(); // by a refusal
+        this.answer = make("p", "answer");
+        this.answer.setAttribute("role", "alert");
+        this.sending = button_of("submit", title);
+        this.closing = button_of("button", words.text("close"));
+        this.element = make("form", "", [...this.inputs.map(({ label }) => label), this.sending, this.closing, this.answer]);
+        this.element.noValidate = true;
+        this.element.setAttribute("aria-label", title);
+    }
+
+    waits() {
+        return this.sending.disabled;
+    }
+
+    /** @param {(values: Record<string, string | number>) => Promise<import("./orders.js").Answer>} send */
+    async sent_by(send) {
+        this.sending.disabled = true;
+        set_text(this.answer, this.words.text("order_waits"));
+        const got = await send(Object.fromEntries(this.inputs.map(({ name, read }) => [name, read()])));
+        this.sending.disabled = false;
+        set_text(this.answer, answer_text(got, this.title, this.words));
+        this.answer.scrollIntoView({ block: "nearest" });
+        if (!got.done) this.ask_further(this.further(got));
+        return got;
+    }
+
+    /** What stands there stays, but for an empty field that nothing asks for any more. @param {Field[]} fields */
+    ask_further(fields) {
+        const wanted = (name) => fields.some((field) => field.name === name);
+        for (const one of [...this.asked_later].filter(({ name, read }) => !wanted(name) && read() === "")) {
+            one.label.remove();
+            this.asked_later.delete(one);
+            this.inputs.splice(this.inputs.indexOf(one), 1);
+        }
+        for (const field of fields.filter(({ name }) => !this.inputs.some((one) => one.name === name))) {
+            const input = input_of(field, this.words);
+            this.inputs.push(input);
+            this.asked_later.add(input);
+            this.sending.before(input.label);
+        }
+    }
+}
 
 export class OrderSheet {
     /** @param {HTMLElement} place @param {(text: string) => void} late  told what the station answered to a sheet that was closed meanwhile */
@@ -29,40 +80,22 @@ export class OrderSheet {
      */
     open(title, fields, send, words, further = () => []) {
         this.opener = document.activeElement;
-        const inputs = fields.map((field) => input_of(field, words));
-        const answer = make("p", "answer");
-        answer.setAttribute("role", "alert");
-        const send_button = button_of("submit", title);
-        const close_button = button_of("button", words.text("close"));
-        const form = make("form", "", [...inputs.map(({ label }) => label), send_button, close_button, answer]);
-        form.noValidate = true;
-        form.setAttribute("aria-label", title);
-        form.addEventListener("submit", async (event) => {
+        const form = new OrderForm(title, fields, words, further);
+        form.element.addEventListener("submit", async (event) => {
             event.preventDefault();
-            if (send_button.disabled) return; // one order at a time
-            send_button.disabled = true;
-            set_text(answer, words.text("order_waits"));
-            const got = await send(Object.fromEntries(inputs.map(({ name, read }) => [name, read()])));
-            send_button.disabled = false;
-            if (!form.isConnected) return this.late(answer_text(got, title, words));
-            if (got.done) return this.close();
-            set_text(answer, answer_text(got, title, words));
-            answer.scrollIntoView({ block: "nearest" });
-            for (const field of further(got)) {
-                if (inputs.some(({ name }) => name === field.name)) continue;
-                const input = input_of(field, words);
-                inputs.push(input);
-                send_button.before(input.label);
-            }
+            if (form.waits()) return; // one order at a time
+            const got = await form.sent_by(send);
+            if (!form.element.isConnected) this.late(answer_text(got, title, words));
+            else if (got.done) this.close();
         });
-        close_button.addEventListener("click", () => this.close());
-        form.addEventListener("keydown", (event) => {
+        form.closing.addEventListener("click", () => this.close());
+        form.element.addEventListener("keydown", (event) => {
             if (event.key === "Escape") this.close();
         });
-        this.place.replaceChildren(make("h2", "", [title]), form);
+        this.place.replaceChildren(make("h2", "", [title]), form.element);
         this.place.hidden = false;
         this.cover(true);
-        (inputs[0]?.input ?? send_button).focus();
+        (form.inputs[0]?.input ?? form.sending).focus();
     }
 
     /** What lies below the sheet is out of reach of keys, too. @param {boolean} covered */
@@ -83,7 +116,7 @@ export class OrderSheet {
 export function answer_text(answer, order, words) {
     if (answer.done) return words.text("order_done", { order });
     if (answer.status === 0) return words.text("order_unknown");
-    return refusal_lines(answer).join(" ");
+    return answer.sentence;
 }
 
 function button_of(type, text) {

@@ -51,8 +51,3 @@ export function lacks_rights(answer) {
 export function failed_checks(answer) {
     return (answer.body?.checks ?? []).filter(({ passed, override }) => !passed && override === "");
 }
-
-/** The sentence, and every unsatisfied check. @param {Answer} answer @returns {string[]} */
-export function refusal_lines(answer) {
-    return [answer.sentence, ...failed_checks(answer).map(({ name, verdict }) => `${name}: ${verdict}`)];
-}
