@@ -49,7 +49,7 @@ HttpResponse answer_file(const HttpRequest& request, const PageFile& file) {
     response.keep_alive(request.keep_alive());
     if (!unchanged) {
         if (packed) response.set(page_http::field::content_encoding, "gzip");
-        response.body() = packed ? file.packed : file.bytes;
+        response.body() = packed ? file.packed : file.bytes();
     }
     response.prepare_payload();
     return response;

@@ -1,5 +1,6 @@
 #include "acquisition/console/page_files.hpp"
 
+#include <boost/beast/zlib/inflate_stream.hpp>
 #include <boost/crc.hpp>
 
 #include <algorithm>
@@ -74,15 +75,35 @@ std::uint32_t number_in(std::string_view bytes) {
     return number;
 }
 
-/// The trailer of what gzip packs bears checksum and number of the bytes that went in (RFC 1952,
-/// 2.3.1). That tells a form that was left behind, and is no proof against anybody.
-bool is_packed_of(std::string_view packed, std::string_view bytes) {
+constexpr std::size_t trailer_size = 8; // checksum and number of the bytes that went in
+
+/// What gzip packed without a name (RFC 1952, 2.3). Empty: it is damaged, or something else.
+std::string unpacked_of(std::string_view packed, std::size_t size) {
+    namespace deflate = boost::beast::zlib;
     constexpr std::string_view head{"\x1f\x8b\x08\x00", 4}; // deflate, nothing optional behind
-    constexpr std::size_t least = 18;                       // head and trailer
-    if (packed.size() < least || !packed.starts_with(head)) return false;
+    constexpr std::size_t head_size = 10;
+    if (packed.size() < head_size + trailer_size || !packed.starts_with(head)) return {};
+    packed.remove_prefix(head_size);
+    packed.remove_suffix(trailer_size);
+    std::string bytes(size, '\0');
+    deflate::z_params part;
+    part.next_in = packed.data();
+    part.avail_in = packed.size();
+    part.next_out = bytes.data();
+    part.avail_out = bytes.size();
+    deflate::inflate_stream inflater;
+    boost::system::error_code ended;
+    inflater.write(part, deflate::Flush::finish, ended);
+    const bool whole = ended == deflate::error::end_of_stream;
+    return whole && part.avail_in == 0 && part.avail_out == 0 ? bytes : std::string{};
+}
+
+/// Whether a browser can unpack these very bytes from it.
+bool is_packed_of(std::string_view packed, std::string_view bytes) {
+    if (packed.size() < trailer_size || unpacked_of(packed, bytes.size()) != bytes) return false;
     boost::crc_32_type checksum;
     checksum.process_bytes(bytes.data(), bytes.size());
-    const std::string_view trailer = packed.substr(packed.size() - 8);
+    const std::string_view trailer = packed.substr(packed.size() - trailer_size);
     return number_in(trailer) == checksum.checksum() &&
            number_in(trailer.substr(4)) == bytes.size();
 }
@@ -105,7 +126,7 @@ PageFile page_file_of(const page_fs::path& path, std::string bytes) {
     file.etag = etag_of(bytes);
     file.packed = packed_form_of(path, bytes);
     file.packed_etag = etag_of(file.packed);
-    file.bytes = std::move(bytes);
+    if (file.packed.empty()) file.plain = std::move(bytes);
     return file;
 }
 
@@ -129,6 +150,13 @@ bool is_page_entry(const page_fs::directory_entry& entry) {
 }
 
 } // namespace
+
+std::string PageFile::bytes() const {
+    if (packed.empty()) return plain;
+    const std::string_view size_in =
+        std::string_view{packed}.substr(packed.size() - trailer_size / 2);
+    return unpacked_of(packed, number_in(size_in));
+}
 
 Result<PageFiles> PageFiles::read(const std::string& folder) {
     PageFiles page;

@@ -15,9 +15,12 @@ namespace axiscal {
 struct PageFile {
     std::string type;        ///< of the content: "text/css; charset=utf-8"
     std::string etag;        ///< with its quotes; another one where the bytes differ
-    std::string bytes;       ///< as on the disk
+    std::string plain;       ///< as on the disk; empty where there is a packed form
     std::string packed_etag; ///< of `packed`, never that of the file itself
     std::string packed;      ///< the same by gzip (RFC 1952), smaller; empty: there is none
+
+    /// As on the disk. Unpacked for the few that take no packed form: idle memory is dearer.
+    [[nodiscard]] std::string bytes() const;
 };
 
 class PageFiles {

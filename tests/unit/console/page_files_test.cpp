@@ -44,7 +44,7 @@ TEST(PageFiles, TheRootIsTheIndexAndEachFileHasItsType) {
     EXPECT_EQ(page->count(), 3U);
     EXPECT_EQ(page->find("/")->type, "text/html; charset=utf-8");
     EXPECT_EQ(page->find("/page/main.js")->type, "text/javascript; charset=utf-8");
-    EXPECT_EQ(page->find("/page/main.js")->bytes, "export {};");
+    EXPECT_EQ(page->find("/page/main.js")->bytes(), "export {};");
     EXPECT_EQ(page->find("/page/languages/en.json")->type, "application/json; charset=utf-8");
 }
 
@@ -176,8 +176,9 @@ TEST(PageFiles, ThePackedFormIsTakenFromBesideTheFile) {
     const auto page = PageFiles::read(with_packed(folder).path());
     ASSERT_TRUE(page) << describe(page.error());
     const PageFile& file = *page->find("/page/long.js");
-    EXPECT_EQ(file.bytes, long_text);
+    EXPECT_EQ(file.bytes(), long_text);
     EXPECT_EQ(file.packed, packed_text);
+    EXPECT_TRUE(file.plain.empty()); // not held twice
     EXPECT_NE(file.packed_etag, file.etag);
     EXPECT_TRUE(page->find("/page/main.js")->packed.empty());
 }
@@ -199,17 +200,19 @@ TEST(PageFiles, WhatWasPackedOfOtherBytesIsPassedOver) {
         ScratchFolder folder;
         const auto page = PageFiles::read(with_packed(folder, text).path());
         ASSERT_TRUE(page) << describe(page.error());
-        EXPECT_EQ(page->find("/page/long.js")->bytes, text);
+        EXPECT_EQ(page->find("/page/long.js")->bytes(), text);
         EXPECT_TRUE(page->find("/page/long.js")->packed.empty()) << text;
     }
 }
 
 TEST(PageFiles, WhatIsNoPackedFormIsPassedOver) {
-    std::string other_way = packed_text, named = packed_text;
+    std::string other_way = packed_text, named = packed_text, damaged = packed_text;
     other_way[2] = '\x07'; // no deflate
     named[3] = '\x08';     // a name follows the head
-    for (const std::string& packed : {std::string{}, packed_text.substr(0, 21), packed_text + "x",
-                                      packed_text.substr(4), other_way, named, long_text}) {
+    damaged[10] = '\x4c';  // another letter, under the checksum of this one
+    for (const std::string& packed :
+         {std::string{}, packed_text.substr(0, 21), packed_text + "x", packed_text.substr(4),
+          other_way, named, damaged, long_text}) {
         ScratchFolder folder;
         with_packed(folder);
         write_bytes(folder.file("long.js.gz"), packed);
