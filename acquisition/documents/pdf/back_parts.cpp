@@ -20,11 +20,13 @@ bool belongs_on_paper(const EventRecord& event) {
     }
 }
 
-/// The sentence of the fault once: most texts of instruments hold it already.
+/// The sentence of the fault once: most texts of instruments hold it already, some of them with a
+/// colon in the place of its full stop (describe()).
 std::string words_of(const EventRecord& event) {
     std::string words = without_device_paths(event.text);
     const std::string sentence{fault_sentence(event.fault)};
-    if (event.fault == Fault::none || words.find(sentence) != std::string::npos) return words;
+    const std::string_view told = std::string_view{sentence}.substr(0, sentence.size() - 1);
+    if (event.fault == Fault::none || words.find(told) != std::string::npos) return words;
     return words + (words.empty() ? "" : " · ") + sentence;
 }
 

@@ -517,10 +517,13 @@ TEST_F(Report, NamesWhatAnInstrumentSaidOnceAndWithoutItsPath) {
     EventRecord silent{EventKind::instrument, run.opened.before, 0, "", Fault::link_timeout, 0};
     const std::string sentence{fault_sentence(silent.fault)};
     silent.text = "air: " + sentence + " no reading from serial /dev/ttyUSB0 9600 8N1";
-    run.events = {silent, silent};
+    EventRecord foreign{EventKind::instrument, run.opened.before, 0, "", Fault::bad_frame, 0};
+    foreign.text = "laser: " + describe({foreign.fault, "data but no record of it", {}, {}});
+    run.events = {silent, silent, foreign};
     const std::string page =
         std::regex_replace(test::text_of(render(std::move(run))), std::regex{"\\s+"}, " ");
     EXPECT_EQ(count(page, "The instrument does not answer"), 1) << page;
+    EXPECT_EQ(count(page, "that is not its protocol"), 1) << page;
     EXPECT_THAT(page, HasSubstr("its line"));
     EXPECT_THAT(page, Not(HasSubstr("/dev/")));
 }
