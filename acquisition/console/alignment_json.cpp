@@ -71,13 +71,13 @@ Result<void> read_field(const std::string& key, const Json& value, AlignmentOrde
         else if (value == "drop")
             order.action = AlignmentAction::drop;
         else
-            return refuse(Fault::bad_request, key, "is begin, keep or drop");
+            return refuse(Fault::bad_request, key, "must be begin, keep or drop");
         return {};
     }
     if (key != "spot_offset_mm")
         return refuse(Fault::bad_request, key, "is unknown; known are action, spot_offset_mm");
     if (!value.is_number() || !(std::fabs(value.get<double>()) <= largest_mm))
-        return refuse(Fault::bad_request, key, "is a number of millimetres, at most 100");
+        return refuse(Fault::bad_request, key, "must be a number of millimetres, at most 100");
     order.spot_offset_mm = value.get<double>();
     return {};
 }

@@ -19,7 +19,8 @@ Result<void> read_span(const Json& value, const std::string& key, Duration& span
     constexpr double shortest_s = 0.05;
     const bool fits =
         value.is_number() && value.get<double>() >= shortest_s && value.get<double>() <= longest_s;
-    if (!fits) return refuse(Fault::bad_request, key, "is a number of seconds, 0.05 to two weeks");
+    if (!fits)
+        return refuse(Fault::bad_request, key, "must be a number of seconds, 0.05 to two weeks");
     span = from_seconds(value.get<double>());
     return {};
 }
@@ -36,12 +37,12 @@ Result<void> read_drift_field(const std::string& key, const Json& value, DriftRe
     if (key == "interval_s") return read_span(value, key, request.interval);
     if (key == "place_mm") {
         if (!value.is_number() || !(std::fabs(value.get<double>()) <= farthest_mm))
-            return refuse(Fault::bad_request, key, "is a coordinate in mm");
+            return refuse(Fault::bad_request, key, "must be a coordinate in mm");
         return request.place_mm = value.get<double>(), Result<void>{};
     }
     if (key == "of") {
         if (value != "axis" && value != "ballbar")
-            return refuse(Fault::bad_request, key, "is \"axis\" or \"ballbar\"");
+            return refuse(Fault::bad_request, key, "must be \"axis\" or \"ballbar\"");
         return request.of_bar = value == "ballbar", Result<void>{};
     }
     if (key == "by") {

@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace axiscal {
 namespace {
@@ -45,7 +48,7 @@ tl::unexpected<Error> refuse_statement(const std::string& key) {
 
 /// What a person writes and a certificate prints. @errors bad_request naming the field
 Result<std::string> printed_text(const std::string& field, const Json& given) {
-    constexpr std::size_t longest = 1000; // some twelve lines of the certificate
+    constexpr std::size_t longest = 1000; // some twelve lines of the certificate in Latin letters
     const auto* text = given.get_ptr<const std::string*>();
     if (text == nullptr) return refuse(Fault::bad_request, field, "must be a text");
     if (text->size() > longest)
@@ -98,19 +101,37 @@ void read_pass(const std::string& pass, ArmRequest& request) {
     request.kind = kind_named(request.pass).value_or(TestKind::positioning);
 }
 
-/// What a field of an order must be, where it is something else. Empty: there is no such field.
-std::string wanted_of(const std::string& key) {
-    static const std::map<std::string, std::string> wanted{
-        {"datum_mm", "must be a number: where the axis stands"},
-        {"pass", "must be a text"},
-        {"seed", "must be a whole number from 0 on: the part program has it in its first line"},
-        {"datum_by_cnc", "must be true or false"},
-        {"target", "must be a whole number from 0 to 100000"},
-        {"cycle", "must be a whole number from 0 to 100000"},
-        {"direction", "must be positive or negative"},
-    };
-    const auto found = wanted.find(key);
-    return found == wanted.end() ? std::string{} : found->second;
+/// A field of an order, as it is told to who wrote another one. `wanted` is for a value that
+/// nothing else refuses; empty: its own reader says what is wrong.
+struct OrderField {
+    std::string_view name, wanted;
+};
+constexpr std::array arm_fields{
+    OrderField{"datum_mm", "must be a number: where the axis stands"},
+    OrderField{"pass", "must be a text"},
+    OrderField{"seed",
+               "must be a whole number from 0 on: the part program has it in its first line"},
+    OrderField{"datum_by_cnc", "must be true or false"},
+    OrderField{"statements", ""},
+    OrderField{"overrides", ""},
+    OrderField{"options", ""},
+    OrderField{"by", ""}};
+constexpr std::array revision_fields{
+    OrderField{"target", "must be a whole number from 0 to 100000"},
+    OrderField{"direction", "must be positive or negative"},
+    OrderField{"cycle", "must be a whole number from 0 to 100000"}, OrderField{"reason", ""},
+    OrderField{"by", ""}};
+
+tl::unexpected<Error> refuse_field(const std::string& key, std::span<const OrderField> fields) {
+    std::vector<std::string> names;
+    std::string list;
+    for (const auto& [name, wanted] : fields) {
+        if (name == key) return refuse(Fault::bad_request, key, std::string{wanted});
+        names.emplace_back(name);
+        list += (list.empty() ? "" : ", ") + names.back();
+    }
+    return refuse(Fault::bad_request, key,
+                  "is unknown; known are " + list + did_you_mean(key, names));
 }
 
 Result<void> read_arm_field(const std::string& key, const Json& value, ArmRequest& request) {
@@ -128,14 +149,7 @@ Result<void> read_arm_field(const std::string& key, const Json& value, ArmReques
     if (key == "options")
         return read_texts(key, value, "must be an object of texts by name", request.options);
     if (key == "by") return read_orderer(value, request.by);
-    const std::string wanted = wanted_of(key);
-    return refuse(Fault::bad_request, key,
-                  !wanted.empty()
-                      ? wanted
-                      : "is unknown; known are datum_mm, pass, seed, datum_by_cnc, statements, "
-                        "overrides, options, by" +
-                            did_you_mean(key, {"datum_mm", "pass", "seed", "datum_by_cnc",
-                                               "statements", "overrides", "options", "by"}));
+    return refuse_field(key, arm_fields);
 }
 
 Result<Json> parse_object(const std::string& body) {
@@ -183,12 +197,7 @@ read_revision_field(const std::string& key, const Json& value, RevisionRequest& 
     }
     if (key == "reason") return read_printed(key, value, request.reason);
     if (key == "by") return read_orderer(value, request.by);
-    const std::string wanted = wanted_of(key);
-    return refuse(Fault::bad_request, key,
-                  !wanted.empty()
-                      ? wanted
-                      : "is unknown; known are target, direction, cycle, reason, by" +
-                            did_you_mean(key, {"target", "direction", "cycle", "reason", "by"}));
+    return refuse_field(key, revision_fields);
 }
 
 } // namespace

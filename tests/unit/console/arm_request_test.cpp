@@ -91,14 +91,14 @@ TEST(RevisionRequest, SaysOfEachFieldWhatItWants) {
               "The request is refused. [reason] has 1001 bytes, and there is room for 1000");
 }
 
-TEST(Sentence, GoesOnInADetailThatBeginsSmall) {
-    EXPECT_EQ(describe({Fault::refused, "the code is wrong; 4 tries left", {}, {}}),
-              "This is not allowed here: the code is wrong; 4 tries left");
-    EXPECT_EQ(describe({Fault::refused, "Nobody may.", {}, {}}),
-              "This is not allowed here. Nobody may.");
-    EXPECT_EQ(describe({Fault::beam_lost, "at request 3", {}, {}}),
-              "The laser beam was lost: restore the beam, move to the datum and arm again. at "
-              "request 3");
+/// Each order has fields of its own.
+TEST(RevisionRequest, SaysOfAFieldOfAnotherOrderThatItIsUnknown) {
+    const auto revision = revision_request_from_json(R"({"pass":"whole"})");
+    ASSERT_FALSE(revision);
+    EXPECT_EQ(describe(revision.error()), "The request is refused. [pass] is unknown; known are "
+                                          "target, direction, cycle, reason, by");
+    EXPECT_TRUE(
+        why_not(R"({"target":1})").starts_with("The request is refused. [target] is unknown"));
 }
 
 } // namespace
