@@ -77,3 +77,21 @@ test("a link that was lost before the page rested is lost when it is back", () =
     link.resume(600000);
     assert.equal(link.view(600000).strip, "lost");
 });
+
+test("a tab that was opened in the background meets a station that is there without a word", () => {
+    const link = new LinkState(0);
+    link.rest(0);
+    link.resume(600000);
+    assert.equal(link.view(600000).strip, "none");
+    link.heard(600050);
+    assert.equal(link.view(600050).strip, "none");
+});
+
+test("a silence that nobody was told of is none after a rest", () => {
+    const link = new LinkState(0);
+    link.heard(1000);
+    link.rest(3500);
+    link.resume(600000);
+    link.heard(600050);
+    assert.equal(link.view(600050).strip, "none");
+});

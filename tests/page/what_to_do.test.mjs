@@ -105,8 +105,10 @@ test("missing rights are told from other refusals", async () => {
 test("an order on a dead connection ends with the word that nobody knows whether it was carried out", async (t) => {
     const timer = globalThis.setTimeout;
     t.after(() => (globalThis.setTimeout = timer));
-    globalThis.setTimeout = (call) => timer(call, 0);
+    const waited = [];
+    globalThis.setTimeout = (call, ms) => (waited.push(ms), timer(call, 0));
     const silent = (_, { signal }) => new Promise((_, reject) => signal.addEventListener("abort", () => reject(signal.reason)));
     const answer = await send_order("/v1/run/abort", null, silent);
-    assert.deepEqual([answer.done, answer.status], [false, 0]);
+    assert.deepEqual([answer.done, answer.status, waited], [false, 0, [30000]]); // docs/page.md
+    assert.equal(answer_text(answer, "abort", words_of("en")), words_of("en").text("order_unknown"));
 });

@@ -2,6 +2,7 @@
 
 import { alignment_lines, alignment_off } from "./alignment_text.js";
 import { keep_children, make, set_attribute, set_text } from "./dom.js";
+import { asked } from "./orders.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
 /** @typedef {import("./alignment_text.js").Alignment} Alignment */
@@ -53,18 +54,15 @@ export class AlignmentView {
         if (this.asking || at - this.asked_at < (this.view?.running ? ask_running_ms : ask_idle_ms)) return;
         this.asked_at = at;
         this.asking = true;
-        const question = new AbortController();
-        const patience = setTimeout(() => question.abort(), patience_ms);
         try {
-            const response = await this.fetcher(path, { cache: "no-store", signal: question.signal });
+            const { response, body } = await asked(path, this.fetcher, {}, patience_ms);
             if (response.ok) {
-                this.view = await response.json();
+                this.view = body;
                 this.heard_at = at;
             }
         } catch {
             // The strip tells of a link that is lost.
         } finally {
-            clearTimeout(patience);
             this.asking = false;
         }
     }

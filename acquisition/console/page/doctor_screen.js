@@ -49,6 +49,7 @@ export function make_settings(place, chosen, does, words) {
         made.addEventListener("click", () => does.choose(name, value));
         return made;
     };
+    const focused = [...place.querySelectorAll("button")].findIndex((one) => one === document.activeElement);
     place.replaceChildren(
         ...rights_of(chosen, does, words),
         make("p", "", [words.text("language")]),
@@ -57,6 +58,7 @@ export function make_settings(place, chosen, does, words) {
         ...themes.map((one) => button("theme", one, words.text(`theme_${one}`), "")),
         make("p", "", [words.text("version", { version: chosen.version })]),
     );
+    if (focused >= 0) place.querySelectorAll("button")[focused].focus(); // keys go on from where they were
 }
 
 /** Who may order, the one thing to do about it, and why that failed. @param {{session: import("./pairing.js").Session, rights_said: string}} chosen */

@@ -19,7 +19,7 @@ export class LinkState {
         this.heard_at = null;
         /** @type {number | null} */
         this.back_at = null;
-        this.rested_in_contact = false;
+        this.rested_quietly = false;
         this.quiet_from = now;
         this.pause_ms = first_pause_ms;
         this.refusal = "";
@@ -35,13 +35,13 @@ export class LinkState {
 
     /** The page ends the connection itself, because nobody looks. @param {number} now */
     rest(now) {
-        this.rested_in_contact = this.has_contact(now);
+        this.rested_quietly = !this.is_strip_up(now);
     }
 
     /** Somebody looks again: the silence since rest() was no break. @param {number} now */
     resume(now) {
-        if (this.rested_in_contact) this.quiet_from = now;
-        this.rested_in_contact = false;
+        if (this.rested_quietly) this.quiet_from = now;
+        this.rested_quietly = false;
         this.pause_ms = first_pause_ms;
     }
 

@@ -191,9 +191,9 @@ function pair() {
 
 async function unpair() {
     const answer = link.has_contact(now()) ? await delete_order("/v1/session", (input, options) => fetch(input, options)) : no_contact();
-    shown.rights_said = answer.done ? "" : answer_text(answer, words.text("unpair"), words);
-    if (answer.done) await ask_rights();
-    else paint_settings();
+    await ask_rights(); // an order without an answer may have been carried out
+    shown.rights_said = answer.done || !shown.session.paired ? "" : answer_text(answer, words.text("unpair"), words);
+    paint_settings();
 }
 
 /** A sheet may have been opened while there was contact. */

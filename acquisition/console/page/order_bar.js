@@ -16,6 +16,8 @@ export class OrderBar {
     constructor(place, give) {
         this.give = give;
         this.hold = new Hold();
+        this.fill = make("span", "fill");
+        this.filled = 0;
         /** @type {Record<string, boolean>} */
         this.on = {};
         this.lacks_rights = false;
@@ -40,7 +42,7 @@ export class OrderBar {
 
     /** Held by finger or by key; whatever ends the touch ends it. @param {HTMLButtonElement} button */
     hold_to_give(button) {
-        button.append(make("span", "fill"));
+        button.append(this.fill);
         const press = () => {
             if (this.on.abort) this.hold.press(performance.now());
         };
@@ -58,8 +60,8 @@ export class OrderBar {
     /** With each tick: the ring of the held button. */
     tick() {
         const part = this.hold.progress(performance.now());
-        const fill = /** @type {HTMLElement} */ (this.buttons.abort.querySelector(".fill"));
-        fill.style.transform = `scaleX(${part})`;
+        if (part !== this.filled) this.fill.style.transform = `scaleX(${part})`;
+        this.filled = part;
         if (part === 1) this.give("abort");
     }
 

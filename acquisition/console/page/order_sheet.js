@@ -38,7 +38,7 @@ class OrderForm {
         this.sending.disabled = false;
         set_text(this.answer, answer_text(got, this.title, this.words));
         this.answer.scrollIntoView({ block: "nearest" });
-        if (!got.done) this.ask_further(this.further(got));
+        if (!got.done && got.body?.checks !== undefined) this.ask_further(this.further(got)); // it was judged
         return got;
     }
 
@@ -56,6 +56,7 @@ class OrderForm {
             this.asked_later.add(input);
             this.sending.before(input.label);
         }
+        if (!this.element.contains(document.activeElement)) this.sending.focus();
     }
 }
 

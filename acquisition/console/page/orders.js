@@ -1,6 +1,6 @@
 // Orders to the station. What it says is shown as it says it. No DOM.
 
-const patience_ms = 30000; // far longer than the station needs; a connection that is dead gives no answer at all
+const patience_ms = 30000; // far longer than the station needs
 
 /**
  * @typedef {object} Answer
@@ -21,19 +21,29 @@ export async function send_order(path, body, fetcher) {
     return answered(path, { method: "POST", headers, body: body === null ? "" : JSON.stringify(body) }, fetcher);
 }
 
-/** @param {string} path @param {RequestInit} order @param {typeof fetch} fetcher @returns {Promise<Answer>} */
-async function answered(path, order, fetcher) {
+/**
+ * A question that is given up after its patience: a connection that is dead gives no answer and no error.
+ * @param {string} path @param {typeof fetch} fetcher @param {RequestInit} [options] @param {number} [ms]
+ * @returns {Promise<{response: Response, body: any}>}
+ */
+export async function asked(path, fetcher, options = {}, ms = patience_ms) {
     const limit = new AbortController();
-    const patience = setTimeout(() => limit.abort(), patience_ms);
+    const patience = setTimeout(() => limit.abort(), ms);
     try {
-        const response = await fetcher(path, { credentials: "same-origin", cache: "no-store", ...order, signal: limit.signal });
-        const answer = await response.json();
-        const sentence = response.ok ? "" : (answer.error?.sentence ?? "");
-        return { done: response.ok, status: response.status, sentence, body: answer };
-    } catch {
-        return { done: false, status: 0, sentence: "", body: null };
+        const response = await fetcher(path, { credentials: "same-origin", cache: "no-store", ...options, signal: limit.signal });
+        return { response, body: await response.json() };
     } finally {
         clearTimeout(patience);
+    }
+}
+
+/** @param {string} path @param {RequestInit} order @param {typeof fetch} fetcher @returns {Promise<Answer>} */
+async function answered(path, order, fetcher) {
+    try {
+        const { response, body } = await asked(path, fetcher, order);
+        return { done: response.ok, status: response.status, sentence: response.ok ? "" : (body.error?.sentence ?? ""), body };
+    } catch {
+        return { done: false, status: 0, sentence: "", body: null };
     }
 }
 

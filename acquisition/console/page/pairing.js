@@ -1,5 +1,7 @@
 // Whether this browser may order (docs/pairing.md). The station says so; the cookie itself no script can read. No DOM.
 
+import { asked } from "./orders.js";
+
 /** @typedef {{paired: boolean, name: string, how: string, until_utc: string}} Session */
 
 /** @returns {Session} before the station was asked: nothing is claimed, so the orders are on and the station judges them */
@@ -11,9 +13,9 @@ export const not_asked = () => ({ paired: true, name: "", how: "", until_utc: ""
  */
 export async function ask_session(fetcher) {
     try {
-        const response = await fetcher("/v1/session", { cache: "no-store", credentials: "same-origin" });
+        const { response, body } = await asked("/v1/session", fetcher);
         if (!response.ok) return null;
-        const { paired, name = "", how = "", until_utc = "" } = await response.json();
+        const { paired, name = "", how = "", until_utc = "" } = body;
         return { paired: paired === true, name, how, until_utc };
     } catch {
         return null;

@@ -2,6 +2,7 @@
 
 import { is_number, judge, shapes } from "./freshness.js";
 import { age_of, number_text } from "./number_text.js";
+import { asked } from "./orders.js";
 import { channel_shown, key_of, reading_channel } from "./status_view.js";
 
 /** @typedef {import("./freshness.js").Heard} Heard */
@@ -146,7 +147,6 @@ function check_row(check, words) {
 
 /** @param {typeof fetch} fetcher @param {number} at @returns {Promise<Judged>} */
 export async function ask_checks(fetcher, at) {
-    const response = await fetcher("/v1/preflight", { cache: "no-store" });
-    const answer = await response.json();
-    return { list: response.ok ? answer.checks : [], sentence: response.ok ? "" : (answer.error?.sentence ?? `HTTP ${response.status}`), at };
+    const { response, body } = await asked("/v1/preflight", fetcher);
+    return { list: response.ok ? body.checks : [], sentence: response.ok ? "" : (body.error?.sentence ?? `HTTP ${response.status}`), at };
 }

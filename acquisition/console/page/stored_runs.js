@@ -1,5 +1,7 @@
 // The stored runs, as the station lists them (docs/api.md, Stored runs). No DOM.
 
+import { asked } from "./orders.js";
+
 /** @typedef {{parameter: string, value: number | null, U: number | null, limit: number | null, verdict: string, reason: string}} Figure */
 
 /**
@@ -26,10 +28,9 @@ const most_questions = 25; // of one search: the station looks into some hundred
  * @template Body @param {string} path @param {typeof fetch} fetcher
  * @returns {Promise<{body: Body | null, sentence: string}>} sentence: the station's own; empty with no body: no answer came
  */
-async function asked(path, fetcher) {
+async function found(path, fetcher) {
     try {
-        const response = await fetcher(path, { cache: "no-store", credentials: "same-origin" });
-        const body = await response.json();
+        const { response, body } = await asked(path, fetcher);
         if (response.ok) return { body, sentence: "" };
         return { body: null, sentence: body.error?.sentence ?? "" };
     } catch {
@@ -86,7 +87,7 @@ export class RunList {
         this.change("asking", "");
         for (let question = 0; question < most_questions; ++question) {
             const path = list_path({ text: this.text, before: this.next, limit: wanted - rows.length });
-            const { body, sentence } = await asked(path, this.fetcher);
+            const { body, sentence } = await found(path, this.fetcher);
             if (number !== this.search_number) return;
             if (body === null) return this.change("failed", sentence);
             this.rows = rows = rows.concat(body.runs);
@@ -114,13 +115,13 @@ export class RunList {
 export async function ask_result(id, fetcher) {
     const wanted = id === "" ? await newest_id(fetcher) : { id, sentence: "", none: false };
     if (wanted.id === "") return { found: null, sentence: wanted.sentence, none: wanted.none };
-    const { body, sentence } = await asked(`/v1/runs/${encodeURIComponent(wanted.id)}`, fetcher);
+    const { body, sentence } = await found(`/v1/runs/${encodeURIComponent(wanted.id)}`, fetcher);
     return { found: body, sentence, none: false };
 }
 
 /** @param {typeof fetch} fetcher */
 async function newest_id(fetcher) {
-    const { body, sentence } = await asked(list_path({ text: "", before: "", limit: 5 }), fetcher);
+    const { body, sentence } = await found(list_path({ text: "", before: "", limit: 5 }), fetcher);
     if (body === null) return { id: "", sentence, none: false };
     const closed = body.runs.find(({ status }) => status !== "open") ?? body.runs[0];
     return { id: closed?.id ?? "", sentence: "", none: closed === undefined };
