@@ -154,7 +154,9 @@ def watch_page(address):
         first_ms = page.wait("the first value", lambda: page.ask("window.first_value_ms"))
         loaded = page.ask("performance.getEntriesByType('resource').concat(performance.getEntriesByType('navigation'))"
                           ".filter((one) => !one.name.includes('/v1/')).reduce((sum, one) => sum + one.transferSize, 0)")
-        time.sleep(10)  # what is made once is made
+        # What is made once is made: the screens behind the first one come after half a minute.
+        page.wait("every screen is made", lambda: page.ask("document.querySelector('#doctor_settings').childElementCount > 0"), 120)
+        time.sleep(10)
         return loaded, first_ms, *watch(page)
 
 

@@ -58,6 +58,24 @@ def overridden(b):
         expect(words in told, f"'{words}' is not printed: {told}")
 
 
+@sentence("ReasonThatNobodyGaveGoesWithItsCheckAndTheOthersStay")
+def reason_goes(b):
+    b.station["preflight"]["soak_window"] = "10 min"
+    for key in ("state", "control_compensation"):
+        b.station["certificate"].pop(key)
+    address = before_arming(b, with_page(b))
+    reasons = "[...document.querySelectorAll('#run_sheet [name^=override]')].map((one) => one.name).sort().join()"
+    with opened(address) as page:
+        open_arming(b, page, "tablet")
+        page.click("#run_sheet [type=submit]")
+        page.wait("both checks ask for a reason", lambda: page.ask(reasons) == "override compensation,override soak")
+        state_machine(page, "as left", "none")
+        page.click("#run_sheet [type=submit]")
+        page.wait("the check that holds asks for none", lambda: page.ask(reasons) == "override soak")
+        expect(page.ask("document.querySelector('#run_sheet').contains(document.activeElement)"), "the keys have fallen out of the sheet")
+        refusals_were(page, 2)
+
+
 @sentence("SeedOfThePartProgramIsAskedForWhereTheStationFileNamesNone")
 def seed(b):
     b.station["cycle"].pop("seed", None)

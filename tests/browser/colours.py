@@ -23,9 +23,12 @@ DRAWN = """((one) => {
     let ground = one;
     while (ground.parentElement && channels(getComputedStyle(ground).backgroundColor)[3] === 0)
         ground = ground.parentElement;
-    const [dark, bright] = [light(style.color), light(getComputedStyle(ground).backgroundColor)].sort((one, other) => one - other);
-    return {text: one.innerText.replace(/\\s+/g, ' ').trim(), border: `${style.borderTopWidth} ${style.borderTopStyle}`, outline: style.outlineStyle, ground: getComputedStyle(ground).backgroundColor,
-            line: style.textDecorationLine, weight: Number(style.fontWeight), contrast: (bright + 0.05) / (dark + 0.05)};
+    const ratio = (...two) => {
+        const [dark, bright] = two.map(light).sort((one, other) => one - other);
+        return (bright + 0.05) / (dark + 0.05);
+    };
+    return {text: one.innerText.replace(/\\s+/g, ' ').trim(), border: `${style.borderTopWidth} ${style.borderTopStyle}`, outline: style.outlineStyle, ring: ratio(style.outlineColor, getComputedStyle(document.body).backgroundColor), ground: getComputedStyle(ground).backgroundColor,
+            line: style.textDecorationLine, weight: Number(style.fontWeight), contrast: ratio(style.color, getComputedStyle(ground).backgroundColor)};
 })"""
 
 
@@ -85,9 +88,9 @@ def buttons(b):
     address = in_mid_run(b)
     with opened(address) as page:
         pair_with(b, page, "panel")
-        page.wait("abort is on", lambda: is_on(page, "abort"))
         for name in COLOURS:
             with in_colours(page, name):
+                page.wait("abort is on", lambda: is_on(page, "abort") or page.click("nav [data-screen=run]"))
                 on, off = drawn(page, order("abort")), drawn(page, order("arm"))
                 expect((on["border"], off["border"]) == ("2px solid", "2px dashed"), f"{name}: {on}, {off}")
                 expect("a run is open" in off["text"] and on["text"] == "Hold: abort", f"{name}: {on}, {off}")
@@ -105,7 +108,14 @@ def current(b):
             with in_colours(page, name):
                 here, elsewhere = (drawn(page, f"document.querySelector('nav [data-screen={screen}]')") for screen in ("now", "run"))
                 expect(min(one["contrast"] for one in (here, elsewhere)) >= LEAST_CONTRAST, f"{name}: {here}, {elsewhere}")
+                page.element("nav [data-screen=now]").send_keys("")  # the focus
+                ring = page.ask(f"{DRAWN}(document.querySelector('nav [data-screen=now]'))")
+                expect(ring["ring"] >= 3, f"{name}: nobody sees where the keys are: {ring}")
                 expect(here["ground"] != elsewhere["ground"], f"{name}: {here}, {elsewhere}")
+
+
+def told_of_beam(strip):
+    return strip if strip["text"].startswith("✕ Stop: The laser beam was lost.") else None
 
 
 @sentence("StripTellsItsRankByShapeAndWordInAnyColours")
@@ -120,8 +130,7 @@ def strip(b):
         b.sim("beam off")
         for name in COLOURS:
             with in_colours(page, name):
-                page.wait_for_text("#strip", "✕ Stop: The laser beam was lost.")
-                told = drawn(page, strip_text)
+                told = page.wait("the strip tells of the beam", lambda: told_of_beam(drawn(page, strip_text)))
                 expect(told["weight"] >= 600 and told["contrast"] >= LEAST_CONTRAST, f"{name}: {told}")
                 around = drawn(page, "document.querySelector('#strip')")["outline"]
                 expect(around == ("double" if name.startswith("forced") else "none"), f"{name}: a line around it that is {around}")

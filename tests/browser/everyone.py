@@ -12,7 +12,7 @@ import axe
 AXE = axe.require(os.environ["AXISCAL_AXE_FOLDER"])  # before a bench is made
 
 from page_bench import bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
-from page_hands import go, open_sheet  # noqa: E402
+from page_hands import go, open_sheet, pick_first_point  # noqa: E402
 
 SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
 SIZES = [(390, 844), (1280, 800)]
@@ -73,11 +73,6 @@ def mid_run(b):
         open_sheet(page, "arm")
         look(page, "sheet", found, SIZES)
         expect(not found, "\n".join(found))
-
-
-def pick_first_point(page):
-    page.click("#run_plot .table_button")
-    page.wait("a point is picked", lambda: page.text("#run_picked") or page.element("#run_table td button").click())
 
 
 @sentence("AxeFindsNothingOnASmallPanelInMidRun")

@@ -5,6 +5,7 @@ from pathlib import Path
 from page_bench import bench, expect, in_mid_run, opened, sentence
 
 TABS = 8  # two more than the connections that a browser has for one address
+GONE_S = 60  # the stream ends at once; what else the browser keeps open the station ends after 30 s
 
 
 def streams(b):
@@ -29,27 +30,17 @@ def eight_tabs(b):
         expect(page.ask("document.visibilityState") == "visible", "the last tab is not the one that is shown")
 
 
-# What the strip said while the tab was looked at.
-WATCH_STRIP = """
-window.strips = [];
-new MutationObserver(() => window.strips.push(document.querySelector('#strip').dataset.rank ?? ''))
-    .observe(document.querySelector('#strip'), {attributes: true, childList: true, characterData: true, subtree: true});
-"""
-
-
-@sentence("TabThatNobodyLooksAtHoldsNoConnectionAndComesBackQuietly")
+@sentence("TabThatNobodyLooksAtHoldsNoConnectionAndShowsTheStationWhenItIsLookedAt")
 def hidden(b):
     address = in_mid_run(b)
     with opened(address) as page:
         first = page.driver.current_window_handle
-        page.driver.execute_script(WATCH_STRIP)
         page.wait("its stream is open", lambda: streams(b) > 0)
         page.driver.switch_to.new_window("tab")
-        page.wait("no connection is left", lambda: streams(b) == 0)
+        page.wait("no connection is left", lambda: streams(b) == 0, GONE_S)
         page.driver.switch_to.window(first)
         page.wait("it is looked at", lambda: page.ask("document.visibilityState") == "visible")
         page.wait("the reading is fresh", lambda: page.ask("document.querySelector('#now_reading').dataset.mark") in ("good", "moving"))
-        expect("link" not in page.ask("window.strips"), "the strip speaks of a link that is lost")
         b.sim("beam off")
         page.wait("what happens is shown again", lambda: page.ask("document.querySelector('#now_reading').dataset.mark") == "lost")
 

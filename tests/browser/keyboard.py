@@ -10,7 +10,7 @@ from page_bench import ABORT_S, MAY_ONLY_LOOK, before_arming, bench, code_of, ex
 WATCH_POINTERS = """
     window.pointers = 0;
     for (const touch of ['pointerdown', 'mousedown', 'touchstart'])
-        document.addEventListener(touch, () => (window.pointers += 1), {capture: true});
+        window.addEventListener(touch, () => (window.pointers += 1), {capture: true});
 """
 
 

@@ -1,6 +1,7 @@
 """What a sheet says of an order that is refused is what the command line says of the same order."""
 
 from page_bench import MAY_ONLY_LOOK, before_arming, bench, code_of, expect, go, in_mid_run, is_on, open_sheet, opened, pair_with, sentence, with_page
+from page_hands import SHEET_HIDDEN, pick_first_point
 
 LONG = "x" * 81  # a name has 80 bytes at most
 REFUSED = 4  # exit of the command line
@@ -15,16 +16,25 @@ def fill(page, fields):
         if field.tag_name == "select":
             field.find_element("css selector", f"[value='{text}']").click()
         else:
-            field.clear()
-            field.send_keys(text)
+            page.wait(f"{name} is written", lambda field=field, text=text: field.get_attribute("value") == text or write(field, text))
+
+
+def write(field, text):
+    """The first key may only wake the page."""
+    field.clear()
+    field.send_keys(text)
+
+
+def submit(page):
+    if page.ask("document.querySelector('#run_sheet [type=submit]')?.disabled === false"):
+        page.element("#run_sheet [type=submit]").click()
 
 
 def refused(page, fields):
     """The sentence on the sheet that is open, once the station has answered."""
     fill(page, fields)
     before = page.ask(REFUSALS)
-    page.click("#run_sheet [type=submit]")
-    page.wait("the station has refused", lambda: page.ask(REFUSALS) > before)
+    page.wait("the station has refused", lambda: page.ask(REFUSALS) > before or submit(page))
     page.wait("the sheet has heard it", lambda: page.ask("document.querySelector('#run_sheet [type=submit]').disabled === false"))
     return page.text("#run_sheet .answer")
 
@@ -65,8 +75,7 @@ def revising(b):
     point = ("--target", "1", "--direction", "up", "--cycle", "1")
     with opened(address) as page:
         pair_with(b, page, "panel")
-        page.click("#run_plot .table_button")
-        page.wait("a point is picked", lambda: page.text("#run_picked") or page.element("#run_table td button").click())
+        pick_first_point(page)
         for order in ("retake", "exclude"):
             page.wait(f"{order} is on", lambda order=order: is_on(page, order))
             open_sheet(page, order)
@@ -74,7 +83,7 @@ def revising(b):
             expect_same(b, refused(page, {"reason": "coolant", "by": LONG}), order, *point, "--reason", "coolant", "--by", LONG)
             if order == "exclude":
                 expect_same(b, refused(page, {"reason": "coolant", "by": ""}), order, *point, "--reason", "coolant")
-            page.click("#run_sheet [type=button]")
+            page.wait("the sheet is closed", lambda: page.ask(SHEET_HIDDEN) or page.click("#run_sheet [type=button]"))
         refusals_were(page, 5)
 
 
@@ -89,6 +98,7 @@ def check(b):
         open_sheet(page, "arm")
         said = refused(page, {"datum_mm": datum})
         by_line = " ".join(b.axiscal("arm", "--datum", datum, code=REFUSED).split()) + b.complaint
+        expect(said.count("compensation: ") == 1, f"the sheet tells it more than once: {said}")
         verdict = said.split("compensation: ")[-1]
         expect("is not stated" in verdict and verdict in by_line, f"the sheet says\n{said}\nthe command line\n{by_line}")
         refusals_were(page, 1)
@@ -109,8 +119,7 @@ def pairing(b):
             said = refused(page, {"code": wrong})
             expect(f"the code is wrong; {left} tries left" in said, said)
         fill(page, {"code": code})
-        page.click("#run_sheet [type=submit]")
-        page.wait("its orders are its own", lambda: not page.ask(MAY_ONLY_LOOK))
+        page.wait("its orders are its own", lambda: not page.ask(MAY_ONLY_LOOK) or submit(page))
         refusals_were(page, 2)
 
 

@@ -36,7 +36,7 @@ class Browser:
         if dark:
             options.add_argument("--force-dark-mode")
         options.accept_insecure_certs = trusts_everybody  # of TLS
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         service = Service(shutil.which("chromedriver"), log_path=f"{self.folder}/driver.log",
                           env={**os.environ, "HOME": self.folder, "XDG_CONFIG_HOME": self.folder, "XDG_CACHE_HOME": self.folder})
         try:

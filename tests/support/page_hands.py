@@ -21,6 +21,19 @@ def open_sheet(page, order):
     page.wait(f"the sheet of {order}", lambda: not page.ask(SHEET_HIDDEN) or page.click(f"[data-order={order}]"))
 
 
+def pick_first_point(page):
+    """In the table of the run's points."""
+
+    def picked():
+        if page.text("#run_picked"):
+            return True
+        place = "#run_table td button" if page.ask("document.querySelector('#run_table').hidden === false") else "#run_plot .table_button"
+        page.element(place).click()
+        return False
+
+    page.wait("a point is picked", picked)
+
+
 def send_sheet(page, text):
     """`text` in the first field, and the order is given."""
 
