@@ -203,6 +203,25 @@ def clipped(page):
     }).map((one) => `${one.id || one.className || one.localName}: ${one.innerText}`)""")
 
 
+def covered(page):
+    """Texts of the reading that lie on one another, or beyond their screen."""
+    return page.ask("""[...document.querySelectorAll('.screen:not([hidden]) .reading')].flatMap((reading) => {
+        const screen = reading.closest('.screen').getBoundingClientRect();
+        const parts = [...reading.querySelectorAll('.big span, .facts, .beside span')].filter((one) => one.checkVisibility() && one.childElementCount === 0 && one.innerText !== '');
+        const drawn = parts.map((one) => {
+            const range = document.createRange();
+            range.selectNodeContents(one);
+            return {text: one.innerText, place: range.getBoundingClientRect()};
+        });
+        const meet = (one, other) => Math.min(one.right, other.right) - Math.max(one.left, other.left) > 1 &&
+            Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top) > Math.min(one.height, other.height) / 2;
+        return drawn.flatMap(({text, place}, nth) => [
+            ...(place.right > screen.right + 1 ? [`${text} is beyond the screen`] : []),
+            ...drawn.slice(nth + 1).filter((other) => meet(place, other.place)).map((other) => `${text} and ${other.text}`),
+        ]);
+    })""")
+
+
 @sentence("OpenRunIsARowOfHistoryAndHasNoVerdict")
 def open_run_in_history(b):
     address = in_mid_run(b)
@@ -232,6 +251,8 @@ def languages(b):
                     page.wait("it is shown", lambda screen=screen: screen not in HOLDS or page.ask(f"{HOLDS[screen]} !== null"))
                     cut = clipped(page)
                     expect(not cut, f"{language}, {size}, {screen}: {cut}")
+                    on_another = covered(page)
+                    expect(not on_another, f"{language}, {size}, {screen}: {on_another}")
 
 
 if __name__ == "__main__":

@@ -29,6 +29,13 @@ function make_value(class_name) {
     ]);
 }
 
+/** With its word apart, for which there is not room everywhere. */
+function make_side() {
+    const side = make_value("value");
+    side.append(make("span", "said"));
+    return side;
+}
+
 /** @param {Element} element @param {Shown} shown */
 function paint_value(element, shown) {
     set_attribute(element, "data-mark", shown.mark);
@@ -52,11 +59,12 @@ export function paint_reading(parent, reading, words) {
     set_text(part(parent, ".big .number"), main.text);
     set_text(part(parent, ".big .unit"), main.unit);
     set_text(part(parent, ".facts"), quality_text(main, words));
-    const sides = keep_children(part(parent, ".beside"), beside.length, () => make_value("value"));
+    const sides = keep_children(part(parent, ".beside"), beside.length, make_side);
     sides.forEach((side, nth) => {
         paint_value(side, beside[nth]);
         set_text(part(side, ".label"), `${beside[nth].label} `);
         set_text(part(side, ".mark"), ` ${shapes[beside[nth].mark]}`);
+        set_text(part(side, ".said"), beside[nth].word); // its age is that of the reading
     });
 }
 
