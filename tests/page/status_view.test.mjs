@@ -75,6 +75,14 @@ test("a good laser without a datum has no position, and says so", () => {
     assert.deepEqual([position.text, position.mark, position.word], [no_number, "none", "no datum"]);
 });
 
+test("an axis that stands at no target has no deviation, and yet a datum", () => {
+    const status = status_of();
+    status.axis.deviation_um = null;
+    const { position, deviation } = axis_shown(status, kept_of(status), hears, words);
+    assert.equal(position.mark, "good");
+    assert.deepEqual([deviation.text, deviation.mark, deviation.word], [no_number, "none", "none"]);
+});
+
 test("an axis in motion is marked as moving", () => {
     const status = status_of();
     status.axis.still = false;

@@ -76,7 +76,7 @@ export function axis_shown(status, kept, heard, words) {
         const moving = mark === "good" && value !== null && status.axis.still !== true;
         const own = mark === "good" && value === null ? "none" : moving ? "moving" : mark;
         const number = shown_if(value, own);
-        const without_datum = own === "none" && mark === "good";
+        const without_datum = own === "none" && mark === "good" && !kept.values.has("axis/position_mm");
         return {
             label,
             text: number === null ? no_number : number_text(number * factor, decimals, { decimal_mark: words.decimal_mark, plus }),
