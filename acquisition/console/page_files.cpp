@@ -83,9 +83,9 @@ std::string unpacked_of(std::string_view packed, std::size_t size) {
     constexpr std::string_view head{"\x1f\x8b\x08\x00", 4}; // deflate, nothing optional behind
     constexpr std::size_t head_size = 10;
     if (packed.size() < head_size + trailer_size || !packed.starts_with(head)) return {};
+    // The trailer stays: this inflater finds the end of a stream by what follows it.
     packed.remove_prefix(head_size);
-    packed.remove_suffix(trailer_size);
-    std::string bytes(size, '\0');
+    std::string bytes(size + 1, '\0');
     deflate::z_params part;
     part.next_in = packed.data();
     part.avail_in = packed.size();
@@ -94,8 +94,9 @@ std::string unpacked_of(std::string_view packed, std::size_t size) {
     deflate::inflate_stream inflater;
     boost::system::error_code ended;
     inflater.write(part, deflate::Flush::finish, ended);
-    const bool whole = ended == deflate::error::end_of_stream;
-    return whole && part.avail_in == 0 && part.avail_out == 0 ? bytes : std::string{};
+    if (ended != deflate::error::end_of_stream || part.avail_out != 1) return {};
+    bytes.pop_back();
+    return bytes;
 }
 
 /// Whether a browser can unpack these very bytes from it.
