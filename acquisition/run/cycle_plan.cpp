@@ -134,6 +134,11 @@ Result<RunPlan> plan_pass(const Pass& pass) {
                                  "within the pitch, or leave the feedback pitch out."}));
 }
 
+bool is_bunched(const Pass& pass, Length pitch) {
+    const auto plan = build_pass(pass);
+    return plan && !phases_spread(*plan, pitch);
+}
+
 Pass whole_pass(const CycleConfig& config, std::uint64_t seed) {
     return Pass{config, "whole", {}, config.travel_low, config.travel_high, seed};
 }
@@ -155,6 +160,19 @@ Result<Pass> stretch_pass(const CycleConfig& config, std::uint64_t seed) {
                                           (least - 1 + 2 * random_share));
     pass.config.interval = std::min(config.interval.value_or(widest), widest);
     return pass;
+}
+
+/// A seed that nobody chose is drawn again where its targets happen to bunch: some do of each plan.
+std::uint64_t drawn_seed(const CycleConfig& config, std::uint64_t fresh_seed, bool with_stretch) {
+    constexpr std::uint64_t most_draws = 16;
+    const Length pitch = config.feedback_pitch.value_or(Length{});
+    if (pitch <= Length{}) return fresh_seed;
+    for (std::uint64_t seed = fresh_seed; seed - fresh_seed < most_draws; ++seed) {
+        if (is_bunched(whole_pass(config, seed), pitch)) continue;
+        const auto stretch = stretch_pass(config, seed + 1);
+        if (!with_stretch || !stretch || !is_bunched(*stretch, pitch)) return seed;
+    }
+    return fresh_seed;
 }
 
 } // namespace
@@ -185,9 +203,10 @@ order_points(CycleKind cycle, int targets, int approaches, bool bidirectional) {
 
 Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_t fresh_seed) {
     if (auto sound = check_basics(config); !sound) return tl::unexpected<Error>(sound.error());
-    const auto seed = config.seed.value_or(fresh_seed);
     const bool rotary = config.axis_kind == AxisKind::rotary;
     const bool is_long = is_long_travel(config, config.travel_high - config.travel_low);
+    const bool with_stretch = is_long && !rotary && !config.stretch_declined;
+    const auto seed = config.seed ? *config.seed : drawn_seed(config, fresh_seed, with_stretch);
     auto whole = whole_pass(config, seed);
     if (is_long) {
         whole.config.approaches = 1;
@@ -197,7 +216,7 @@ Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_
     std::vector<RunPlan> plans;
     AXISCAL_TRY(auto first, plan_pass(whole));
     plans.push_back(std::move(first));
-    if (!is_long || rotary || config.stretch_declined) return plans;
+    if (!with_stretch) return plans;
     AXISCAL_TRY(const auto stretch, stretch_pass(config, seed + 1));
     AXISCAL_TRY(auto second, plan_pass(stretch));
     plans.push_back(std::move(second));

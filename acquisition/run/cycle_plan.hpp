@@ -14,7 +14,8 @@ namespace axiscal {
 /// One plan, or two for a linear axis over 2000 mm: "whole" with n = 1 and "stretch" of 2000 mm
 /// with the configured n. A declined stretch leaves its reason as remark on the whole pass. A
 /// rotary axis over 360 degrees is one whole pass with n = 1.
-/// `fresh_seed` is used where the configuration has none; pass k draws from seed + k, recorded.
+/// `fresh_seed` is used where the configuration has none, or the next one whose targets do not bunch
+/// within the feedback pitch; pass k draws from seed + k, recorded.
 /// @errors Fault::bad_configuration; the sentence names the numbers and the way out.
 Result<std::vector<RunPlan>> plan_passes(const CycleConfig& config, std::uint64_t fresh_seed);
 

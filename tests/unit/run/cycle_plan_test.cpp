@@ -264,6 +264,26 @@ TEST(CyclePlan, NamesPitchSpreadAndAnIntervalThatHealsBunchedPhases) {
     EXPECT_GE(phase_spread(healed.targets, 10.0_mm), 2.5_mm);
 }
 
+/// Five targets and few phases: some draws bunch by chance. Who names such a seed is refused; a
+/// seed that nobody chose is drawn again.
+TEST(CyclePlan, DrawsASeedThatNobodyChoseAgainWhereItsTargetsBunch) {
+    auto config = metre_axis();
+    config.feedback_pitch = 10.0_mm;
+    config.travel_high = 420.0_mm;
+    config.interval = 76.0_mm;
+    constexpr std::uint64_t seeds = 2000;
+    std::uint64_t refused = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        config.seed = seed;
+        if (!plan_passes(config, 1)) ++refused;
+        config.seed.reset();
+        const auto plans = plan_passes(config, seed);
+        ASSERT_TRUE(plans) << seed << ": " << plans.error().detail;
+        ASSERT_GE(phase_spread(plans->front().targets, 10.0_mm), 2.5_mm) << seed;
+    }
+    EXPECT_GT(refused, 0U) << "no draw bunches: this tests nothing";
+}
+
 TEST(CyclePlan, TargetsSpreadOverAQuarterPeriodPass) {
     auto config = metre_axis();
     config.feedback_pitch = 10.0_mm;
