@@ -85,7 +85,7 @@ std::string unpacked_of(std::string_view packed, std::size_t size) {
     if (packed.size() < head_size + trailer_size || !packed.starts_with(head)) return {};
     // The trailer stays: this inflater finds the end of a stream by what follows it.
     packed.remove_prefix(head_size);
-    std::string bytes(size + 1, '\0');
+    std::string bytes(size + 1, '\0'); // one more: it stops at a full buffer, also before the end
     deflate::z_params part;
     part.next_in = packed.data();
     part.avail_in = packed.size();

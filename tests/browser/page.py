@@ -5,7 +5,7 @@ import re
 import signal
 import time
 
-from page_bench import ABORT_S, arm, before_arming, bench, expect, go, in_mid_run, is_on, opened, pair_with, points_drawn, sentence, with_page
+from page_bench import ABORT_S, NOTE_LATENESS, arm, before_arming, bench, expect, go, in_mid_run, is_on, opened, pair_with, points_drawn, sentence, with_page
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -39,7 +39,6 @@ def silent_station(b):
         # Noted by the page's own clock, which is late where this computer is busy: so late is allowed.
         page.driver.execute_script("""
             window.seen = {};
-            window.late_ms = 0;
             const reading = document.querySelector('#now_reading'), root = document.documentElement;
             const strip = document.querySelector('#strip');
             const look = () => {
@@ -49,13 +48,7 @@ def silent_station(b):
                 if (strip.dataset.rank === 'link') window.seen.strip ??= at;
             };
             new MutationObserver(look).observe(root, {attributes: true, subtree: true});
-            let before = performance.now();
-            setInterval(() => {
-                const at = performance.now();
-                window.late_ms = Math.max(window.late_ms, at - before - 20);
-                before = at;
-            }, 20);
-        """)
+        """ + NOTE_LATENESS)
         sent_s = 0.1  # between the page's answer and the signal
         silent_from = page.ask("performance.now()")
         b.processes["axiscald"].send_signal(signal.SIGSTOP)

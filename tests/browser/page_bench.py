@@ -15,6 +15,18 @@ from page_hands import MAY_ONLY_LOOK, arm, code_of, go, is_on, is_shown, open_sh
 
 PAGE = Path(os.environ["AXISCAL_PATH"]).resolve().parent / "share/axiscal/page"  # where the programs of the build find it
 ABORT_S = 0.8  # for so long abort is held
+# A script for the page: by how much its own timer has been late, which on a busy computer is no fault of the page's.
+NOTE_LATENESS = """
+window.late_ms = 0;
+{
+    let before = performance.now();
+    setInterval(() => {
+        const at = performance.now();
+        window.late_ms = Math.max(window.late_ms, at - before - 20);
+        before = at;
+    }, 20);
+}
+"""
 
 
 def with_page(b):

@@ -50,14 +50,18 @@ def refusals_were(page, count):
     expect(len(said) == count and all("status of 40" in line for line in said), f"the browser tells of {count} orders that were refused: {said}")
 
 
+def open_arming(b, page):
+    pair_with(b, page, "panel")
+    page.wait("a run may be armed", lambda: is_on(page, "arm"))
+    open_sheet(page, "arm")
+
+
 @sentence("SheetThatArmsIsRefusedInTheWordsOfTheCommandLine")
 def arming(b):
     address = before_arming(b, with_page(b))
     datum = str(b.plan["datum_mm"])
     with opened(address) as page:
-        pair_with(b, page, "panel")
-        page.wait("a run may be armed", lambda: is_on(page, "arm"))
-        open_sheet(page, "arm")
+        open_arming(b, page)
         said = refused(page, {"datum_mm": datum, "by": LONG})
         expect_same(b, said, "arm", "--datum", datum, "--by", LONG)
         for kind in ("circular", "straightness"):
@@ -93,9 +97,7 @@ def check(b):
     address = before_arming(b, with_page(b))
     datum = str(b.plan["datum_mm"])
     with opened(address) as page:
-        pair_with(b, page, "panel")
-        page.wait("a run may be armed", lambda: is_on(page, "arm"))
-        open_sheet(page, "arm")
+        open_arming(b, page)
         said = refused(page, {"datum_mm": datum})
         by_line = " ".join(b.axiscal("arm", "--datum", datum, code=REFUSED).split()) + b.complaint
         expect(said.count("compensation: ") == 1, f"the sheet tells it more than once: {said}")

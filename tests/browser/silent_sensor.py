@@ -2,7 +2,7 @@
 
 import json
 
-from page_bench import bench, expect, go, in_mid_run, opened, sentence
+from page_bench import NOTE_LATENESS, bench, expect, go, in_mid_run, opened, sentence
 
 OLDEST_S = 2  # of air and material, as this station file has it
 TICKS_S = 0.2  # for so long the page may wait until it looks again (docs/page.md)
@@ -12,7 +12,6 @@ SILENT, OTHER = "contact 1", "air temperature"
 # that is good again was not marked for good.
 WATCH = """
 window.after_ms = null;
-window.late_ms = 0;
 let read_at = -Infinity;
 const asked_itself = window.fetch;
 window.fetch = async (...asked) => {
@@ -36,13 +35,7 @@ new MutationObserver(() => {
     const stale = cell()?.dataset.mark === 'stale';
     window.after_ms = stale ? (window.after_ms ?? performance.now() - read_at) : null;
 }).observe(document, {attributes: true, childList: true, subtree: true});
-let before = performance.now();
-setInterval(() => {
-    const at = performance.now();
-    window.late_ms = Math.max(window.late_ms, at - before - 20);
-    before = at;
-}, 20);
-""".replace("SILENT", json.dumps(SILENT))
+""".replace("SILENT", json.dumps(SILENT)) + NOTE_LATENESS
 
 
 def cell(page, name):
