@@ -9,6 +9,7 @@ import { by_id, make, set_attribute, set_text } from "./dom.js";
 import { EventLink } from "./event_link.js";
 import { KeptValues } from "./freshness.js";
 import { LinkState } from "./link_state.js";
+import { axis_units } from "./number_text.js";
 import { OrderBar } from "./order_bar.js";
 import { OrderSheet, answer_text } from "./order_sheet.js";
 import { delete_order, lacks_rights, send_order } from "./orders.js";
@@ -149,7 +150,8 @@ function give(order) {
     if (order === "abort") return void send_at_once("/v1/run/abort", without_empty({ by: by.value }), order);
     if (order === "trigger") return void send_at_once("/v1/run/trigger", null, order);
     if (order === "arm") {
-        const datum = { name: "datum_mm", label: words.text("datum"), kind: /** @type {const} */ ("number") };
+        const unit = words.unit(axis_units(shown.status.axis).coordinate);
+        const datum = { name: "datum_mm", label: words.text("datum", { unit }), kind: /** @type {const} */ ("number") };
         const seed = { name: "seed", label: words.text("seed"), kind: /** @type {const} */ ("number"), decimals: 0 };
         const fields = [datum, kind_of_test(), seed, by, ...stated_of_machine()];
         return sheet.open(words.text(order), fields, (values) => send("/v1/run", arming_of(values)), words, (answer) => override_fields(answer, words));
