@@ -169,7 +169,7 @@ export class PlotView {
         const pen = new PlotPen(chart.ctx, this.colours, this.font());
         chart.ctx.save(); // it remembers what it has set
         chart.ctx.scale(ratio, ratio);
-        this.write(pen, marks, frame, chart);
+        this.write(pen, marks, frame);
         pen.draw_all(marks, picked, frame);
         chart.ctx.restore();
         this.dots = marks.dots;
@@ -178,7 +178,7 @@ export class PlotView {
     }
 
     /** @param {PlotPen} pen @param {import("./plot_geometry.js").Marks} marks */
-    write(pen, { targets, ends, limit_ys }, frame, { width, height }) {
+    write(pen, { targets, ends, limit_ys }, frame) {
         const { units, words, drawn } = this.now();
         const foot = frame.bottom + 24;
         pen.write(units.deviation, 4, foot, "start");
@@ -186,7 +186,8 @@ export class PlotView {
         const room = { left: 24 + 12 * units.deviation.length, right: frame.right + 12 };
         for (const { text, x, anchor } of labels_of(targets, places, room)) pen.write(text, x, foot, anchor);
         if (drawn.limits !== null) pen.write(limit_text(drawn.limits, this.now()), frame.left + 6, limit_foot(limit_ys[0], frame), "start");
-        if (drawn.judged.length === 0) pen.write(words.text("no_points"), width / 2, height / 2, "middle");
+        const above_zero = frame.top + 0.375 * (frame.bottom - frame.top) + 6; // between two lines of the empty grid
+        if (drawn.judged.length === 0) pen.write(words.text("no_points"), (frame.left + frame.right) / 2, above_zero, "middle");
     }
 }
 
