@@ -61,8 +61,10 @@ export class SetupScreen {
     paint(status, kept, heard, now, words) {
         this.told = strength_channel(status) !== null;
         if (!this.told && this.tone.is_on()) this.leave();
-        this.paint_beam(beam_shown(status, kept, heard, words), words);
+        const beam = beam_shown(status, kept, heard, words);
+        this.paint_beam(beam, words);
         if (now.pressed) return;
+        this.reading.hidden = beam.reading === null;
         this.alignment.paint({ contact: heard.contact, refusal: now.refusal, run_open: status.run_open, at: now.at }, words);
         this.devices.paint(words.text("devices"), devices_shown(status, heard, words), words.text("no_devices"));
         const checks = checks_shown(now.judged, status.run_open, { contact: heard.contact, at: now.at }, words);
@@ -77,7 +79,7 @@ export class SetupScreen {
     /** @param {ReturnType<typeof beam_shown>} beam @param {Catalogue} words */
     paint_beam(beam, words) {
         const { reading, strength, bar, limit, sounds } = beam;
-        this.reading.hidden = reading === null;
+        this.reading.style.visibility = reading === null ? "hidden" : ""; // its room goes once no finger is down
         if (reading !== null) {
             paint_value(this.reading, reading, reading.mark);
             set_text(this.reading.children[3], `${shapes[reading.mark]} ${reading.word} · ${reading.age}`);
