@@ -84,7 +84,9 @@ function take_status(status) {
 
 /** With the first word of the station, when it is back (it may have forgotten this browser), and when it refused an order. */
 async function ask_rights() {
-    shown.session = (await ask_session((path, options) => fetch(path, options))) ?? shown.session;
+    const session = await ask_session((path, options) => fetch(path, options));
+    if (session === null || JSON.stringify(session) === JSON.stringify(shown.session)) return; // a finger may lie on the settings
+    shown.session = session;
     paint_settings();
 }
 

@@ -18,6 +18,7 @@ export class StoredScreens {
         this.wanted = ""; // id of the run that Result shows; empty: the newest
         /** @type {import("./stored_runs.js").StoredResult | null} */
         this.result = null;
+        this.is_new = false; // the view has not taken it yet
         this.answer = { sentence: "", none: false, asked: false };
         this.question = 0;
         this.seen = ""; // of the status: its change makes another certificate
@@ -49,11 +50,11 @@ export class StoredScreens {
         const question = ++this.question;
         const { found, sentence, none } = await ask_result(this.wanted, this.fetcher);
         if (question !== this.question) return;
+        const same = JSON.stringify(found) === JSON.stringify(this.result);
         this.answer = { sentence, none, asked: true };
         if (found === null && sentence === "" && !none) return; // no answer came: what is shown stays, the strip tells of it
-        const same = found !== null && JSON.stringify(found) === JSON.stringify(this.result);
         this.result = found;
-        if (found !== null && !same) this.result_view.take(found); // an open table stays open
+        if (found !== null && !same) this.is_new = true; // else an open table stays open
     }
 
     /** Asks anew when a run has begun, ended or got its certificate. @param {string} screen @param {any} status @param {boolean} contact */
@@ -67,9 +68,11 @@ export class StoredScreens {
         if (screen === "history" && this.list.is_short()) void this.list.search(this.list.text);
     }
 
-    /** @param {string} screen @param {Catalogue} words */
+    /** Never while a finger is down. @param {string} screen @param {Catalogue} words */
     paint(screen, words) {
         if (screen === "history") return this.history_view.paint(this.list, words);
+        if (this.is_new && this.result !== null) this.result_view.take(this.result);
+        this.is_new = false;
         const { sentence, none, asked } = this.answer;
         const told = sentence !== "" ? sentence : words.text(none ? "no_runs" : asked ? "no_answer" : "order_waits");
         this.result_view.paint(this.result, told, words);
