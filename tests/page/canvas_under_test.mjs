@@ -38,6 +38,9 @@ class Canvas {
     stroke(shape) {
         this.note("stroke", this.state.strokeStyle, { path: shape?.path });
     }
+    measureText(text) {
+        return { width: 11.5 * text.length };
+    }
     fillText(text, x, y) {
         this.note("text", this.state.fillStyle, { text, x, y });
     }

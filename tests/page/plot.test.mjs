@@ -126,7 +126,9 @@ test("a station of before has no lines of means", () => {
     assert.deepEqual(sides.flatMap(({ means, bands }) => [...means, ...bands]), []);
 });
 
-const room = Object.freeze({ left: 40, right: 600 });
+// As wide as 18 pixels of DejaVu Sans: a digit takes 11.45 of them, an m 17.5.
+const width_of = (text) => [...text].reduce((sum, one) => sum + (one === "m" ? 17.5 : one === " " || one === "." ? 5.7 : 11.45), 0);
+const room = Object.freeze({ left: 40, right: 600, width_of });
 const spread_over = (count, width = 500) =>
     Array.from({ length: count }, (_, target) => ({ target, x: 80 + (count === 1 ? 0 : (target * width) / (count - 1)) }));
 const texts_of = (labels) => labels.map(({ text }) => text);
@@ -141,9 +143,16 @@ test("the first and the last target have their place, those between their names 
 
 test("with little room the two places stand without names, and then the last alone", () => {
     const ends = { first: "-1000.125", last: "1000.125 mm" };
-    const narrow = { left: 40, right: 300 };
+    const narrow = { left: 40, right: 300, width_of };
     assert.deepEqual(texts_of(labels_of(spread_over(2, 200), ends, narrow)), ["-1000.125", "1000.125 mm"]);
-    assert.deepEqual(texts_of(labels_of(spread_over(2, 60), ends, { left: 40, right: 180 })), ["1000.125 mm"]);
+    assert.deepEqual(texts_of(labels_of(spread_over(2, 60), ends, { left: 40, right: 180, width_of })), ["1000.125 mm"]);
+});
+
+test("a name that would touch the place of the last target gives way by the width of its letters", () => {
+    // At 800 by 480, of five targets from 28.741 to 333.504 mm: P3 ended where the place began.
+    const shown = [485, 531, 567, 600, 667].map((x, target) => ({ target, x }));
+    const labels = labels_of(shown, { first: "28.741", last: "333.504 mm" }, { left: 40, right: 696, width_of });
+    assert.deepEqual(texts_of(labels), ["28.741", "333.504 mm"]);
 });
 
 test("a plan of one target has one name with its place", () => {
@@ -155,7 +164,7 @@ test("names stand apart, and within their room, of two hundred targets too", () 
         for (const count of [2, 7, 11, 50, 200]) {
             const labels = labels_of(spread_over(count), places, room);
             const reach = labels.map(({ text, x, anchor }) => {
-                const wide = text.length * 10;
+                const wide = width_of(text);
                 return anchor === "start" ? [x, x + wide] : anchor === "end" ? [x - wide, x] : [x - wide / 2, x + wide / 2];
             });
             assert.ok(labels.length >= 2, `${count}`);

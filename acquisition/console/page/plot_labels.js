@@ -1,28 +1,25 @@
 // What stands below the plot: names of the targets, and the place of the first and of the last one. No DOM.
 
-const character_width = 10.5; // of 18 px, the widest digits that were seen; a guess too wide only leaves a name out
 const gap = 8;
 
-/** @typedef {{text: string, x: number, anchor: "start" | "middle" | "end"}} Label */
-
-/** @param {string} text */
-const width_of = (text) => text.length * character_width;
+/** @typedef {{text: string, x: number, anchor: "start" | "middle" | "end", width: number}} Label */
+/** @typedef {{left: number, right: number, width_of: (text: string) => number}} Room  pixels */
 
 /** @param {Label} label @returns {[number, number]} */
-function reach_of({ text, x, anchor }) {
-    const low = anchor === "start" ? x : anchor === "end" ? x - width_of(text) : x - width_of(text) / 2;
-    return [low, low + width_of(text)];
+function reach_of({ x, anchor, width }) {
+    const low = anchor === "start" ? x : anchor === "end" ? x - width : x - width / 2;
+    return [low, low + width];
 }
 
 /**
  * In the middle below its target, or as near to that as the room allows.
- * @param {string} text @param {number} x @param {{left: number, right: number}} room @returns {Label}
+ * @param {string} text @param {number} x @param {Room} room @returns {Label}
  */
-function within(text, x, room) {
-    const half = width_of(text) / 2;
-    if (x - half < room.left) return { text, x: room.left, anchor: "start" };
-    if (x + half > room.right) return { text, x: room.right, anchor: "end" };
-    return { text, x, anchor: "middle" };
+function within(text, x, { left, right, width_of }) {
+    const width = width_of(text);
+    if (x - width / 2 < left) return { text, x: left, anchor: "start", width };
+    if (x + width / 2 > right) return { text, x: right, anchor: "end", width };
+    return { text, x, anchor: "middle", width };
 }
 
 /** @param {Label[]} labels  from left to right */
@@ -35,7 +32,7 @@ const name_of = (target) => `P${target + 1}`;
 /**
  * The two ends with name and place; without the names, then without the first, where there is less room.
  * @param {{target: number, x: number}[]} shown @param {{first: string, last: string}} places
- * @param {{left: number, right: number}} room @returns {Label[]}
+ * @param {Room} room @returns {Label[]}
  */
 function ends_of(shown, places, room) {
     const [first, last] = [shown[0], shown[shown.length - 1]];
@@ -51,13 +48,14 @@ function ends_of(shown, places, room) {
  * As many names as have room: of every target, of every second, fifth, tenth, ...
  * @param {{target: number, x: number}[]} shown  from left to right
  * @param {{first: string, last: string} | null} places  null: not known
- * @param {{left: number, right: number}} room
+ * @param {Room} room
  * @returns {Label[]} from left to right
  */
 export function labels_of(shown, places, room) {
     if (shown.length === 0) return [];
     const ends = places === null ? [] : ends_of(shown, places, room);
-    const names = shown.map(({ target, x }) => ({ target, label: /** @type {Label} */ ({ text: name_of(target), x, anchor: "middle" }) }));
+    const name_at = (text, x) => /** @type {Label} */ ({ text, x, anchor: "middle", width: room.width_of(text) });
+    const names = shown.map(({ target, x }) => ({ target, label: name_at(name_of(target), x) }));
     for (let power = 1; power <= shown.length * 10; power *= 10)
         for (const every of [power, 2 * power, 5 * power]) {
             const some = names.filter(({ target }) => target % every === 0).map(({ label }) => label);

@@ -65,6 +65,12 @@ export class PlotPen {
         this.drawn[name] += 1;
     }
 
+    /** @param {string} text @returns {number} pixels of the page */
+    width_of(text) {
+        this.context.font = this.font;
+        return this.context.measureText(text).width;
+    }
+
     /** @param {string} text @param {number} x @param {number} y  of its foot @param {"start" | "middle" | "end"} anchor */
     write(text, x, y, anchor) {
         const { context } = this;

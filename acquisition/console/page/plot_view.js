@@ -183,7 +183,7 @@ export class PlotView {
         const foot = frame.bottom + 24;
         pen.write(units.deviation, 4, foot, "start");
         const places = ends && { first: short_place(ends.first, words), last: `${short_place(ends.last, words)} ${units.place}` };
-        const room = { left: 24 + 12 * units.deviation.length, right: frame.right + 12 };
+        const room = { left: 16 + pen.width_of(units.deviation), right: frame.right + 12, width_of: (text) => pen.width_of(text) };
         for (const { text, x, anchor } of labels_of(targets, places, room)) pen.write(text, x, foot, anchor);
         if (drawn.limits !== null) pen.write(limit_text(drawn.limits, this.now()), frame.left + 6, limit_foot(limit_ys[0], frame), "start");
         const above_zero = frame.top + 0.375 * (frame.bottom - frame.top) + 6; // between two lines of the empty grid
