@@ -83,10 +83,13 @@ class Bench:
         self.running.append(process)
         return process
 
-    def axiscal(self, *words, limit_s=PATIENCE_S):
-        done = subprocess.run([self.programs["axiscal"], *map(str, words)], cwd=self.scratch,
+    def ask(self, *words, limit_s=PATIENCE_S):
+        return subprocess.run([self.programs["axiscal"], *map(str, words)], cwd=self.scratch,
                               stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               timeout=limit_s, env=self.environment)
+
+    def axiscal(self, *words, limit_s=PATIENCE_S):
+        done = self.ask(*words, limit_s=limit_s)
         assert done.returncode == 0, f"axiscal {words}: {done.stdout}{done.stderr}"
         return done.stdout
 
@@ -133,6 +136,18 @@ class Bench:
         return subprocess.run([self.programs["axiscal"], "preflight", "--pass", run], env=self.environment,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
+    def arm(self, alive, *words, run="whole"):
+        """As a person does who is told to wait: a busy computer may break the readings between the checks and the order."""
+        def armed():
+            if not self.may_arm(run):
+                return False
+            done = self.ask("arm", *words)
+            if done.returncode != 0:
+                print(done.stderr + done.stdout)
+            return done.returncode == 0
+
+        until(armed, "every pre-flight check to hold, and the run to be armed", alive)
+
     def make_ready(self, name="X-whole.ngc", *words):
         """Everything before `axiscal arm`; `words` go to `axiscal program`, too. @returns axiscald, LinuxCNC
         and the part program."""
@@ -151,8 +166,7 @@ class Bench:
         """Everything up to `axiscal arm`, which gets the `words`, too. @returns axiscald, LinuxCNC and the
         part program."""
         daemon, cnc, program = self.make_ready(name, *words)
-        until(self.may_arm, "every pre-flight check to hold", [daemon, cnc])
-        self.axiscal("arm", "--program", program, *words)
+        self.arm([daemon, cnc], "--program", program, *words)
         return daemon, cnc, program
 
     def reach_the_end(self, cnc):

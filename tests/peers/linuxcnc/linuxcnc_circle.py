@@ -56,8 +56,7 @@ def drive(bench):
     bench.scenario = bench.source / "tests/peers/linuxcnc/quiet-circle.toml"
     bench.station = bench.source / "tests/peers/linuxcnc/circle-station.toml.in"
     daemon, cnc, _ = bench.make_ready("XY-circular.ngc")
-    until(lambda: bench.may_arm("circular"), "every pre-flight check to hold", [daemon, cnc])
-    bench.axiscal("arm", "--pass", "circular")
+    bench.arm([daemon, cnc], "--pass", "circular", run="circular")
     assert cnc.wait(RUN_LIMIT_S) == 0, f"LinuxCNC: {(bench.scratch / 'cnc.events').read_text()}"
     until(lambda: bench.status()["run"]["certificate"] or bench.status()["run"]["sentence"],
           "the certificate", [daemon], RUN_LIMIT_S)  # its figures take a sanitizer 20 s of a processor

@@ -8,7 +8,7 @@ import json
 import math
 import sys
 
-from linuxcnc_bench import FIVE_TARGETS, PATIENCE_S, run_in_bench, until
+from linuxcnc_bench import FIVE_TARGETS, PATIENCE_S, run_in_bench
 from linuxcnc_figures import judge_points
 
 POINTS = 10
@@ -75,8 +75,7 @@ def prepare(bench, quiet, letter):
 def measure(bench, letter, kind):
     """@returns the certificate, and the part program."""
     daemon, cnc, program = bench.make_ready(f"{letter}-{kind}.ngc")
-    until(lambda: bench.may_arm(kind), "every pre-flight check to hold", [daemon, cnc])
-    bench.axiscal("arm", "--program", program)
+    bench.arm([daemon, cnc], "--program", program, run=kind)
     bench.reach_the_end(cnc)
     folder = next((bench.scratch / "state/outbox").glob(f"*-{letter}"))
     judge_points(next(folder.glob("*.axiscal")), POINTS)

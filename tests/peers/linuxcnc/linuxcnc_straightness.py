@@ -6,7 +6,7 @@ the machine hides. Ten of ten points in order; each figure within the bound that
 import json
 import sys
 
-from linuxcnc_bench import FIVE_TARGETS, run_in_bench, until
+from linuxcnc_bench import FIVE_TARGETS, run_in_bench
 from linuxcnc_figures import judge_points
 
 POINTS = 10
@@ -60,8 +60,7 @@ def measure(bench):
     bench.scenario = scenario
     bench.changes = {**FIVE_TARGETS, "[cycle]\n": STATED}
     daemon, cnc, program = bench.make_ready("X-straightness.ngc")
-    until(lambda: bench.may_arm("straightness"), "every pre-flight check to hold", [daemon, cnc])
-    bench.axiscal("arm", "--program", program)
+    bench.arm([daemon, cnc], "--program", program, run="straightness")
     folder = bench.reach_the_end(cnc)
     judge_points(next(folder.glob("*.axiscal")), POINTS)
     print(f"{POINTS} of {POINTS} points in order")
