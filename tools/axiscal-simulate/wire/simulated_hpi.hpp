@@ -27,7 +27,7 @@ public:
     void steer(double angle_rad);
 
 private:
-    void show();
+    [[nodiscard]] std::string next_frames(); // one distance, and the sensors when they are due
     [[nodiscard]] std::string sensors(double seconds) const;
     void write(const std::string& frames);
 
