@@ -55,6 +55,7 @@ const shown = {
     session: not_asked(),
     contact: false,
     message: "",
+    rights_are_new: false, // since the settings were painted
     rights_said: "", // what the station answered to an end of the pairing that failed
     version: "",
 };
@@ -85,9 +86,8 @@ function take_status(status) {
 /** With the first word of the station, when it is back (it may have forgotten this browser), and when it refused an order. */
 async function ask_rights() {
     const session = await ask_session((path, options) => fetch(path, options));
-    if (session === null || JSON.stringify(session) === JSON.stringify(shown.session)) return; // a finger may lie on the settings
-    shown.session = session;
-    paint_settings();
+    shown.session = session ?? shown.session;
+    shown.rights_are_new = true; // a finger may lie on the settings
 }
 
 function take_points(event) {
@@ -298,6 +298,7 @@ function go_to(screen) {
 }
 
 function paint_settings() {
+    shown.rights_are_new = false;
     const { session, version, rights_said } = shown;
     doctor?.make_settings(by_id("doctor_settings"), { language, theme, version, session, rights_said }, { choose, pair, unpair }, words);
 }
@@ -350,7 +351,7 @@ function paint(at) {
     if (status === null) return;
     paint_head(status);
     const heard = { contact: view.contact, status_age_ms: at - shown.status_at };
-    if (shown.screen === "doctor") return guard.is_pressed() ? undefined : doctor?.paint_tasks(by_id("doctor_tasks"), tasks, status.notes, view.contact, words);
+    if (shown.screen === "doctor") return guard.is_pressed() ? undefined : paint_doctor(tasks, status.notes, view.contact);
     if (shown.screen === "setup") return setup?.paint(status, kept, heard, { judged: shown.judged, at, pressed: guard.is_pressed(), refusal: refusal_of(shown.session) }, words);
     stored?.hear(shown.screen, status, view.contact);
     const name = shown.screen;
@@ -364,6 +365,11 @@ function paint(at) {
     paint_so_far(by_id(`${name}_so_far`), run_shown(status, words), extra);
     (name === "run" ? run_plot : now_plot).paint(accepted, status, shown.picked, words);
     if (name === "run" && !by_id("run_table").hidden) table.paint(accepted, status, words);
+}
+
+function paint_doctor(tasks, notes, contact) {
+    if (shown.rights_are_new) paint_settings();
+    doctor?.paint_tasks(by_id("doctor_tasks"), tasks, notes, contact, words);
 }
 
 function paint_now_cells(cells) {

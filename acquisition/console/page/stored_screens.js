@@ -71,8 +71,9 @@ export class StoredScreens {
     /** Never while a finger is down. @param {string} screen @param {Catalogue} words */
     paint(screen, words) {
         if (screen === "history") return this.history_view.paint(this.list, words);
-        if (this.is_new && this.result !== null) this.result_view.take(this.result);
+        const { is_new } = this;
         this.is_new = false;
+        if (is_new && this.result !== null) this.result_view.take(this.result);
         const { sentence, none, asked } = this.answer;
         const told = sentence !== "" ? sentence : words.text(none ? "no_runs" : asked ? "no_answer" : "order_waits");
         this.result_view.paint(this.result, told, words);
