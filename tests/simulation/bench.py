@@ -110,10 +110,16 @@ def wait_until(what, probe, limit_s):
         time.sleep(LOOK_S)
 
 
+GIVEN_PORTS = set()
+
+
 def free_port():
-    """A TCP port that nobody listens on, below the range that the kernel gives to clients."""
+    """A TCP port that nobody listens on, and that was not given before, below the range that the kernel gives to clients."""
     while True:
         port = random.SystemRandom().randint(12000, 32000)
+        if port in GIVEN_PORTS:
+            continue
+        GIVEN_PORTS.add(port)
         with socket.socket() as probe, contextlib.suppress(OSError):
             probe.bind(("127.0.0.1", port))
             return port
