@@ -2,7 +2,7 @@
 
 import json
 
-from page_bench import bench, expect, go, in_mid_run, opened, pair_with, sentence
+from page_bench import HEAR_THROUGH, bench, expect, go, in_mid_run, opened, pair_with, sentence
 
 LONGEST_PRESS_MS = 1500  # a hand that rests on the screen does not keep it from changing for ever (touch_guard.js)
 ROUNDS = 20  # of presses, until one was as short as that: a computer that is busy looks late
@@ -11,7 +11,7 @@ SIZES = [(1280, 800), (800, 480), (390, 844)]
 UNDER = {"now": "#now_cells .cell", "setup": "#setup_devices li", "run": "[data-order=retake]", "doctor": "#doctor_tasks li"}
 
 # Everything that a station can say anew at once, while window.says_other holds: the run is gone, troubles have come, a device is lost, another one is new.
-OTHER_WORDS = """
+OTHER_WORDS = HEAR_THROUGH + """
 window.says_other = false;
 const trouble = (nth) => ({id: `trouble/${nth}`, rank: 'look', source: 'test', seen: `Trouble ${nth} is seen. `.repeat(12), since_utc: '', next: 'Mend it.', command: 'mend', undo: ''});
 const other = (status) => {
@@ -20,23 +20,8 @@ const other = (status) => {
     return {...status, run: null, run_open: false, to_do: [1, 2, 3, 4].map(trouble), instruments: [{...told, name: 'new'}, told, ...rest],
             channels: status.channels.slice(3), notes: [...status.notes, 'A note. '.repeat(40)]};
 };
-const asked_itself = window.fetch;
-window.fetch = async (...asked) => {
-    const answer = await asked_itself(...asked);
-    if (asked[0] !== '/v1/events' || !answer.ok) return answer;
-    const decoder = new TextDecoder(), encoder = new TextEncoder();
-    let rest = '';
-    const speaker = new TransformStream({transform(bytes, onward) {
-        const events = (rest + decoder.decode(bytes, {stream: true})).split('\\n\\n');
-        rest = events.pop();
-        for (const event of events) {
-            const changes = window.says_other && /^event: status$/m.test(event);
-            const said = changes ? event.replace(/^data: (.*)$/m, (_, data) => 'data: ' + JSON.stringify(other(JSON.parse(data)))) : event;
-            onward.enqueue(encoder.encode(said + '\\n\\n'));
-        }
-    }});
-    return new Response(answer.body.pipeThrough(speaker), answer);
-};
+const data_of = (event, change) => event.replace(/^data: (.*)$/m, (_, data) => 'data: ' + JSON.stringify(change(JSON.parse(data))));
+hear_through((event) => [window.says_other && is_status(event) ? data_of(event, other) : event]);
 window.places = () => [...document.querySelectorAll('nav *, main *')].filter((one) => one.checkVisibility() && !one.closest('.reading, .next, .drawing, .orders button *'))
     .map((one) => ({one, at: one.getBoundingClientRect(), text: one.innerText}));
 window.moved = () => window.held.filter(({one, at}) => {

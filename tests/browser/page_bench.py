@@ -27,6 +27,26 @@ window.late_ms = 0;
     }, 20);
 }
 """
+# A script for the page, before its own: `hear_through(change)` lets each event of the station, a text, pass through change, which gives back
+# a list of events in its place.
+HEAR_THROUGH = r"""
+const hear_through = (change) => {
+    const asked_itself = window.fetch;
+    window.fetch = async (...asked) => {
+        const answer = await asked_itself(...asked);
+        if (asked[0] !== '/v1/events' || !answer.ok) return answer;
+        const decoder = new TextDecoder(), encoder = new TextEncoder();
+        let rest = '';
+        const between = new TransformStream({transform(bytes, onward) {
+            const events = (rest + decoder.decode(bytes, {stream: true})).split('\n\n');
+            rest = events.pop();
+            for (const event of events.flatMap(change)) onward.enqueue(encoder.encode(event + '\n\n'));
+        }});
+        return new Response(answer.body.pipeThrough(between), answer);
+    };
+};
+const is_status = (event) => /^event: status$/m.test(event);
+"""
 
 
 def with_page(b):

@@ -2,7 +2,7 @@
 
 import json
 
-from page_bench import NOTE_LATENESS, bench, expect, go, in_mid_run, opened, sentence
+from page_bench import HEAR_THROUGH, NOTE_LATENESS, bench, expect, go, in_mid_run, opened, sentence
 
 OLDEST_S = 2  # of air and material, as this station file has it
 TICKS_S = 0.2  # for so long the page may wait until it looks again (docs/page.md)
@@ -10,26 +10,16 @@ SILENT, OTHER = "contact 1", "air temperature"
 
 # Notes by the page's own clock how long after its last reading the cell was marked. What the station sends says how old a reading is. A cell
 # that is good again was not marked for good.
-WATCH = """
+WATCH = HEAR_THROUGH + """
 window.after_ms = null;
 let read_at = -Infinity;
-const asked_itself = window.fetch;
-window.fetch = async (...asked) => {
-    const answer = await asked_itself(...asked);
-    if (asked[0] !== '/v1/events' || !answer.ok) return answer;
-    const decoder = new TextDecoder();
-    let rest = '';
-    const onlooker = new TransformStream({transform(bytes, onward) {
-        const events = (rest + decoder.decode(bytes, {stream: true})).split('\\n\\n');
-        rest = events.pop();
-        for (const event of events.filter((one) => /^event: status$/m.test(one))) {
-            const {channels} = JSON.parse(/^data: (.*)$/m.exec(event)[1]);
-            read_at = performance.now() - 1000 * (channels.find(({channel}) => channel === SILENT).age_s ?? Infinity);
-        }
-        onward.enqueue(bytes);
-    }});
-    return new Response(answer.body.pipeThrough(onlooker), answer);
-};
+hear_through((event) => {
+    if (is_status(event)) {
+        const {channels} = JSON.parse(/^data: (.*)$/m.exec(event)[1]);
+        read_at = performance.now() - 1000 * (channels.find(({channel}) => channel === SILENT).age_s ?? Infinity);
+    }
+    return [event];
+});
 const cell = () => [...document.querySelectorAll('#now_cells .cell')].find((one) => one.querySelector('.label').textContent === SILENT);
 new MutationObserver(() => {
     const stale = cell()?.dataset.mark === 'stale';

@@ -1,6 +1,6 @@
 """A page that stands for long holds no more than in the beginning: what it holds is counted, and no clock judges it."""
 
-from page_bench import Browser, bench, expect, in_mid_run, points_drawn, sentence
+from page_bench import HEAR_THROUGH, Browser, bench, expect, in_mid_run, points_drawn, sentence
 
 SECOND_FRAMES = 20  # as many as the station sends at most
 FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
@@ -8,26 +8,14 @@ HEAP_KIB = 512
 COUNTED = ("documents", "nodes", "jsEventListeners")
 
 # Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
-MANIFOLD = r"""
+MANIFOLD = HEAR_THROUGH + """
 window.times = 1;
 window.heard = 0;
-const asked_itself = window.fetch;
-window.fetch = async (...asked) => {
-    const answer = await asked_itself(...asked);
-    if (asked[0] !== '/v1/events' || !answer.ok) return answer;
-    const decoder = new TextDecoder(), encoder = new TextEncoder();
-    let rest = '';
-    const manifold = new TransformStream({transform(bytes, onward) {
-        const events = (rest + decoder.decode(bytes, {stream: true})).split('\n\n');
-        rest = events.pop();
-        for (const event of events) {
-            const times = /^event: status$/m.test(event) ? window.times : 1;
-            for (let nth = 0; nth < times; nth += 1) onward.enqueue(encoder.encode(event + '\n\n'));
-            window.heard += times;
-        }
-    }});
-    return new Response(answer.body.pipeThrough(manifold), answer);
-};
+hear_through((event) => {
+    const times = is_status(event) ? window.times : 1;
+    window.heard += times;
+    return Array(times).fill(event);
+});
 """
 
 
