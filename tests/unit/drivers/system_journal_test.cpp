@@ -15,7 +15,9 @@
 #include <optional>
 #include <poll.h>
 #include <random>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -186,6 +188,20 @@ TEST(SystemJournal, IsFoundAgainAfterItWasRestarted) {
     EXPECT_TRUE(journal.heard().starts_with("MESSAGE=after\n"));
 }
 
+/// Lines that the stream says are missing; it tells nothing else. They go in one gap, or in two
+/// where the thread came up so late that some went before it took its first.
+int missing_by(const std::string& streamed) {
+    constexpr std::string_view told = "<4>axiscald: ";
+    std::istringstream text{streamed};
+    int missing = 0;
+    for (std::string line; std::getline(text, line);) {
+        EXPECT_TRUE(line.starts_with(told)) << line;
+        if (line.starts_with(told)) missing += std::stoi(line.substr(told.size()));
+    }
+    EXPECT_GT(missing, 0) << "nothing was told: " << streamed;
+    return missing;
+}
+
 /// The kernel keeps a few datagrams for a reader, so that a sender waits soon.
 TEST(SystemJournal, ThatHangsHoldsNobodyUpWhoLogsNorTheEnd) {
     const Journal journal;
@@ -203,9 +219,7 @@ TEST(SystemJournal, ThatHangsHoldsNobodyUpWhoLogsNorTheEnd) {
         entry = journal.heard(); // of the thread that was left behind
         ASSERT_NE(entry, "");
     }
-    const std::string gap = journal.streamed(), told = "<4>axiscald: ";
-    ASSERT_TRUE(gap.starts_with(told)) << gap;
-    EXPECT_EQ(arrived + std::stoi(gap.substr(told.size())), lines) << gap;
+    EXPECT_EQ(arrived + missing_by(journal.streamed()), lines);
 }
 
 /// As systemd sets it for a service; gone with the test.
