@@ -22,13 +22,13 @@ def open_sheet(page, order):
 
 
 def pick_first_point(page):
-    """In the table of the run's points."""
+    """In the table of the run's points, which is closed by that. The page paints a moment after the touch."""
 
     def picked():
-        if page.text("#run_picked"):
+        table_is_open = page.ask("document.querySelector('#run_table').hidden === false")
+        if page.text("#run_picked") and not table_is_open:
             return True
-        place = "#run_table td button" if page.ask("document.querySelector('#run_table').hidden === false") else "#run_plot .table_button"
-        page.element(place).click()
+        page.element("#run_table td button" if table_is_open else "#run_plot .table_button").click()
         return False
 
     page.wait("a point is picked", picked)
