@@ -1,22 +1,11 @@
 """A page that stands for long holds no more than in the beginning: what it holds is counted, and no clock judges it."""
 
-from page_bench import HEAR_THROUGH, Browser, bench, expect, in_mid_run, points_drawn, sentence
+from page_bench import MANIFOLD, Browser, bench, expect, in_mid_run, points_drawn, sentence
 
 SECOND_FRAMES = 20  # as many as the station sends at most
 FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
 HEAP_KIB = 512
 COUNTED = ("documents", "nodes", "jsEventListeners")
-
-# Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
-MANIFOLD = HEAR_THROUGH + """
-window.times = 1;
-window.heard = 0;
-hear_through((event) => {
-    const times = is_status(event) ? window.times : 1;
-    window.heard += times;
-    return Array(times).fill(event);
-});
-"""
 
 
 def held(page):
