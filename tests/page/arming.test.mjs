@@ -1,9 +1,27 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { arming_of, override_fields } from "../../acquisition/console/page/actions.js";
-import { words_of } from "./page_under_test.mjs";
+import { arming_fields, arming_of, override_fields, revising_fields } from "../../acquisition/console/page/order_fields.js";
+import { status_of, words_of } from "./page_under_test.mjs";
 
 const check_of = (name, changed = {}) => ({ name, passed: false, warning: false, verdict: "not yet", override: "", ...changed });
+
+test("the sheet that arms asks all that the interface takes, each by a label of its own", () => {
+    const fields = arming_fields(status_of(), "Jo", words_of("en"));
+    assert.deepEqual(fields.map(({ name }) => name), ["datum_mm", "pass", "seed", "by", "state", "control_compensation"]);
+    assert.equal(new Set(fields.map(({ label }) => label)).size, fields.length);
+    assert.equal(fields.find(({ name }) => name === "by")?.value, "Jo");
+    assert.deepEqual(fields.find(({ name }) => name === "state")?.choices?.map(([value]) => value), ["", "as found", "as left", "raw"]);
+});
+
+test("the datum is asked in the unit of the axis", () => {
+    const label_of = (kind) => arming_fields(status_of({ axis: { ...status_of().axis, kind } }), "", words_of("en"))[0].label;
+    assert.match(label_of("linear"), /mm/);
+    assert.match(label_of("rotary"), /°/);
+});
+
+test("the sheet that takes a point back asks why, and who", () => {
+    assert.deepEqual(revising_fields("Jo", words_of("en")).map(({ name, value }) => [name, value]), [["reason", undefined], ["by", "Jo"]]);
+});
 
 test("what is stated of the machine stands apart, as the interface has it", () => {
     assert.deepEqual(arming_of({ datum_mm: -5, pass: "whole", by: "", state: "as found", control_compensation: "none" }),

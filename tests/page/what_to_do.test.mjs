@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { buttons_of, revision_of } from "../../acquisition/console/page/actions.js";
+import { buttons_of } from "../../acquisition/console/page/actions.js";
+import { revision_of } from "../../acquisition/console/page/order_fields.js";
 import { answer_text } from "../../acquisition/console/page/order_sheet.js";
 import { lacks_rights, send_order } from "../../acquisition/console/page/orders.js";
 import { task_head, task_line, task_lines, what_to_do } from "../../acquisition/console/page/what_to_do.js";

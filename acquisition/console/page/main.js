@@ -2,15 +2,15 @@
 // modules beside this one.
 
 import { AcceptedPoints, still_picked } from "./accepted_points.js";
-import { arming_of, buttons_of, override_fields, revision_of, without_empty } from "./actions.js";
+import { buttons_of } from "./actions.js";
 import { Catalogue, choose_language, pseudo_language, pseudo_table } from "./catalogue.js";
 import { SleeplessClock } from "./clock.js";
 import { by_id, make, set_attribute, set_text } from "./dom.js";
 import { EventLink } from "./event_link.js";
 import { KeptValues } from "./freshness.js";
 import { LinkState } from "./link_state.js";
-import { axis_units } from "./number_text.js";
 import { OrderBar } from "./order_bar.js";
+import { arming_fields, arming_of, override_fields, revising_fields, revision_of, without_empty } from "./order_fields.js";
 import { OrderSheet, answer_text } from "./order_sheet.js";
 import { delete_order, lacks_rights, send_order } from "./orders.js";
 import { ask_session, not_asked, refusal_of } from "./pairing.js";
@@ -145,40 +145,19 @@ const bar = new OrderBar(by_id("run_orders"), give);
 /** @param {import("./order_bar.js").Asked} order */
 function give(order) {
     if (order === "pair") return pair();
-    const by = { name: "by", label: words.text("by"), kind: /** @type {const} */ ("text"), value: remembered("by") ?? "" };
-    const reason = { name: "reason", label: words.text("reason"), kind: /** @type {const} */ ("text") };
+    const by = remembered("by") ?? "";
     const { picked } = shown;
     shown.revises = order === "retake" || order === "exclude";
-    if (order === "abort") return void send_at_once("/v1/run/abort", without_empty({ by: by.value }), order);
+    if (order === "abort") return void send_at_once("/v1/run/abort", without_empty({ by }), order);
     if (order === "trigger") return void send_at_once("/v1/run/trigger", null, order);
     if (order === "arm") {
-        const unit = words.unit(axis_units(shown.status.axis).coordinate);
-        const datum = { name: "datum_mm", label: words.text("datum", { unit }), kind: /** @type {const} */ ("number") };
-        const seed = { name: "seed", label: words.text("seed"), kind: /** @type {const} */ ("number"), decimals: 0 };
-        const fields = [datum, kind_of_test(), seed, by, ...stated_of_machine()];
+        const fields = arming_fields(shown.status, by, words);
         return sheet.open(words.text(order), fields, (values) => send("/v1/run", arming_of(values)), words, (answer) => override_fields(answer, words));
     }
     if (picked === null) return;
     /** @param {Record<string, string | number>} typed */
-    const revise = ({ reason: why, by: who }) => send(`/v1/run/${order}`, revision_of(picked, String(why), String(who)));
-    sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, [reason, by], revise, words);
-}
-
-/** @returns {import("./order_sheet.js").Field} */
-function kind_of_test() {
-    /** @type {[string, string][]} */
-    const choices = ["whole", "stretch", "circular", "straightness", "squareness"].map((pass) => [pass, words.text(`pass_${pass}`)]);
-    return { name: "pass", label: words.text("pass"), kind: "choice", choices };
-}
-
-/** What the certificate says of the machine, where the station file does not say it. @returns {import("./order_sheet.js").Field[]} */
-function stated_of_machine() {
-    /** @type {[string, string][]} */
-    const states = [["", words.text("as_in_file")], ["as found", words.text("state_as_found")], ["as left", words.text("state_as_left")], ["raw", words.text("state_raw")]];
-    return [
-        { name: "state", label: words.text("state_asked"), kind: /** @type {const} */ ("choice"), choices: states },
-        { name: "control_compensation", label: words.text("compensation_asked"), kind: /** @type {const} */ ("text") },
-    ];
+    const revise = ({ reason, by: who }) => send(`/v1/run/${order}`, revision_of(picked, String(reason), String(who)));
+    sheet.open(`${words.text(order)}: ${point_text(picked, shown.status, words)}`, revising_fields(by, words), revise, words);
 }
 
 /** The code is shown at the station; what it answers to a wrong one stands on the sheet. */
