@@ -1,8 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { AcceptedPoints } from "../../acquisition/console/page/accepted_points.js";
+import { ResultView } from "../../acquisition/console/page/result_view.js";
 import { StoredScreens } from "../../acquisition/console/page/stored_screens.js";
 import { words_of } from "./page_under_test.mjs";
-import { result_with, station_that } from "./stored_under_test.mjs";
+import { certificate_of, result_with, station_that } from "./stored_under_test.mjs";
 
 /** Without its views, which need a browser: one that notes what it takes stands in the place of Result's. */
 function screens_that_show(results) {
@@ -41,4 +43,13 @@ test("a result that can not be drawn is tried once, and the page goes on", async
     await screens.ask();
     assert.throws(() => paint(screens), /odd/);
     assert.doesNotThrow(() => paint(screens));
+});
+
+test("beside a certificate that is odd stands nothing of the one before", () => {
+    const places = { table: { hidden: false } };
+    const view = Object.assign(Object.create(ResultView.prototype), { places, readings: new AcceptedPoints(), shown: "of before", has_plot: false });
+    view.take(result_with());
+    assert.equal(view.has_plot, true);
+    assert.throws(() => view.take(result_with({}, { ...certificate_of(), positions: [null] })));
+    assert.deepEqual([view.has_plot, view.shown, places.table.hidden], [false, "", true]);
 });

@@ -29,6 +29,7 @@ export class ResultView {
         this.picked_line = make("p", "picked");
         this.table_button = this.button_to_table();
         this.shown = "";
+        this.has_plot = false;
     }
 
     button_to_table() {
@@ -49,9 +50,12 @@ export class ResultView {
 
     /** Another run, or the same with another certificate. @param {StoredResult} result */
     take(result) {
-        const found = points_of_certificate(result.certificate);
+        // First, also where the certificate is odd: nothing of what was shown before stands beside it.
+        this.has_plot = false;
+        this.shown = "";
         this.places.table.hidden = true;
         this.picked = null;
+        const found = points_of_certificate(result.certificate);
         this.means = found?.means ?? [];
         const run = found && { id: found.event.run, so_far: { limits: found.limits } };
         this.status = { axis: found?.axis ?? { kind: "linear" }, run, run_open: false };
@@ -62,8 +66,9 @@ export class ResultView {
     /** @param {StoredResult | null} result @param {string} sentence  where there is none @param {Catalogue} words */
     paint(result, sentence, words) {
         const key = JSON.stringify([result?.id, this.readings.version, sentence, words.tag, words.text("result_none")]);
-        if (key !== this.shown) this.paint_texts(result, sentence, words);
-        this.shown = key;
+        const shown = this.shown;
+        this.shown = key; // what can not be drawn is tried once
+        if (key !== shown) this.paint_texts(result, sentence, words);
         this.places.plot.hidden = result === null || !this.has_plot;
         if (this.places.plot.hidden) return;
         set_text(this.table_button, words.text("show_table"));
@@ -74,12 +79,8 @@ export class ResultView {
 
     paint_texts(result, sentence, words) {
         const { head, said, papers } = this.places;
-        if (result === null) {
-            head.replaceChildren(make("div", "title", [sentence]));
-            said.replaceChildren();
-            papers.replaceChildren();
-            return;
-        }
+        for (const place of [head, said, papers]) place.replaceChildren(); // nothing of another run stays
+        if (result === null) return head.replaceChildren(make("div", "title", [sentence]));
         const texts = result_of(result, words);
         const verdict = make("div", "verdict", [make("span", "shape", [texts.said.shape]), " ", texts.said.word]);
         set_attribute(verdict, "data-verdict", texts.said.verdict);
