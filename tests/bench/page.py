@@ -10,8 +10,8 @@ a tenth of it; in the same run, one after the other. What twenty such clients do
 thousand the median and the one that 99 of 100 do not exceed, beside the twenty and without them, in turns. The page itself runs in Debian's Chromium: its heap after a collection at the
 beginning and at the end of some minutes, and the processor time of all its processes: AXISCAL_BENCH_PAGE_SECONDS says how many seconds, 28800 for a
 night. Of what lasts longer than ten minutes every ten are told on standard error, so that a night that is cut short has shown something.
-AXISCAL_BENCH_PAGE_TIMES lets the page live so many times as quick, by its clock, its timers and the station's words, each of which it hears so
-often: a night of its heap in less. What the browser draws it draws no quicker, so that this judges the heap alone.
+AXISCAL_BENCH_PAGE_TIMES=N runs the page's clock and timers N times as fast and gives it each status N times, so that the growth of the heap over a
+night is seen in an Nth of it. The browser draws no faster: then the heap alone is judged.
 """
 import contextlib
 import os
@@ -27,7 +27,7 @@ SOURCE = Path(__file__).resolve().parents[2]
 os.environ.setdefault("AXISCAL_SOURCE", str(SOURCE))
 os.environ["AXISCAL_PATH"] = str(Path(sys.argv[1]).resolve())
 sys.path[:0] = [str(SOURCE / "tests/browser")]
-from page_bench import MANIFOLD, Browser, bench, in_mid_run
+from page_bench import REPEATING, Browser, bench, in_mid_run
 
 CLIENTS, WATCH_S = 10, float(os.environ.get("AXISCAL_BENCH_CLIENT_SECONDS", "20"))
 PAGE_S = float(os.environ.get("AXISCAL_BENCH_PAGE_SECONDS", "300"))
@@ -136,7 +136,7 @@ new MutationObserver((_, watch) => {
 
 
 # Before the page's own: what it asks for the time, and has called later, goes so many times as quick.
-QUICK = MANIFOLD + f"""
+QUICK = REPEATING + f"""
 window.times = {TIMES};
 const at_first = performance.now(), date_at_first = Date.now();
 const monotonic = performance.now.bind(performance), every = window.setInterval, later = window.setTimeout;

@@ -11,10 +11,9 @@ import axe
 
 AXE = axe.require(os.environ["AXISCAL_AXE_FOLDER"])  # before a bench is made
 
-from page_bench import bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
+from page_bench import SCREENS, bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
 from page_hands import go, open_sheet, pick_first_point  # noqa: E402
 
-SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
 SIZES = [(390, 844), (1280, 800)]
 PANEL = (800, 480)
 COLOURS = ["light", "dark", "grey"]

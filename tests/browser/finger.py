@@ -2,11 +2,10 @@
 
 import json
 
-from page_bench import HEAR_THROUGH, bench, expect, go, in_mid_run, opened, pair_with, sentence
+from page_bench import HEAR_THROUGH, SIZES, bench, expect, go, in_mid_run, is_on, opened, pair_with, press, sentence
 
 LONGEST_PRESS_MS = 1500  # a hand that rests on the screen does not keep it from changing for ever (touch_guard.js)
 ROUNDS = 20  # of presses, until one was as short as that: a computer that is busy looks late
-SIZES = [(1280, 800), (800, 480), (390, 844)]
 # What a finger may mean on each screen: it is pressed in its middle.
 UNDER = {"now": "#now_cells .cell", "setup": "#setup_devices li", "run": "[data-order=retake]", "doctor": "#doctor_tasks li"}
 
@@ -29,15 +28,11 @@ window.moved = () => window.held.filter(({one, at}) => {
     const sides = one.localName === 'button' ? ['left', 'top', 'right', 'bottom'] : ['left', 'top'];
     return !one.isConnected || sides.some((side) => Math.abs(now[side] - at[side]) > 0.5);
 }).map(({one, text}) => `${one.localName} ${one.id || one.className}: ${text?.slice(0, 40)}`);
-const lively = '.reading, .next, .beam, .cells, .drawing, .orders'; // painted under the finger, too: nobody touches a number
+const lively = '.reading, .next, .beam, .cells, .drawing, .orders'; // painted under the finger, too: numbers, which nobody touches, and orders that go off
 window.is_shown = () => window.held.some(({one, text}) => !one.isConnected || (!one.closest(lively) && !one.querySelector(lively) && one.innerText !== text));
 window.presses = 0;
 document.addEventListener('pointerdown', () => (window.presses += 1), {capture: true});
 """
-
-
-def press(page, kind, place):
-    page.tell("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], button="left", buttons=1, clickCount=1)
 
 
 def middle_of(page, selector):
@@ -87,6 +82,51 @@ def still(b):
             for screen, selector in UNDER.items():
                 go(page, screen)
                 expect_stillness(page, f"{size}, {screen}", selector)
+
+
+# What the page orders goes to nobody and is counted.
+ORDERS_COUNTED = OTHER_WORDS + """
+window.ordered = 0;
+const asked_anything = window.fetch;
+window.fetch = (path, ...others) => {
+    if (path !== '/v1/run/trigger') return asked_anything(path, ...others);
+    window.ordered += 1;
+    return Promise.resolve(new Response('{}', {headers: {'Content-Type': 'application/json'}}));
+};
+"""
+
+
+def say(page, other):
+    page.ask(f"void (window.says_other = {json.dumps(other)})")
+    page.wait("the page has painted what the station says now",
+              lambda: page.ask("document.querySelector('#strip').dataset.rank") == ("look" if other else "well"))
+
+
+def trigger_touched(page, other_before, other_after):
+    """(whether it was on before the release, orders given by it), where the station speaks under the finger; None where that was down for too long."""
+    say(page, other_before)
+    page.wait("the order is as the station says", lambda: is_on(page, "trigger") is not other_before)
+    place = middle_of(page, "[data-order=trigger]")
+    ordered = page.ask("window.ordered")
+    pressed_at = page.ask("performance.now()")
+    press(page, "mousePressed", place)
+    say(page, other_after)
+    was_on = is_on(page, "trigger")
+    press(page, "mouseReleased", place)
+    if page.ask("performance.now()") - pressed_at >= LONGEST_PRESS_MS:
+        return None
+    return was_on, page.ask("window.ordered") - ordered
+
+
+@sentence("OrderIsGivenOnlyWhereItWasOnFromTouchToRelease")
+def orders(b):
+    address = in_mid_run(b)
+    with opened(address, planted=ORDERS_COUNTED) as page:
+        pair_with(b, page, "panel")
+        for before, after, wanted in [(True, False, (False, 0)), (False, True, (False, 0)), (False, False, (True, 1))]:
+            touched = next(filter(None, (trigger_touched(page, before, after) for _ in range(ROUNDS))), None)
+            expect(touched is not None, f"each of {ROUNDS} presses has lasted too long")
+            expect(touched == wanted, f"no run: {before} at the touch, {after} at the release: on and ordered are {touched}")
 
 
 if __name__ == "__main__":

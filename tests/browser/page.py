@@ -5,7 +5,7 @@ import re
 import signal
 import time
 
-from page_bench import ABORT_S, NOTE_LATENESS, arm, before_arming, bench, expect, go, in_mid_run, is_on, opened, pair_with, points_drawn, sentence, with_page
+from page_bench import ABORT_S, NOTE_LATENESS, SCREENS, SIZES, arm, before_arming, bench, expect, go, in_mid_run, is_on, opened, pair_with, points_drawn, sentence, with_page
 
 FIRST_SCREEN_BYTES = 150_000
 SLEPT_S = 5.0
@@ -237,9 +237,9 @@ def languages(b):
             page.driver.execute_script(f"localStorage.setItem('axiscal.language', '{language}')")
             page.open(address)
             page.wait("the page shows the station", lambda: page.text("#now_reading"))
-            for size in [(1280, 800), (800, 480), (390, 844)]:
+            for size in SIZES:
                 page.resize(size)
-                for screen in ["now", "setup", "run", "result", "history", "doctor"]:
+                for screen in SCREENS:
                     go(page, screen)
                     page.wait("it is shown", lambda screen=screen: screen not in HOLDS or page.ask(f"{HOLDS[screen]} !== null"))
                     cut = clipped(page)

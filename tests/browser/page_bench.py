@@ -15,6 +15,8 @@ from page_hands import MAY_ONLY_LOOK, arm, code_of, go, is_on, is_shown, open_sh
 
 PAGE = Path(os.environ["AXISCAL_PATH"]).resolve().parent / "share/axiscal/page"  # where the programs of the build find it
 ABORT_S = 0.8  # for so long abort is held
+SIZES = [(1280, 800), (800, 480), (390, 844)]
+SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
 # A script for the page: by how much its own timer has been late, which on a busy computer is no fault of the page's.
 NOTE_LATENESS = """
 window.late_ms = 0;
@@ -48,7 +50,7 @@ const hear_through = (change) => {
 const is_status = (event) => /^event: status$/m.test(event);
 """
 # Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
-MANIFOLD = HEAR_THROUGH + """
+REPEATING = HEAR_THROUGH + """
 window.times = 1;
 window.heard = 0;
 hear_through((event) => {
@@ -92,6 +94,11 @@ def opened(address, planted="", **words):
         yield page
         said = page.complaints()
         expect(not said, f"the console of the browser: {said}")
+
+
+def press(page, kind, place):
+    """kind: mousePressed or mouseReleased, of the first finger at a place of the page."""
+    page.tell("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], button="left", buttons=1, clickCount=1)
 
 
 def pair_with(b, page, name):

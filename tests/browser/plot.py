@@ -1,6 +1,6 @@
 """The plot on its canvas, as a person sees it: pixels in the colours of the page, and a finger on one of the points."""
 
-from page_bench import bench, expect, go, in_mid_run, opened, points_drawn, sentence
+from page_bench import bench, expect, go, in_mid_run, opened, points_drawn, press, sentence
 
 # Counts the pixels of each colour of the page that stand on the canvas, and finds the leftmost one. A copy is read: the plot's own
 # canvas stays where the browser put it.
@@ -64,7 +64,7 @@ def finger(b):
         def touch():
             at = seen(page, "run")["positive"]
             for kind in ["mousePressed", "mouseReleased"]:
-                page.tell("Input.dispatchMouseEvent", type=kind, x=at["x"], y=at["y"], button="left", clickCount=1)
+                press(page, kind, (at["x"], at["y"]))
             return "P1" in page.text("#run_picked")
 
         page.wait("the leftmost point is picked", touch)

@@ -1,9 +1,7 @@
 """Digits that are read from afar, and targets that a glove meets, on each screen and in each size of screen."""
 
-from page_bench import bench, expect, go, in_mid_run, is_shown, opened, sentence
+from page_bench import SCREENS, SIZES, bench, expect, go, in_mid_run, is_shown, opened, sentence
 
-SIZES = [(1280, 800), (800, 480), (390, 844)]
-SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
 TARGET_PX, DIGITS_PX = 72, 96
 
 # What can be touched and is seen, smaller than a target; "inert" is what lies below a sheet.

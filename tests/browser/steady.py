@@ -1,6 +1,6 @@
 """A page that stands for long holds no more than in the beginning: what it holds is counted, and no clock judges it."""
 
-from page_bench import MANIFOLD, Browser, bench, expect, in_mid_run, points_drawn, sentence
+from page_bench import REPEATING, Browser, bench, expect, in_mid_run, points_drawn, sentence
 
 SECOND_FRAMES = 20  # as many as the station sends at most
 FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
@@ -26,7 +26,7 @@ def hear(page, frames):
 def frames(b):
     address = in_mid_run(b)
     with Browser() as page:
-        page.tell("Page.addScriptToEvaluateOnNewDocument", source=MANIFOLD)
+        page.tell("Page.addScriptToEvaluateOnNewDocument", source=REPEATING)
         page.open(address)
         page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
         # The screens behind the first one come after half a minute, all of them in one step.

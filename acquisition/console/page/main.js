@@ -176,7 +176,6 @@ async function unpair() {
     const answer = link.has_contact(now()) ? await delete_order("/v1/session", (input, options) => fetch(input, options)) : no_contact();
     await ask_rights(); // an order without an answer may have been carried out
     shown.rights_said = answer.done || !shown.session.paired ? "" : answer_text(answer, words.text("unpair"), words);
-    paint_settings();
 }
 
 /** A sheet may have been opened while there was contact. */
@@ -358,7 +357,7 @@ function paint_now_cells(cells) {
 
 function paint_orders(status, contact) {
     const { picked, session } = shown;
-    bar.paint(buttons_of({ contact, asleep: wake.asleep, refusal: refusal_of(session), status, picked: picked !== null }), words);
+    bar.paint(buttons_of({ contact, asleep: wake.asleep, refusal: refusal_of(session), status, picked: picked !== null }), guard.is_pressed(), words);
     set_text(by_id("run_picked"), picked === null ? "" : words.text("picked", { point: point_text(picked, status, words) }));
 }
 

@@ -65,11 +65,17 @@ export class OrderBar {
         if (part === 1) this.give("abort");
     }
 
-    /** @param {Record<Order, Button>} states @param {Catalogue} words */
-    paint(states, words) {
-        this.lacks_rights = orders.every((order) => states[order].reason === "off_rights");
+    /**
+     * Under a finger an order goes off at once, and none comes on: what was off when it was touched is not given.
+     * @param {Record<Order, Button>} states
+     * @param {boolean} pressed
+     * @param {Catalogue} words
+     */
+    paint(states, pressed, words) {
+        if (!pressed) this.lacks_rights = orders.every((order) => states[order].reason === "off_rights");
         for (const order of orders) {
             const { on, reason, sentence } = states[order];
+            if (pressed && on && !this.on[order]) continue;
             const button = this.buttons[order];
             this.on[order] = on;
             set_attribute(button, "aria-disabled", on ? null : "true");
