@@ -15,6 +15,15 @@ test("the first touch after two idle minutes only wakes", () => {
     assert.equal(wake.touch(121100), true);
 });
 
+test("a page that was long in loading is not asleep when it is shown, unless it was hidden", () => {
+    const wake = new Wakefulness(0);
+    wake.begin(9000);
+    assert.equal(wake.touch(9040), true);
+    wake.hide();
+    wake.begin(9100);
+    assert.equal(wake.touch(9140), false);
+});
+
 test("a touch while somebody works acts", () => {
     const wake = new Wakefulness(0);
     ticked(wake, 0, 5000);

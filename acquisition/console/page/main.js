@@ -312,7 +312,8 @@ function paint_head(status) {
 /** Fresh values wait for the second tick; what is about to be stale is looked at with each. @param {number} at */
 function may_wait(at) {
     const { status, painted_at } = shown;
-    if (status === null || at - painted_at >= paint_every_ms || !link.has_contact(at)) return false;
+    // The second tick may be a little less late than the first.
+    if (status === null || at - painted_at >= paint_every_ms - tick_ms / 2 || !link.has_contact(at)) return false;
     return at - shown.status_at + 1000 * (status.axis.age_s ?? Infinity) < calm_until_ms;
 }
 
@@ -446,6 +447,7 @@ await use_language(language);
 by_id("begin").hidden = true;
 by_id("page").hidden = false;
 go_to("now");
+wake.begin(now());
 setInterval(tick, tick_ms);
 if (document.hidden) events.rest();
 events.run();

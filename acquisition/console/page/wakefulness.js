@@ -13,6 +13,12 @@ export class Wakefulness {
         this.asleep = false;
     }
 
+    /** The page is shown: what it took to load was no sleep. @param {number} now */
+    begin(now) {
+        this.ticked_at = now;
+        this.touched_at = now;
+    }
+
     /** @param {number} now */
     tick(now) {
         if (now - this.ticked_at > hole_limit_ms || now - this.touched_at > idle_limit_ms) this.asleep = true;
