@@ -25,6 +25,7 @@ export class AlignmentView {
         this.asked_at = -Infinity;
         this.asking = false;
         this.heard_at = -Infinity;
+        this.giving = false; // an order waits for its answer
         this.answer = "";
         this.unknown = ""; // what is said where no answer came
         this.title = make("h2");
@@ -43,8 +44,12 @@ export class AlignmentView {
         return button;
     }
 
+    /** Once, however often it is touched before the station has answered and the buttons are painted. */
     async give(action) {
-        const { done, sentence, body } = await this.send(path, { action });
+        const running = this.view?.running === true;
+        if (this.giving || (action === "begin") === running) return;
+        this.giving = true;
+        const { done, sentence, body } = await this.send(path, { action }).finally(() => (this.giving = false));
         if (done) this.view = body;
         this.answer = done ? "" : sentence || this.unknown;
     }
