@@ -19,7 +19,6 @@ const other = (status) => {
     return {...status, run: null, run_open: false, to_do: [1, 2, 3, 4].map(trouble), instruments: [{...told, name: 'new'}, told, ...rest],
             channels: status.channels.slice(3), notes: [...status.notes, 'A note. '.repeat(40)]};
 };
-const data_of = (event, change) => event.replace(/^data: (.*)$/m, (_, data) => 'data: ' + JSON.stringify(change(JSON.parse(data))));
 hear_through((event) => [window.says_other && is_status(event) ? data_of(event, other) : event]);
 window.places = () => [...document.querySelectorAll('nav *, main *')].filter((one) => one.checkVisibility() && !one.closest('.reading, .next, .drawing, .orders button *'))
     .map((one) => ({one, at: one.getBoundingClientRect(), text: one.innerText}));

@@ -4,7 +4,7 @@ import contextlib
 
 from selenium.webdriver.common.keys import Keys
 
-from page_bench import ABORT_S, MAY_ONLY_LOOK, before_arming, bench, code_of, expect, is_on, is_shown, opened, sentence, wait_until, with_page
+from page_bench import ABORT_S, HEAR_THROUGH, MAY_ONLY_LOOK, before_arming, bench, code_of, expect, in_mid_run, is_on, is_shown, opened, sentence, with_page
 
 # Counts what a finger or a mouse does.
 WATCH_POINTERS = """
@@ -81,9 +81,13 @@ def arms_and_aborts(b):
         page.keys("coolant", Keys.ENTER)
         page.wait("the point is to be taken again", lambda: b.status()["to_do"] and b.run()["retakes_left"] == 1)
         page.wait_for_text("#run_so_far", "to take again")
-        tab_to(page, "one.dataset.order === 'abort'")
-        page.hold_key(Keys.SPACE, 3 * ABORT_S)
-        wait_until("the run is closed", lambda: not b.status()["run_open"], 30)
+        page.wait("the run is closed", lambda: not b.status()["run_open"] or hold_abort_by_keys(page))
+
+
+def hold_abort_by_keys(page):
+    """A page that was frozen meanwhile has not seen it held."""
+    tab_to(page, "one.dataset.order === 'abort'")
+    page.hold_key(Keys.SPACE, 3 * ABORT_S)
 
 
 def be_refused_and_escape(page):
@@ -122,6 +126,26 @@ def calibrates(b):
         page.wait_for_text("#result_head", number)
         tab_to(page, "one.matches('#result_papers a')")
         expect(page.ask("getComputedStyle(document.activeElement).outlineStyle") == "solid", "nobody sees where the keys are")
+
+
+# The station says that one more result waits, while window.says_other holds: the rows of History are asked for anew.
+ANOTHER_WAITS = HEAR_THROUGH + """
+window.says_other = false;
+const with_another = (status) => ({...status, outbox: {...status.outbox, waiting: status.outbox.waiting + 1}});
+hear_through((event) => [window.says_other && is_status(event) ? data_of(event, with_another) : event]);
+"""
+
+
+@sentence("KeyboardKeepsItsPlaceWhereRowsAreMadeAnew")
+def keeps_its_place(b):
+    address = in_mid_run(b)
+    with opened(address, planted=ANOTHER_WAITS) as page:
+        go_by_keys(page, "history", "h")
+        page.wait_for_text("#history_rows li", "open")
+        tab_to(page, "one.closest('#history_rows li') !== null")
+        page.ask("void (window.row = document.activeElement, window.says_other = true)")
+        page.wait("the rows are made anew", lambda: page.ask("!window.row.isConnected"))
+        expect(page.ask("document.activeElement.dataset.id === window.row.dataset.id"), "the focus is lost")
 
 
 if __name__ == "__main__":

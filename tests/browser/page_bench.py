@@ -9,7 +9,7 @@ TESTS = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS / "simulation"), str(TESTS / "support")]
 
 import bench  # noqa: E402
-from bench import SOURCE, expect, sentence, wait_until  # noqa: E402, F401
+from bench import SOURCE, expect, sentence  # noqa: E402, F401
 from browser import Browser  # noqa: E402
 from page_hands import MAY_ONLY_LOOK, arm, code_of, go, is_on, is_shown, open_sheet, pair, points_drawn, state_machine  # noqa: E402, F401
 
@@ -17,6 +17,8 @@ PAGE = Path(os.environ["AXISCAL_PATH"]).resolve().parent / "share/axiscal/page" 
 ABORT_S = 0.8  # for so long abort is held
 SIZES = [(1280, 800), (800, 480), (390, 844)]
 SCREENS = ["now", "setup", "run", "result", "history", "doctor"]
+# The screens behind the first one are made in one step, by who goes there or half a minute later.
+EVERY_SCREEN_IS_MADE = "document.querySelector('#doctor_settings').childElementCount > 0"
 # A script for the page: by how much its own timer has been late, which on a busy computer is no fault of the page's.
 NOTE_LATENESS = """
 window.late_ms = 0;
@@ -48,6 +50,7 @@ const hear_through = (change) => {
     };
 };
 const is_status = (event) => /^event: status$/m.test(event);
+const data_of = (event, change) => event.replace(/^data: (.*)$/m, (_, data) => 'data: ' + JSON.stringify(change(JSON.parse(data))));
 """
 # Hands each status that the station sends to the page as often as window.times says, as if it had come so often.
 REPEATING = HEAR_THROUGH + """

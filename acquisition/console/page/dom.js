@@ -31,6 +31,21 @@ export function make(name, class_name = "", inside = []) {
     return element;
 }
 
+/**
+ * Called before what lies in a place is made anew.
+ * @param {Element} place @param {(one: Element) => string | null} key_of  what a link or button is about
+ * @returns {() => void} gives the focus to the one that is about the same as the one that had it: keys go on from where they were
+ */
+export function kept_focus(place, key_of) {
+    const focused = document.activeElement;
+    const key = focused !== null && place.contains(focused) ? key_of(focused) : null;
+    return () => {
+        if (key === null) return;
+        const again = [...place.querySelectorAll("a, button")].find((one) => key_of(one) === key);
+        if (again instanceof HTMLElement) again.focus({ preventScroll: true });
+    };
+}
+
 /** As many children as wanted; those that stay are kept. @param {Element} parent @param {number} count @param {() => Element} make_one */
 export function keep_children(parent, count, make_one) {
     while (parent.childElementCount > count) parent.lastElementChild?.remove();

@@ -1,6 +1,6 @@
 // The screen History: a search, and a row for each stored run.
 
-import { make, set_text } from "./dom.js";
+import { kept_focus, make, set_text } from "./dom.js";
 import { row_of } from "./result_text.js";
 
 /** @typedef {import("./catalogue.js").Catalogue} Catalogue */
@@ -44,7 +44,9 @@ export class HistoryView {
         set_text(this.more_button, words.text("show_more"));
         this.more_button.hidden = list.next === "" || list.state === "asking";
         set_text(this.note, note_of(list, words));
+        const focus_again = kept_focus(this.list, (one) => one.getAttribute("data-id"));
         this.list.replaceChildren(...list.rows.map((run) => this.row(row_of(run, words))));
+        focus_again();
     }
 
     row({ id, said, head, line }) {

@@ -1,7 +1,7 @@
 // The screen Result: verdict first, then limits, plot and papers.
 
 import { AcceptedPoints } from "./accepted_points.js";
-import { make, set_attribute, set_text } from "./dom.js";
+import { kept_focus, make, set_attribute, set_text } from "./dom.js";
 import { axis_units, no_number, number_text } from "./number_text.js";
 import { PlotView, TableView, point_text } from "./plot_view.js";
 import { points_of_certificate } from "./result_points.js";
@@ -79,6 +79,7 @@ export class ResultView {
 
     paint_texts(result, sentence, words) {
         const { head, said, papers } = this.places;
+        const focus_again = kept_focus(papers, (one) => one.getAttribute("href"));
         for (const place of [head, said, papers]) place.replaceChildren(); // nothing of another run stays
         if (result === null) return head.replaceChildren(make("div", "title", [sentence]));
         const texts = result_of(result, words);
@@ -88,6 +89,7 @@ export class ResultView {
         head.replaceChildren(verdict, make("div", "title", [texts.title]), make("div", "counts", [texts.counts]));
         said.replaceChildren(...this.lines(texts, words), this.picked_line);
         papers.replaceChildren(...texts.papers.map(link_to));
+        focus_again();
         this.paint_means(words);
     }
 
