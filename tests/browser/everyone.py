@@ -11,7 +11,7 @@ import axe
 
 AXE = axe.require(os.environ["AXISCAL_AXE_FOLDER"])  # before a bench is made
 
-from page_bench import SCREENS, bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
+from page_bench import EVERY_SCREEN_IS_MADE, SCREENS, bench, expect, in_mid_run, is_on, opened, pair_with, sentence, with_page  # noqa: E402
 from page_hands import go, open_sheet, pick_first_point  # noqa: E402
 
 SIZES = [(390, 844), (1280, 800)]
@@ -65,10 +65,10 @@ def mid_run(b):
         look_at_screens(page, "in mid-run")
         found = []
         go(page, "run")
-        page.click("#run_plot .table_button")
-        page.wait("the table", lambda: page.ask("document.querySelectorAll('#run_table tbody tr').length === 3"))
+        page.wait("the table", lambda: not page.ask("document.querySelector('#run_table').hidden") or page.click("#run_plot .table_button"))
+        page.wait("its rows", lambda: page.ask("document.querySelectorAll('#run_table tbody tr').length === 3"))
         look(page, "table of the run", found, SIZES)
-        page.click("#run_table > button")
+        page.wait("the table is closed", lambda: page.ask("document.querySelector('#run_table').hidden") or page.click("#run_table > button"))
         open_sheet(page, "arm")
         look(page, "sheet", found, SIZES)
         expect(not found, "\n".join(found))
@@ -144,10 +144,12 @@ def no_link(b):
     address = in_mid_run(b)
     with opened(address) as page:
         page.evaluate(AXE + "; 0")
-        go(page, "result")  # its module is loaded
+        go(page, "result")  # the modules of what is neither Now nor Run are loaded
+        page.wait("every screen is made", lambda: page.ask(EVERY_SCREEN_IS_MADE))
         b.end("axiscald")
         page.wait("the strip about the link", lambda: page.ask("document.querySelector('#strip').dataset.rank") == "link")
         look_at_screens(page, "no link")
+        page.open("about:blank")  # it asks no more
         page.complaints()  # the browser itself tells of connections that were refused
 
 

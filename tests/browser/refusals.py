@@ -26,15 +26,18 @@ def write(field, text):
 
 
 def submit(page):
-    if page.ask("document.querySelector('#run_sheet [type=submit]')?.disabled === false"):
-        page.element("#run_sheet [type=submit]").click()
+    """Once: the first touch may only wake the page, and the next one must not order again."""
+    page.ask("void (window.submitted ??= (document.addEventListener('submit', () => (window.submitted += 1), {capture: true}), 0))")
+    before = page.ask("window.submitted")
+    page.wait("the order is given", lambda: page.ask("window.submitted") > before or page.element("#run_sheet [type=submit]").click())
 
 
 def refused(page, fields):
     """The sentence on the sheet that is open, once the station has answered."""
     fill(page, fields)
     before = page.ask(REFUSALS)
-    page.wait("the station has refused", lambda: page.ask(REFUSALS) > before or submit(page))
+    submit(page)
+    page.wait("the station has refused", lambda: page.ask(REFUSALS) > before)
     page.wait("the sheet has heard it", lambda: page.ask("document.querySelector('#run_sheet [type=submit]').disabled === false"))
     return page.text("#run_sheet .answer")
 
@@ -121,7 +124,8 @@ def pairing(b):
             said = refused(page, {"code": wrong})
             expect(f"the code is wrong; {left} tries left" in said, said)
         fill(page, {"code": code})
-        page.wait("its orders are its own", lambda: not page.ask(MAY_ONLY_LOOK) or submit(page))
+        submit(page)
+        page.wait("its orders are its own", lambda: not page.ask(MAY_ONLY_LOOK))
         refusals_were(page, 2)
 
 

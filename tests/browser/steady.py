@@ -1,6 +1,6 @@
 """A page that stands for long holds no more than in the beginning: what it holds is counted, and no clock judges it."""
 
-from page_bench import REPEATING, Browser, bench, expect, in_mid_run, points_drawn, sentence
+from page_bench import EVERY_SCREEN_IS_MADE, REPEATING, Browser, bench, expect, in_mid_run, points_drawn, sentence
 
 SECOND_FRAMES = 20  # as many as the station sends at most
 FRAMES = 300 * SECOND_FRAMES  # as many as five minutes have
@@ -29,8 +29,7 @@ def frames(b):
         page.tell("Page.addScriptToEvaluateOnNewDocument", source=REPEATING)
         page.open(address)
         page.wait("three points are drawn", lambda: points_drawn(page, "now") == 3)
-        # The screens behind the first one come after half a minute, all of them in one step.
-        page.wait("every screen is made", lambda: page.ask("document.querySelector('#doctor_settings').childElementCount > 0"), 120)
+        page.wait("every screen is made", lambda: page.ask(EVERY_SCREEN_IS_MADE), 120)
         hear(page, FRAMES // 10)  # what is made once is made
         before = held(page)
         hear(page, FRAMES)

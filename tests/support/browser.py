@@ -10,7 +10,7 @@ import tempfile
 import time
 
 from selenium import webdriver
-from selenium.common.exceptions import ElementNotInteractableException, JavascriptException, NoSuchElementException, StaleElementReferenceException
+from selenium.common.exceptions import ElementClickInterceptedException, ElementNotInteractableException, JavascriptException, NoSuchElementException, StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 
@@ -18,7 +18,8 @@ START_S = 60.0  # a browser comes up within this, on a machine that builds besid
 LOOK_S = 0.05  # pause between two looks at a condition
 POINTER_S = 30.0
 # The page puts nodes up and takes them down while it is looked at: what is gone is looked for again.
-GONE_MEANWHILE = (ElementNotInteractableException, JavascriptException, NoSuchElementException, StaleElementReferenceException)
+# What another thing lies over is touched again: where it stays there, "last gone" names it.
+GONE_MEANWHILE = (ElementClickInterceptedException, ElementNotInteractableException, JavascriptException, NoSuchElementException, StaleElementReferenceException)
 
 
 class Browser:
