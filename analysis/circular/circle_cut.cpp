@@ -24,6 +24,12 @@ std::string in_mm(double value_mm) {
     return text;
 }
 
+std::string in_ms(double value_s) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.1f ms", value_s * 1e3);
+    return text;
+}
+
 /// Samples first ... last - 1 lie on the circle's side of the step.
 struct Stay {
     std::size_t first = 0, last = 0;
@@ -163,16 +169,20 @@ private:
     /// Between samples i - 1 and i.
     [[nodiscard]] Result<double>
     crossing_s(std::size_t i, const char* which, const PlannedCircle& circle) const {
-        const bool seen = i > 0 && i < stream_.at.size() &&
-                          (seconds(i) - seconds(i - 1)) * plan_.feed_mm_per_s <
-                              widest_share_of_step * plan_.feed_in_mm;
-        if (!seen)
+        const auto not_seen = [&](const std::string& where) {
             return fail(Fault::incomplete_run,
                         "the " + std::string{which} + " of " + words(circle) +
                             " was not seen: half of feed_in must lie within the gauge's range, and "
-                            "no sample may be missing there");
+                            "no sample may be missing there (" +
+                            where + ")");
+        };
+        if (i == 0) return not_seen("the readings begin after it");
+        if (i == stream_.at.size()) return not_seen("the readings end before it");
+        const double between_s = seconds(i) - seconds(i - 1);
+        if (between_s * plan_.feed_mm_per_s >= widest_share_of_step * plan_.feed_in_mm)
+            return not_seen("there is none for " + in_ms(between_s));
         const double low = height_mm(i - 1), high = height_mm(i);
-        return seconds(i - 1) + (seconds(i) - seconds(i - 1)) * low / (low - high);
+        return seconds(i - 1) + between_s * low / (low - high);
     }
 
     void take_arc(CircleCapture& capture, const Stay& stay, double middle_s) const {

@@ -222,6 +222,19 @@ TEST(CircleCut, AStepThatTheBarCannotSeeIsRefused) {
     EXPECT_NE(circles.error().detail.find("within the gauge's range"), std::string::npos);
 }
 
+TEST(CircleCut, ReadingsThatEndWithinACircleAreToldFromOnesThatAreMissing) {
+    DrivenBar bar = usual_bar();
+    StreamSamples stream = bar.drive();
+    while (stream.value.back() > 0.75e-3) { // half of the step: the rest lies at 1.5 mm
+        stream.value.pop_back();
+        stream.at.pop_back();
+    }
+    const auto circles = cut_circles(bar.setup, stream, marks_of(bar));
+    ASSERT_FALSE(circles);
+    EXPECT_TRUE(circles.error().detail.ends_with("(the readings end before it)"))
+        << circles.error().detail;
+}
+
 TEST(CircleCut, LostSamplesAreCountedWhereTheyLie) {
     DrivenBar bar = usual_bar();
     StreamSamples stream = bar.drive();
