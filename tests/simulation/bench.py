@@ -49,6 +49,10 @@ class MissedByChance(AssertionError):
     """Values that a right station, too, shows once in a thousand runs each (truth.py)."""
 
 
+class TooBusy(AssertionError):
+    """The simulator has thrown away, and counted, what the station did not read within 1.5 s (pty.hpp)."""
+
+
 class StallWatch(threading.Thread):
     """For how long nothing ran on this computer: a virtual one is stopped now and then, for seconds. The simulated
     instruments then send all at once what their wires cannot carry."""
@@ -80,6 +84,9 @@ def main():
     except MissedByChance as missed:
         print(f"{missed}; all must be right with another seed", flush=True)
         run(test, ANOTHER_SEED)
+    except TooBusy as busy:
+        print(f"{busy}\nThis computer is too busy: all must be right the second time", flush=True)
+        run(test)
     except Exception as failed:  # a stall ends a test in any way: in a library of a browser, too
         if watch.longest_s < StallWatch.LONG_S:
             sys.exit(1)

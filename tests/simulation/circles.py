@@ -55,6 +55,10 @@ class NoCertificate(AssertionError):
     """The station says why."""
 
 
+class LostOnTheWire(NoCertificate, bench.TooBusy):
+    """And what was missing the simulator had thrown away."""
+
+
 def written(b):
     refused = [note for note in b.status()["notes"] if "No certificate for run" in note]
     if refused:
@@ -76,6 +80,7 @@ def measure(b, meanwhile=lambda b: None, before=lambda b: None):
                lambda: lines[b.sim("status")["line"] - 1].startswith("M66"), 30)
     wait_until("every check holds", lambda: all(one["passed"] for one in checks(b) if one["name"] != "eve"), 30)
     before(b)
+    at_first = b.sim("status")["ballbar"]
     b.axiscal("arm", "--pass", "circular")
     meanwhile(b)
 
@@ -86,7 +91,13 @@ def measure(b, meanwhile=lambda b: None, before=lambda b: None):
 
     wait_until("every circle was driven", ended, 90)
     expect(b.run()["step"] == program["circles"], f"{b.run()}")
-    wait_until("the certificate is written", lambda: written(b), 240)
+    try:
+        wait_until("the certificate is written", lambda: written(b), 240)
+    except NoCertificate as refusal:
+        print(f"the bar: {b.sim('status')['ballbar']}, before {at_first}; its stream: {holes(b)}")
+        if records_thrown_away(b, at_first) > 0:
+            raise LostOnTheWire(refusal) from refusal
+        raise
     certificate = b.certificate()
     again = json.loads(b.axiscal("analyze", b.run()["file"]))  # next year's recomputation
     expect(again["diagnosis"] == certificate["diagnosis"], "analyze finds what the certificate says")
@@ -280,6 +291,12 @@ def shown_stream(b, points):
         return json.load(door.getresponse())
     finally:
         door.close()
+
+
+def holes(b):
+    """Of the run's stream: blocks before which samples are missing, and where it ends."""
+    return rows(b.run()["file"], "SELECT block, first_count, samples, missing, before, begin_ns, end_ns FROM stream_block"
+                                 " WHERE before = 'gap' OR block = (SELECT max(block) FROM stream_block)")
 
 
 def records_thrown_away(b, before):
