@@ -131,7 +131,7 @@ def slept(b):
         """)
         b.processes["axiscald"].send_signal(signal.SIGSTOP)  # what it said meanwhile would be heard, and be new
         try:
-            page.wait("nothing of that is on its way", lambda: hears_nothing(page))
+            page.wait("nothing of that is on its way", lambda: page.ask(HEARS_NOTHING))
             sleep(page, SLEPT_S)
             (looks,) = page.wait("the page slept, and what stood there is marked", lambda: looks_until_stale(page))
         finally:
@@ -143,11 +143,11 @@ def slept(b):
         page.wait("the run is closed", lambda: not b.status()["run_open"] or page.hold("[data-order=abort]", 3 * ABORT_S))
 
 
-def hears_nothing(page):
-    """In a quarter of a second, in which a station that speaks says its status."""
-    before = page.ask("window.heard")
-    time.sleep(0.25)
-    return page.ask("window.heard") == before
+# By the page's own clock: a quarter of a second, in which a station that speaks says its status.
+HEARS_NOTHING = """((at) => {
+    if (window.heard_before !== window.heard) [window.heard_before, window.quiet_since] = [window.heard, at];
+    return at - window.quiet_since > 250;
+})(performance.now())"""
 
 
 def looks_until_stale(page):

@@ -56,7 +56,7 @@ class NoCertificate(AssertionError):
 
 
 class LostOnTheWire(NoCertificate, bench.TooBusy):
-    """And what was missing the simulator had thrown away."""
+    """The simulator has thrown away samples of the run."""
 
 
 def written(b):
