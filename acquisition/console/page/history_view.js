@@ -50,7 +50,7 @@ export class HistoryView {
     }
 
     row({ id, said, head, line }) {
-        const mark = make("span", "said", [`${said.shape} ${said.word}`]);
+        const mark = make("span", "outcome", [`${said.shape} ${said.word}`]);
         mark.dataset.verdict = said.verdict;
         const button = make("button", "", [make("span", "head", [head]), mark, make("span", "line", [line])]);
         button.type = "button";
